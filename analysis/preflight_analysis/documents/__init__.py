@@ -1,0 +1,1 @@
+"""Text to Document: error-tolerant parses with a span on everything."""

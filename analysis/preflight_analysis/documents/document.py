@@ -1,0 +1,108 @@
+"""The shape of a parsed file: a tree that exists whatever the text looks like, and the list of what is malformed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from preflight_analysis.documents.span import LineIndex, Span
+
+
+@dataclass(frozen=True, slots=True)
+class SyntaxProblem:
+    """Something malformed, at the place that has to be changed."""
+
+    message: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class SpannedText:
+    """Text after entities were decoded, with the way back to the source.
+
+    `offsets` maps each index of `text`, and its end, to an offset in the document; `None` means one to one
+    from `span.start`.
+    """
+
+    text: str
+    span: Span
+    offsets: tuple[int, ...] | None = None
+
+    def to_document(self, index: int) -> int:
+        """The document's offset of `text[index]`; `len(text)` gives the end."""
+        if self.offsets is None:
+            return self.span.start + index
+        return self.offsets[index]
+
+    def slice_span(self, start: int, end: int) -> Span:
+        """Where `text[start:end]` stands in the document."""
+        return Span(self.to_document(start), self.to_document(end))
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """`name="value"`; `span` covers all of it, `value.span` what is between the quotes."""
+
+    name: str
+    name_span: Span
+    value: SpannedText
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Character data or CDATA between tags."""
+
+    content: SpannedText
+
+
+@dataclass(frozen=True, slots=True)
+class Comment:
+    """`<!-- text -->`; `span` covers the delimiters."""
+
+    content: SpannedText
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """An element. `open_span` is its start tag, `span` reaches to the end of its end tag (or where it was given up)."""
+
+    tag: str
+    tag_span: Span
+    attributes: tuple[Attribute, ...]
+    children: tuple[Node, ...]
+    open_span: Span
+    span: Span
+
+    def get(self, name: str) -> Attribute | None:
+        """The first attribute of that name."""
+        return next((a for a in self.attributes if a.name == name), None)
+
+    @property
+    def elements(self) -> Iterator[Element]:
+        """Child elements in order."""
+        return (c for c in self.children if isinstance(c, Element))
+
+
+Node = Element | Comment | Text
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """One file's text and what it parses to. `digest` names the text; equal digests mean equal documents.
+
+    `root` is the first top-level element, None in a file that has none yet.
+    """
+
+    path: str
+    text: str
+    digest: str
+    children: tuple[Node, ...]
+    problems: tuple[SyntaxProblem, ...]
+    lines: LineIndex = field(compare=False, repr=False)
+
+    @property
+    def root(self) -> Element | None:
+        """The document element."""
+        return next((c for c in self.children if isinstance(c, Element)), None)

@@ -1,0 +1,1 @@
+"""What the user's nodes and launch files run with: distribution, package paths, interpreter, overlays."""

@@ -1,0 +1,49 @@
+"""The kinds of `Problem` that reading and evaluating can meet, with the data each carries.
+
+Each kind belongs to exactly one rule (a test holds us to that); a rule may own several kinds. `fatal` says whether
+roslaunch itself stops there.
+"""
+
+from __future__ import annotations
+
+KINDS: dict[str, str] = {
+    # reading files
+    "file-unreadable": "path, reason: the root file cannot be read (missing, no permission, a folder). fatal",
+    "file-not-text": "path, reason: binary, not UTF-8, or larger than the limit; not analysed. fatal",
+    "xml-malformed": "message: not well-formed XML, at the place of the cause. fatal",
+    "xml-entity": "name: an entity that a DOCTYPE defines; never expanded here, so values with it are unknown",
+    "root-not-launch": "tag (None in an empty file): the document element is not <launch>. fatal",
+    # the language
+    "unknown-element": "tag, parent, allowed (list): roslaunch prints a warning and skips it",
+    "unknown-attribute": "name, tag, allowed (list): roslaunch reports it and goes on",
+    "missing-attribute": "tag, names (list; one of them is needed). fatal",
+    "attributes-exclude": "tag, names (list of those given). fatal",
+    "bad-value": "tag, attribute, value, expected (a phrase), choices (list, may be empty). fatal",
+    "invalid-name": "what (node, arg, ...), name, reason. fatal",
+    "not-supported": "what: valid for roslaunch, not evaluated by us yet; what depends on it is unknown",
+    "ignored-child": "tag, parent: <include> takes only arg and env; roslaunch drops the rest with a warning",
+    # substitutions
+    "bad-substitution": "text, message. fatal",
+    "eval-error": "expression, message: $(eval) fails. fatal",
+    "eval-not-allowed": "expression, message: outside of what is evaluated without running code",
+    "env-unset": "name: $(env name) of a variable that is not set. fatal",
+    "package-not-found": "name: $(find name). fatal",
+    # arguments
+    "arg-undeclared": "name, declared (list): $(arg name) of an argument that is not declared before. fatal",
+    "arg-required": "name, file (the included), passed (list): an include without a value for a required arg. fatal",
+    "root-arg-required": "name: the root file needs name:=value on the command line. fatal",
+    "include-arg-undeclared": "name, file (the included), declared (list): roslaunch stops with 'unused args'. fatal",
+    "arg-redeclared": "name, first (Location): declared twice in one file. fatal",
+    "arg-override": "name: an include passes a value for an arg that the file fixes with value=. fatal",
+    "include-arg-no-value": "name: <arg> in an <include> without value. fatal",
+    # includes and files
+    "include-not-found": "path. fatal",
+    "include-unreadable": "path, reason (binary, too large, no permission, a folder, malformed root). fatal",
+    "include-cycle": "path, chain (list of paths). fatal",
+    "param-file-not-found": "path, tag, attribute: textfile, binfile or rosparam file. fatal",
+    "param-file-unreadable": "path, tag, attribute, reason. fatal",
+    "bad-yaml": "message, path (None when inline). fatal",
+    # nodes
+    "duplicate-node": "name, first (Location). fatal",
+    "machine-undefined": "name, declared (list). fatal",
+}

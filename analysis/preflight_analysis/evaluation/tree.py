@@ -1,0 +1,196 @@
+"""What a launch file would start. Plain data; nothing here raises, what went wrong stands in `problems`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.launch.model import Action
+
+ParamValue = Any
+"""bool, int, float, str, bytes (binfile), list, dict, None or `CommandValue`: what the parameter server would hold."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandValue:
+    """The value of `<param command=...>` that was not run."""
+
+    command: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """A value that cannot be known here, and why."""
+
+    what: str
+    reason: str
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Param:
+    """One parameter as it would be set. `name` is the full name; `overrides` are earlier settings it replaced."""
+
+    name: str
+    value: ParamValue
+    origin: Origin
+    owner: str | None = None
+    """Full name of the node in whose tag it was set, if any."""
+    name_location: Location | None = None
+    """Where the name is written: the `name` attribute, or the key in a YAML text."""
+    overrides: tuple[Param, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Remap:
+    """`from` and `to` resolved as roslaunch does; `origin` ends at the `<remap>` tag."""
+
+    source: str
+    target: str
+    origin: Origin
+    source_location: Location
+    target_location: Location
+    inside_node: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Executable:
+    """What `pkg` and `type` lead to. `path` is None when nothing was found; `candidates` are all that were."""
+
+    path: str | None
+    candidates: tuple[str, ...] = ()
+    package_path: str | None = None
+    """None when the package itself was not found."""
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchNode:
+    """One node or test. `kind` as in the contract of `tree --format json`."""
+
+    name: str
+    namespace: str
+    package: str
+    executable: str
+    kind: str
+    args: str
+    remaps: tuple[Remap, ...]
+    env: tuple[tuple[str, str], ...]
+    origin: Origin
+    action: Action
+    resolved: Executable
+    machine: str | None = None
+    respawn: bool = False
+    respawn_delay: float = 0.0
+    required: bool = False
+    output: str = "log"
+    cwd: str | None = None
+    launch_prefix: str | None = None
+    clear_params: bool = False
+    unknowns: tuple[Unknown, ...] = ()
+    """Values of this node that could not be known: it is then not run, and findings about it are less sure."""
+
+    @property
+    def location(self) -> Location:
+        """The node's own tag."""
+        return self.origin[-1]
+
+
+@dataclass(frozen=True, slots=True)
+class Include:
+    """An `<include>` that was taken. `path` is what `file` resolved to, None when that is unknown."""
+
+    path: str | None
+    origin: Origin
+    file_location: Location
+    args: Mapping[str, str | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Arg:
+    """An `<arg>` declaration of some file, in the context of one include chain. `value` None: required and missing."""
+
+    name: str
+    value: str | None
+    default: str | None
+    required: bool
+    origin: Origin
+    name_location: Location
+    value_origin: Origin | None
+    """Where the value was given: the declaration itself, the include's `<arg>`, None for the command line."""
+    doc: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A place in a file that stands for something: what hover and go-to-definition answer from.
+
+    `kind` is `arg` (a reference or declaration), `find` (a package), `env`, `include` (a file), `value` (an attribute
+    with substitutions), `executable`, `anon`, `dirname`, `eval`. `value` is what it came to, None if unknown.
+    `target` is the place it leads to.
+    """
+
+    kind: str
+    location: Location
+    name: str
+    value: str | None
+    target: Location | None = None
+    origin: Origin = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something the evaluation met. `kind` is what a rule looks for, `data` what it writes its message from.
+
+    `fatal` problems are what would stop the launcher; `origin` ends at the place to underline.
+    """
+
+    kind: str
+    origin: Origin
+    data: Mapping[str, Any]
+    fatal: bool
+
+    @property
+    def location(self) -> Location:
+        """The place to underline."""
+        return self.origin[-1]
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """A `<machine>` declaration."""
+
+    name: str
+    address: str
+    env_loader: str | None
+    user: str | None
+    timeout: float | None
+    origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchTree:
+    """What the launcher would start from `file`. `inputs` maps every file that was read (launch files, YAML, ...)
+    to the digest of its content, "" for a file that was looked for and is not there: an unchanged map means an
+    unchanged tree."""
+
+    file: str
+    generation: int
+    args: Mapping[str, Arg]
+    nodes: tuple[LaunchNode, ...]
+    params: Mapping[str, Param]
+    clear_params: tuple[str, ...]
+    includes: tuple[Include, ...]
+    machines: Mapping[str, Machine]
+    uses: tuple[Use, ...]
+    problems: tuple[Problem, ...]
+    unknowns: tuple[Unknown, ...]
+    files: tuple[str, ...]
+    """The root and every included file that was evaluated, in order of first appearance."""
+    inputs: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all that the launcher would start is here: no error cut something off and nothing is unknown."""
+        return not self.unknowns and not any(p.fatal for p in self.problems)

@@ -1,0 +1,1 @@
+"""What is reported: findings, their suppression, and the forms in which they are printed."""

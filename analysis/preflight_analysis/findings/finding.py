@@ -1,0 +1,59 @@
+"""A finding: plain data, no editor types."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from preflight_analysis.documents.span import Location
+
+Severity = Literal["error", "warning", "info", "hint"]
+Confidence = Literal["certain", "likely", "possible"]
+
+SEVERITIES: tuple[Severity, ...] = ("hint", "info", "warning", "error")
+"""From the least to the most severe."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Replace the text at `location` by `text`."""
+
+    location: Location
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """A quick fix. `preferred` ones are what an editor applies without asking which."""
+
+    title: str
+    edits: tuple[Edit, ...]
+    preferred: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Related:
+    """Another place that belongs to the finding: the other end of a connection, a step of the include chain."""
+
+    message: str
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Something wrong, where it is, how sure we are and what mends it.
+
+    `severity` is what it means for the robot, `confidence` how sure we are. `stops_launch` marks what would stop the
+    launcher itself (the `errors` of `tree`). `roots` are the launch files in whose context it holds.
+    """
+
+    rule: str
+    name: str
+    severity: Severity
+    confidence: Confidence
+    message: str
+    location: Location
+    related: tuple[Related, ...] = ()
+    fixes: tuple[Fix, ...] = ()
+    roots: tuple[str, ...] = field(default=())
+    stops_launch: bool = False

@@ -1,0 +1,1 @@
+"""Tree and interfaces to Graph: who talks to whom, with which type, under final names."""

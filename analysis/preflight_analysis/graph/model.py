@@ -1,0 +1,61 @@
+"""The computation graph as it would be after the launch."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+
+
+@dataclass(frozen=True, slots=True)
+class Connection:
+    """One end of a topic or service under its final name. `remap` is the one that applied, if any."""
+
+    name: str
+    node: LaunchNode
+    endpoint: Endpoint
+    remap: Remap | None
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A topic, service or action: everything that meets under one name. Servers are on the offering side."""
+
+    name: str
+    offers: tuple[Connection, ...]
+    """Publishers of a topic, servers of a service or action."""
+    wants: tuple[Connection, ...]
+    """Subscribers of a topic, clients of a service or action."""
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """The types in use, sorted, without repetition."""
+        return tuple(sorted({c.endpoint.type for c in (*self.offers, *self.wants) if c.endpoint.type is not None}))
+
+
+@dataclass(frozen=True, slots=True)
+class ParamRead:
+    """A parameter that a node asks for, under its full name."""
+
+    name: str
+    node: LaunchNode
+    use: ParamUse
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """`interfaces` has an entry for each node of the tree by its position in `tree.nodes` (names may clash)."""
+
+    tree: LaunchTree
+    interfaces: tuple[Interface, ...]
+    topics: Mapping[str, Channel]
+    services: Mapping[str, Channel]
+    actions: Mapping[str, Channel]
+    param_reads: tuple[ParamRead, ...]
+
+    @property
+    def complete(self) -> bool:
+        """Whether every node's interface is known and none stopped early: only then does absence mean absence."""
+        return self.tree.complete and all(i.known and i.outcome.status == "spinning" for i in self.interfaces)

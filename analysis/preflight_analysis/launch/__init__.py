@@ -1,0 +1,1 @@
+"""Document to LaunchFile: one shape for all launch formats, values still unevaluated."""

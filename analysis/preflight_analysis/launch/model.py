@@ -1,0 +1,106 @@
+"""The one shape of all launch formats: actions whose values are texts with substitutions, each with its span.
+
+ROS 2's own launch frontends do the same (`launch.frontend.Entity`): XML elements and YAML maps become entities
+with attributes and children. What an action means is the business of `evaluation/`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Literal:
+    """Text that stands for itself."""
+
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Substitution:
+    """`$(command arguments)`. `span` covers all of it, `arguments_span` what follows the command's blank."""
+
+    command: str
+    command_span: Span
+    arguments: str
+    arguments_span: Span
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A text as written (entities decoded) and its pieces. `problem` says why it could not be cut into pieces."""
+
+    text: str
+    span: Span
+    parts: tuple[Literal | Substitution, ...]
+    problem: str | None = None
+
+    @property
+    def substitutions(self) -> Iterator[Substitution]:
+        """The pieces that need evaluation."""
+        return (p for p in self.parts if isinstance(p, Substitution))
+
+    @property
+    def is_literal(self) -> bool:
+        """Whether the value means what it says."""
+        return not any(True for _ in self.substitutions)
+
+
+@dataclass(frozen=True, slots=True)
+class ActionAttribute:
+    """One named value of an action."""
+
+    name: str
+    name_span: Span
+    value: Value
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """A tag of a launch file. `kind` is its name in the format's own words (`node`, `include`, `arg`, ...).
+
+    `head_span` is what a diagnostic about the whole action underlines (the start tag in XML); `comments` are the
+    comments among its children, where annotations may stand; `body` is its character data (`<rosparam>`).
+    """
+
+    kind: str
+    kind_span: Span
+    attributes: tuple[ActionAttribute, ...]
+    children: tuple[Action, ...]
+    comments: tuple[tuple[str, Span], ...]
+    body: Value
+    head_span: Span
+    span: Span
+
+    def attribute(self, name: str) -> ActionAttribute | None:
+        """The attribute of that name."""
+        return next((a for a in self.attributes if a.name == name), None)
+
+    def value(self, name: str) -> Value | None:
+        """The value of the attribute of that name."""
+        found = self.attribute(name)
+        return found.value if found else None
+
+    def walk(self) -> Iterator[Action]:
+        """This action and all below it, in document order."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchFile:
+    """A launch file of any format. `root` is None when the file has no `<launch>` to speak of."""
+
+    path: str
+    generation: int
+    root: Action | None
+    document: Document

@@ -1,0 +1,81 @@
+"""What a rule is: its texts and its check, all in the one file that declares it as `RULE`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.launch.model import LaunchFile
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
+
+    `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
+    None when they were.
+    """
+
+    root: str
+    tree: LaunchTree
+    documents: Mapping[str, Document]
+    launch_files: Mapping[str, LaunchFile]
+    environment: Environment
+    graph: Graph | None = None
+    why_not_run: str | None = None
+
+
+Check = Callable[["Rule", Context], Iterable[Finding]]
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule. `id` and `name` as in DESIGN: `TOP001`, `subscribed-not-published`. The texts are Markdown.
+
+    `severity` is the usual one; a check may give a finding another with `finding(..., severity=...)`.
+    """
+
+    id: str
+    name: str
+    severity: Severity
+    what: str
+    why: str
+    example: str
+    instead: str
+    check: Check = field(repr=False)
+
+    def finding(
+        self,
+        message: str,
+        location: Location,
+        *,
+        severity: Severity | None = None,
+        confidence: Confidence = "certain",
+        related: Iterable[Related] = (),
+        fixes: Iterable[Fix] = (),
+        stops_launch: bool = False,
+    ) -> Finding:
+        """A finding of this rule."""
+        return Finding(
+            self.id,
+            self.name,
+            severity or self.severity,
+            confidence,
+            message,
+            location,
+            tuple(related),
+            tuple(fixes),
+            (),
+            stops_launch,
+        )
+
+
+def in_root(finding: Finding, root: str) -> Finding:
+    """The finding, marked as holding when `root` is launched."""
+    return replace(finding, roots=(root,))

@@ -1,0 +1,82 @@
+"""What one node does, and how we know."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
+Status = Literal["spinning", "exited", "crashed", "timed-out", "not-run"]
+Source = Literal["trace", "annotation", "settings", "source", "similar", "none"]
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """One end of a topic, service or action. `name` is as the node gave it (`chatter`, `~state`, `/scan`): namespaces
+    and remaps are applied by the graph, so that a changed remap needs no new run. `type` is `pkg/Name`, `*` for any
+    type, None when not known."""
+
+    role: Role
+    name: str
+    type: str | None
+    md5: str | None = None
+    qos: Mapping[str, Any] = field(default_factory=dict)
+    """ROS 1: `latch`, `queue_size`."""
+    source_file: str | None = None
+    """Where in the node's source it was made, line counted from 1."""
+    source_line: int | None = None
+    builtin: bool = False
+    """What every node of the client library has (`/rosout`, `~get_loggers`, ...)."""
+    speculative: bool = False
+    """Found after a made-up answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class ParamUse:
+    """A parameter call of the node. `name` as the node gave it; `access` is `get`, `has`, `set`, `delete`, `search`
+    or `list`. `mandatory`: read without default."""
+
+    name: str
+    access: str
+    default: Any = None
+    has_default: bool = False
+    mandatory: bool = False
+    source_file: str | None = None
+    source_line: int | None = None
+    builtin: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How the run ended. `reason` is one sentence for the user where the status is not `spinning`."""
+
+    status: Status
+    exit_code: int | None = None
+    signal: str | None = None
+    stderr_tail: tuple[str, ...] = ()
+    reason: str | None = None
+    seconds: float = 0.0
+    """Wall time of the run, from exec to the end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Interface:
+    """A node's endpoints and parameters. `cached` tells that no new run was needed."""
+
+    source: Source
+    outcome: Outcome
+    endpoints: tuple[Endpoint, ...] = ()
+    params: tuple[ParamUse, ...] = ()
+    cached: bool = False
+    notes: tuple[str, ...] = ()
+    """What else the user should know of the run: blocked writes, ignored SIGTERM, lines of the event channel dropped."""
+
+    @property
+    def known(self) -> bool:
+        """Whether there is anything to build a graph from: a node that was not run says nothing, one that crashed
+        says what it made until then."""
+        return self.source != "none"
+
+
+NOT_RUN = Interface("none", Outcome("not-run"))
