@@ -70,7 +70,7 @@ class Interface:
     params: tuple[ParamUse, ...] = ()
     cached: bool = False
     notes: tuple[str, ...] = ()
-    """What else the user should know of the run: blocked writes, ignored SIGTERM, lines of the event channel dropped."""
+    """What else the user should know of the run: blocked writes, ignored SIGTERM, dropped event lines."""
 
     @property
     def known(self) -> bool:
