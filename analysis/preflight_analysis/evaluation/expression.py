@@ -1,0 +1,218 @@
+"""The allow-listed evaluator of `$(eval ...)`: Python's arithmetic, comparisons, strings and a few functions.
+
+roslaunch gives `eval` the `math` module, a handful of types and its own functions
+(http://wiki.ros.org/roslaunch/XML#substitution_args). The same names are known here, but the expression is walked
+and computed by us: no attribute that is not listed, no comprehension over anything unbounded, nothing that could run
+code. What lies outside raises `NotAllowedError`; what roslaunch itself would reject raises `EvaluationError`.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any
+
+MAX_SIZE = 1_000_000
+"""Longest text or list and, in bits, the largest number that an expression may make."""
+
+_BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+    ast.Pow: operator.pow,
+    ast.BitAnd: operator.and_,
+    ast.BitOr: operator.or_,
+    ast.BitXor: operator.xor,
+    ast.LShift: operator.lshift,
+    ast.RShift: operator.rshift,
+}
+_UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+    ast.Not: operator.not_,
+    ast.Invert: operator.invert,
+}
+_COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.Is: operator.is_,
+    ast.IsNot: operator.is_not,
+    ast.In: lambda a, b: a in b,
+    ast.NotIn: lambda a, b: a not in b,
+}
+_MATH = {name: value for name, value in vars(math).items() if not name.startswith("_")}
+_TYPES: dict[str, Any] = {"list": list, "dict": dict, "map": map, "str": str, "float": float, "int": int}
+_CONSTANTS = {"true": True, "false": False, "True": True, "False": False}
+_TEXT_METHODS = frozenset(
+    "capitalize count endswith find isalnum isalpha isdigit islower isupper join lower lstrip partition replace rfind "
+    "rpartition rsplit rstrip split splitlines startswith strip swapcase title upper index get keys values".split()
+)
+
+
+class EvaluationError(ValueError):
+    """The expression fails, in roslaunch as well."""
+
+
+class NotAllowedError(ValueError):
+    """Outside of what is evaluated here; roslaunch may well accept it."""
+
+
+def evaluate(expression: str, names: Callable[[str], Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
+    """The value of a `$(eval)` expression.
+
+    `functions` are roslaunch's own (`arg`, `find`, `env`, ...), `names` gives the value of a launch argument and raises
+    `KeyError` for one that does not exist.
+    """
+    if "__" in expression:
+        raise EvaluationError("double underscores are not allowed in $(eval)")
+    try:
+        tree = ast.parse(expression.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise EvaluationError(f"not an expression: {getattr(error, 'msg', None) or error}") from error
+    walker = _Walker(names, {**_MATH, **_TYPES, **functions})
+    try:
+        return walker.visit(tree.body)
+    except (EvaluationError, NotAllowedError):
+        raise
+    except RecursionError as error:
+        raise NotAllowedError("nested too deeply") from error
+    except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError) as error:
+        raise EvaluationError(str(error)) from error
+
+
+def evaluate_arithmetic(expression: str) -> Any:
+    """Numbers, operators and `math`'s names only: the angles of parameter files."""
+
+    def no_names(name: str) -> Any:
+        raise KeyError(name)
+
+    try:
+        return evaluate(expression, no_names, {})
+    except NotAllowedError as error:
+        raise EvaluationError(str(error)) from error
+
+
+class _Walker:
+    def __init__(self, names: Callable[[str], Any], functions: Mapping[str, Any]) -> None:
+        self._names = names
+        self._functions = functions
+
+    def visit(self, node: ast.expr) -> Any:
+        method = getattr(self, "_" + type(node).__name__.lower(), None)
+        if method is None:
+            raise NotAllowedError(f"{type(node).__name__} is not evaluated")
+        return method(node)
+
+    def _constant(self, node: ast.Constant) -> Any:
+        return node.value
+
+    def _name(self, node: ast.Name) -> Any:
+        # roslaunch looks at its functions first, then at the arguments.
+        if node.id in _CONSTANTS:
+            return _CONSTANTS[node.id]
+        if node.id in self._functions:
+            return self._functions[node.id]
+        try:
+            return self._names(node.id)
+        except KeyError:
+            raise EvaluationError(f"name '{node.id}' is not defined") from None
+
+    def _binop(self, node: ast.BinOp) -> Any:
+        left, right = self.visit(node.left), self.visit(node.right)
+        _check_size(node.op, left, right)
+        return _BINARY[type(node.op)](left, right) if type(node.op) in _BINARY else self._refuse(node.op)
+
+    def _unaryop(self, node: ast.UnaryOp) -> Any:
+        return _UNARY[type(node.op)](self.visit(node.operand))
+
+    def _boolop(self, node: ast.BoolOp) -> Any:
+        value: Any = None
+        for item in node.values:
+            value = self.visit(item)
+            if bool(value) == isinstance(node.op, ast.Or):
+                break
+        return value
+
+    def _compare(self, node: ast.Compare) -> Any:
+        left = self.visit(node.left)
+        for op, item in zip(node.ops, node.comparators, strict=True):
+            right = self.visit(item)
+            result = _COMPARE[type(op)](left, right)
+            if not result:
+                return result
+            left = right
+        return result
+
+    def _ifexp(self, node: ast.IfExp) -> Any:
+        return self.visit(node.body if self.visit(node.test) else node.orelse)
+
+    def _list(self, node: ast.List) -> Any:
+        return [self.visit(item) for item in node.elts]
+
+    def _tuple(self, node: ast.Tuple) -> Any:
+        return tuple(self.visit(item) for item in node.elts)
+
+    def _dict(self, node: ast.Dict) -> Any:
+        if any(key is None for key in node.keys):
+            raise NotAllowedError("** in a dictionary is not evaluated")
+        return {self.visit(k): self.visit(v) for k, v in zip(node.keys, node.values, strict=True) if k is not None}
+
+    def _subscript(self, node: ast.Subscript) -> Any:
+        return self.visit(node.value)[self.visit(node.slice)]
+
+    def _slice(self, node: ast.Slice) -> Any:
+        return slice(*(self.visit(part) if part is not None else None for part in (node.lower, node.upper, node.step)))
+
+    def _call(self, node: ast.Call) -> Any:
+        if node.keywords or any(isinstance(a, ast.Starred) for a in node.args):
+            raise NotAllowedError("keyword and starred arguments are not evaluated")
+        arguments = [self.visit(a) for a in node.args]
+        if isinstance(node.func, ast.Attribute):
+            return self._method(self.visit(node.func.value), node.func.attr, arguments)
+        if not isinstance(node.func, ast.Name):
+            raise NotAllowedError("only functions with a name are called")
+        function = self._name(node.func)
+        if function is math.factorial and arguments and arguments[0] > 1000:
+            raise NotAllowedError("the number is too large")
+        if not callable(function):
+            raise EvaluationError(f"'{node.func.id}' is not a function")
+        return function(*arguments)
+
+    def _method(self, value: Any, name: str, arguments: list[Any]) -> Any:
+        if not isinstance(value, (str, list, tuple, dict)) or name not in _TEXT_METHODS:
+            raise NotAllowedError(f"the method '{name}' is not evaluated")
+        if name == "replace" and len(value) * max(1, len(str(arguments[-1]))) > MAX_SIZE:
+            raise NotAllowedError("the text would be too long")
+        return getattr(value, name)(*arguments)
+
+    @staticmethod
+    def _refuse(op: ast.operator) -> Any:
+        raise NotAllowedError(f"{type(op).__name__} is not evaluated")
+
+
+def _check_size(op: ast.operator, left: Any, right: Any) -> None:
+    """Refuse what would take the memory: `'a' * 10**9`, `9**9**9`, `1 << 10**9`, `'%9999999999d' % 1`."""
+    if isinstance(op, ast.Mult):
+        for text, count in ((left, right), (right, left)):
+            if isinstance(text, (str, bytes, list, tuple)) and isinstance(count, int) and len(text) * count > MAX_SIZE:
+                raise NotAllowedError("the text would be too long")
+    if (
+        isinstance(op, ast.Pow)
+        and isinstance(left, int)
+        and isinstance(right, int)
+        and left.bit_length() * right > MAX_SIZE
+    ):
+        raise NotAllowedError("the number would be too large")
+    if isinstance(op, ast.LShift) and isinstance(right, int) and right > MAX_SIZE:
+        raise NotAllowedError("the number would be too large")
+    if isinstance(op, ast.Mod) and isinstance(left, (str, bytes)):
+        raise NotAllowedError("formatting with % is not evaluated")

@@ -1,0 +1,95 @@
+"""Parameter YAML as ROS 1 reads it: YAML 1.1, with rosparam's angles (`rad(pi/2)`, `deg(90)`, `!degrees 90`).
+
+http://wiki.ros.org/rosparam#YAML_Format. Nothing is executed: angle expressions are arithmetic only.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.expression import EvaluationError, evaluate_arithmetic
+
+MAX_VALUES = 200_000
+"""How many values one text may unfold to; aliases of aliases would otherwise fill the memory."""
+
+
+class YamlError(ValueError):
+    """Not YAML, or not what a parameter file may hold. `offset` is where, in code points."""
+
+    def __init__(self, message: str, offset: int | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.offset = offset
+
+
+@dataclass(frozen=True, slots=True)
+class YamlValue:
+    """A value and, for each path of keys, where its last key is written (`("a", "b")` for `a: {b: 1}`)."""
+
+    value: Any
+    keys: dict[tuple[str, ...], Span]
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML 1.1 with ROS's additions; its own class, so that nobody else's loader changes."""
+
+
+def _angle(loader: yaml.SafeLoader, node: yaml.Node, name: str, factor: float) -> float:
+    text = str(loader.construct_scalar(node)).strip()  # type: ignore[arg-type]
+    inner = text[len(name) + 1 : -1] if text.startswith(name + "(") and text.endswith(")") else text
+    try:
+        return float(evaluate_arithmetic(inner)) * factor
+    except (EvaluationError, TypeError, ValueError, OverflowError) as error:
+        raise YamlError(f"{text!r} is not an angle: {error}", node.start_mark.index) from error
+
+
+for _name, _tag, _factor in (("rad", "!radians", 1.0), ("deg", "!degrees", math.pi / 180.0)):
+    _Loader.add_constructor(_tag, lambda loader, node, name=_name, factor=_factor: _angle(loader, node, name, factor))
+    _Loader.add_implicit_resolver(_tag, re.compile(rf"^{_name}\([^\)]*\)$"), [_name[0]])
+
+
+def load_yaml(text: str) -> YamlValue:
+    """The first and only document of `text`; `None` for an empty one. Raises `YamlError`."""
+    try:
+        loader = _Loader(text)
+        try:
+            node = loader.get_single_node()
+            keys: dict[tuple[str, ...], Span] = {}
+            _collect_keys(node, (), keys, [0])
+            value = loader.construct_document(node) if node is not None else None
+        finally:
+            loader.dispose()
+    except YamlError:
+        raise
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        raise YamlError(error.problem or error.context or "malformed", mark.index if mark else None) from error
+    except yaml.reader.ReaderError as error:
+        raise YamlError(f"the character {error.character!r} is not allowed", error.position) from error
+    except (yaml.YAMLError, ValueError, TypeError, RecursionError, OverflowError) as error:
+        raise YamlError(str(error) or type(error).__name__) from error
+    return YamlValue(value, keys)
+
+
+def _collect_keys(
+    node: yaml.Node | None, path: tuple[str, ...], keys: dict[tuple[str, ...], Span], seen: list[int]
+) -> None:
+    seen[0] += 1
+    if seen[0] > MAX_VALUES:
+        raise YamlError(f"it unfolds to more than {MAX_VALUES} values")
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            if isinstance(key, yaml.ScalarNode):
+                below = (*path, key.value)
+                if key.tag != "tag:yaml.org,2002:merge":
+                    keys[below] = Span(key.start_mark.index, key.end_mark.index)
+                _collect_keys(value, below, keys, seen)
+    elif isinstance(node, yaml.SequenceNode):
+        for item in node.value:
+            _collect_keys(item, path, keys, seen)
