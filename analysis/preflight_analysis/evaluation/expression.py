@@ -11,6 +11,7 @@ from __future__ import annotations
 import ast
 import math
 import operator
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -52,10 +53,13 @@ _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
 _MATH = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 _TYPES: dict[str, Any] = {"list": list, "dict": dict, "map": map, "str": str, "float": float, "int": int}
 _CONSTANTS = {"true": True, "false": False, "True": True, "False": False}
-_TEXT_METHODS = frozenset(
-    "capitalize count endswith find isalnum isalpha isdigit islower isupper join lower lstrip partition replace rfind "
-    "rpartition rsplit rstrip split splitlines startswith strip swapcase title upper index get keys values".split()
+_METHODS = frozenset(
+    {"capitalize", "count", "endswith", "find", "get", "index", "isalnum", "isalpha", "isdigit", "islower", "isupper"}
+    | {"join", "keys", "lower", "lstrip", "partition", "replace", "rfind", "rpartition", "rsplit", "rstrip", "split"}
+    | {"splitlines", "startswith", "strip", "swapcase", "title", "upper", "values"}
 )
+_GROWING = (math.factorial, math.comb, math.perm)
+_WIDE_FORMAT = re.compile(r"%[^a-zA-Z%]*(?:\*|\d{4})")
 
 
 class EvaluationError(ValueError):
@@ -181,14 +185,14 @@ class _Walker:
         if not isinstance(node.func, ast.Name):
             raise NotAllowedError("only functions with a name are called")
         function = self._name(node.func)
-        if function is math.factorial and arguments and arguments[0] > 1000:
+        if function in _GROWING and any(a > 1000 for a in arguments):
             raise NotAllowedError("the number is too large")
         if not callable(function):
             raise EvaluationError(f"'{node.func.id}' is not a function")
         return function(*arguments)
 
     def _method(self, value: Any, name: str, arguments: list[Any]) -> Any:
-        if not isinstance(value, (str, list, tuple, dict)) or name not in _TEXT_METHODS:
+        if not isinstance(value, (str, list, tuple, dict)) or name not in _METHODS:
             raise NotAllowedError(f"the method '{name}' is not evaluated")
         if name == "replace" and len(value) * max(1, len(str(arguments[-1]))) > MAX_SIZE:
             raise NotAllowedError("the text would be too long")
@@ -212,7 +216,9 @@ def _check_size(op: ast.operator, left: Any, right: Any) -> None:
         and left.bit_length() * right > MAX_SIZE
     ):
         raise NotAllowedError("the number would be too large")
-    if isinstance(op, ast.LShift) and isinstance(right, int) and right > MAX_SIZE:
+    if isinstance(op, ast.LShift) and integers and right > MAX_SIZE:
         raise NotAllowedError("the number would be too large")
-    if isinstance(op, ast.Mod) and isinstance(left, (str, bytes)):
-        raise NotAllowedError("formatting with % is not evaluated")
+    if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE_FORMAT.search(left):
+        raise NotAllowedError("the text would be too long")
+    if isinstance(op, ast.Mod) and isinstance(left, bytes):
+        raise NotAllowedError("bytes are not formatted")

@@ -40,18 +40,31 @@ class _Loader(yaml.SafeLoader):
     """YAML 1.1 with ROS's additions; its own class, so that nobody else's loader changes."""
 
 
-def _angle(loader: yaml.SafeLoader, node: yaml.Node, name: str, factor: float) -> float:
+def _inner(loader: yaml.SafeLoader, node: yaml.Node, name: str) -> str:
     text = str(loader.construct_scalar(node)).strip()  # type: ignore[arg-type]
-    inner = text[len(name) + 1 : -1] if text.startswith(name + "(") and text.endswith(")") else text
+    return text[len(name) + 1 : -1] if text.startswith(name + "(") else text
+
+
+def _radians(loader: yaml.SafeLoader, node: yaml.Node) -> float:
+    text = _inner(loader, node, "rad")
     try:
-        return float(evaluate_arithmetic(inner)) * factor
+        return float(evaluate_arithmetic(text))
     except (EvaluationError, TypeError, ValueError, OverflowError) as error:
-        raise YamlError(f"{text!r} is not an angle: {error}", node.start_mark.index) from error
+        raise YamlError(f"{text!r} is not an angle in radians: {error}", node.start_mark.index) from error
 
 
-for _name, _tag, _factor in (("rad", "!radians", 1.0), ("deg", "!degrees", math.pi / 180.0)):
-    _Loader.add_constructor(_tag, lambda loader, node, name=_name, factor=_factor: _angle(loader, node, name, factor))
-    _Loader.add_implicit_resolver(_tag, re.compile(rf"^{_name}\([^\)]*\)$"), [_name[0]])
+def _degrees(loader: yaml.SafeLoader, node: yaml.Node) -> float:
+    text = _inner(loader, node, "deg")
+    try:
+        return float(text) * math.pi / 180.0
+    except ValueError as error:
+        raise YamlError(f"{text!r} is not an angle in degrees", node.start_mark.index) from error
+
+
+_Loader.add_constructor("!radians", _radians)
+_Loader.add_constructor("!degrees", _degrees)
+_Loader.add_implicit_resolver("!radians", re.compile(r"^rad\([^\)]*\)$"), ["r"])
+_Loader.add_implicit_resolver("!degrees", re.compile(r"^deg\([^\)]*\)$"), ["d"])
 
 
 def load_yaml(text: str) -> YamlValue:

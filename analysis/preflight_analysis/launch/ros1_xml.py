@@ -1,0 +1,64 @@
+"""The frontend for ROS 1 launch files: Document to LaunchFile."""
+
+from __future__ import annotations
+
+from preflight_analysis.documents.document import Comment, Document, Element, SpannedText, Text
+from preflight_analysis.documents.span import Span
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
+from preflight_analysis.launch.substitutions import parse_value
+
+MAX_DEPTH = 100
+"""Elements nested deeper than this are left out; real launch files stay below ten."""
+
+
+def read_ros1(document: Document) -> LaunchFile:
+    """The launch file in `document`. Any text gives one; its root is None where there is no `<launch>`.
+
+    As roslaunch does, the only `<launch>` element counts, wherever it stands.
+    """
+    launch = _find_launch(document)
+    return LaunchFile(document.path, 1, _action(launch, 0) if launch is not None else None, document)
+
+
+def _find_launch(document: Document) -> Element | None:
+    level = [child for child in document.children if isinstance(child, Element)]
+    for _ in range(MAX_DEPTH):
+        found = next((element for element in level if element.tag == "launch"), None)
+        if found is not None or not level:
+            return found
+        level = [below for element in level for below in element.elements]
+    return None
+
+
+def _action(element: Element, depth: int) -> Action:
+    comments: list[tuple[str, Span]] = []
+    children: list[Action] = []
+    texts: list[SpannedText] = []
+    for child in element.children:
+        if isinstance(child, Element):
+            if depth < MAX_DEPTH:
+                children.append(_action(child, depth + 1))
+        elif isinstance(child, Comment):
+            comments.append((child.content.text, child.content.span))
+        elif isinstance(child, Text):
+            texts.append(child.content)
+    return Action(
+        element.tag,
+        element.tag_span,
+        tuple(ActionAttribute(a.name, a.name_span, parse_value(a.value), a.span) for a in element.attributes),
+        tuple(children),
+        tuple(comments),
+        _body(texts, element),
+        element.open_span,
+        element.span,
+    )
+
+
+def _body(texts: list[SpannedText], element: Element) -> Value:
+    if len(texts) == 1:
+        return parse_value(texts[0])
+    span = (
+        Span(texts[0].span.start, texts[-1].span.end) if texts else Span(element.open_span.end, element.open_span.end)
+    )
+    # Several pieces (CDATA, comments between): one text without a way back to single characters.
+    return Value("".join(t.text for t in texts), span, ())
