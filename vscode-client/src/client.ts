@@ -1,0 +1,43 @@
+import { homedir } from "node:os";
+import { type LogOutputChannel, workspace } from "vscode";
+import {
+  CloseAction,
+  ErrorAction,
+  LanguageClient,
+  NotificationType,
+  RevealOutputChannelOn,
+} from "vscode-languageclient/node";
+import { launchFiles } from "./documents";
+import type { ServerCommand } from "./findServer";
+
+/** Tells a running server that the user has come to trust the workspace. */
+export const workspaceTrust = new NotificationType<{ trusted: boolean }>("rosPreflight/workspaceTrust");
+
+/** Makes a client for one life of the server; `closed` is called when its connection ends without having been asked to. */
+export function createClient(server: ServerCommand, log: LogOutputChannel, closed: () => void): LanguageClient {
+  return new LanguageClient(
+    "rosPreflight",
+    "ROS Preflight",
+    {
+      command: server.program,
+      args: [...server.args],
+      // Not the workspace: `python -m` would import from it, trusted or not.
+      options: { cwd: homedir() },
+    },
+    {
+      documentSelector: [...launchFiles],
+      outputChannel: log,
+      traceOutputChannel: log,
+      revealOutputChannelOn: RevealOutputChannelOn.Never,
+      initializationOptions: () => ({ workspaceTrusted: workspace.isTrusted }),
+      initializationFailedHandler: () => false, // start() rejects with the reason
+      errorHandler: {
+        error: () => ({ action: ErrorAction.Continue, handled: true }),
+        closed: () => {
+          closed();
+          return { action: CloseAction.DoNotRestart, handled: true, message: "The server's connection ended." };
+        },
+      },
+    },
+  );
+}
