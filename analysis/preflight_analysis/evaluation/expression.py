@@ -209,15 +209,10 @@ def _check_size(op: ast.operator, left: Any, right: Any) -> None:
         for text, count in ((left, right), (right, left)):
             if isinstance(text, (str, bytes, list, tuple)) and isinstance(count, int) and len(text) * count > MAX_SIZE:
                 raise NotAllowedError("the text would be too long")
-    if (
-        isinstance(op, ast.Pow)
-        and isinstance(left, int)
-        and isinstance(right, int)
-        and left.bit_length() * right > MAX_SIZE
-    ):
-        raise NotAllowedError("the number would be too large")
-    if isinstance(op, ast.LShift) and integers and right > MAX_SIZE:
-        raise NotAllowedError("the number would be too large")
+    if isinstance(left, int) and isinstance(right, int):
+        bits = left.bit_length() * right if isinstance(op, ast.Pow) else right if isinstance(op, ast.LShift) else 0
+        if bits > MAX_SIZE:
+            raise NotAllowedError("the number would be too large")
     if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE_FORMAT.search(left):
         raise NotAllowedError("the text would be too long")
     if isinstance(op, ast.Mod) and isinstance(left, bytes):

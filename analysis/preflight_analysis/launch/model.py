@@ -98,9 +98,11 @@ class Action:
 
 @dataclass(frozen=True, slots=True)
 class LaunchFile:
-    """A launch file of any format. `root` is None when the file has no `<launch>` to speak of."""
+    """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are
+    the tags of further ones, which no launcher accepts."""
 
     path: str
     generation: int
     root: Action | None
     document: Document
+    extra_roots: tuple[Span, ...] = ()

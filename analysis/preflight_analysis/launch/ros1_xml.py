@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from preflight_analysis.documents.document import Comment, Document, Element, SpannedText, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
@@ -16,18 +18,18 @@ def read_ros1(document: Document) -> LaunchFile:
 
     As roslaunch does, the only `<launch>` element counts, wherever it stands.
     """
-    launch = _find_launch(document)
-    return LaunchFile(document.path, 1, _action(launch, 0) if launch is not None else None, document)
+    found = list(_find_launch(document))
+    root = _action(found[0], 0) if found else None
+    return LaunchFile(document.path, 1, root, document, tuple(element.tag_span for element in found[1:]))
 
 
-def _find_launch(document: Document) -> Element | None:
+def _find_launch(document: Document) -> Iterator[Element]:
     level = [child for child in document.children if isinstance(child, Element)]
     for _ in range(MAX_DEPTH):
-        found = next((element for element in level if element.tag == "launch"), None)
-        if found is not None or not level:
-            return found
+        yield from (element for element in level if element.tag == "launch")
         level = [below for element in level for below in element.elements]
-    return None
+        if not level:
+            return
 
 
 def _action(element: Element, depth: int) -> Action:

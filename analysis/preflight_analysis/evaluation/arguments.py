@@ -1,0 +1,24 @@
+"""Launch arguments as given on a command line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+_REMAP = re.compile(r"([~/A-Za-z]|_|__)[\w/]*:=.*\Z", re.DOTALL)
+
+
+def parse_arguments(words: Iterable[str]) -> dict[str, str]:
+    """`name:=value` words as a mapping; the last one wins. What roslaunch ignores is left out.
+
+    `_name:=value` is a private parameter assignment, not an argument (http://wiki.ros.org/Remapping%20Arguments).
+    """
+    found: dict[str, str] = {}
+    for word in words:
+        if _REMAP.match(word) is None or word.count(":=") != 1:
+            continue
+        name, value = (part.strip() for part in word.split(":="))
+        private = len(name) > 1 and name[0] == "_" and name[1] != "_"
+        if name and value and not private:
+            found[name] = value
+    return found

@@ -1,0 +1,30 @@
+"""What the evaluation may read. The workspace implements it, with open editor buffers over the disk."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.evaluation.tree import Executable
+from preflight_analysis.launch.model import LaunchFile
+
+
+class Files(Protocol):
+    """Reads by absolute path; nothing raises."""
+
+    def launch_file(self, path: str) -> LaunchFile | Unreadable:
+        """The launch file at `path`, parsed."""
+
+    def text(self, path: str) -> Document | Unreadable:
+        """Any text file, not parsed: a Document without children."""
+
+    def data(self, path: str) -> bytes | Unreadable:
+        """The bytes of a file (`binfile`)."""
+
+
+class Executables(Protocol):
+    """Finds what `pkg` and `type` of a node lead to."""
+
+    def find(self, package: str, name: str) -> Executable:
+        """The executable as roslaunch finds it."""

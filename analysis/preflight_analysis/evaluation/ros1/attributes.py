@@ -1,0 +1,120 @@
+"""Reading the attributes of a tag: resolved, required, boolean, number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from preflight_analysis.evaluation import values
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.state import State
+from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
+from preflight_analysis.launch.model import Action
+
+T = TypeVar("T")
+
+
+class Attributes:
+    """The attributes of one action in one scope. What is wrong is noted in the state, once, and read as absent."""
+
+    def __init__(self, state: State, scope: Scope, action: Action) -> None:
+        self.state, self.scope, self.action = state, scope, action
+        self.all_known = True
+        """Whether everything asked for so far could be resolved."""
+
+    def get(self, name: str) -> Resolved | None:
+        """The resolved value, None where there is no such attribute."""
+        value = self.action.value(name)
+        if value is None:
+            return None
+        result = resolve(self.state, self.scope, value)
+        self.all_known = self.all_known and result.known
+        return result
+
+    def text(self, name: str) -> str | None:
+        """Its text, with unresolved substitutions in it where it is not known."""
+        found = self.get(name)
+        return found.text if found else None
+
+    def require(self, *names: str) -> list[Resolved] | None:
+        """All of them, or None where one is missing, which is noted: roslaunch stops there."""
+        missing = [n for n in names if self.action.value(n) is None]
+        if missing:
+            self.state.problem(
+                "missing-attribute", self.scope.origin(self.action.kind_span), tag=self.action.kind, names=missing
+            )
+            return None
+        return [found for found in (self.get(n) for n in names) if found is not None]
+
+    def convert(self, name: str, default: T, converter: Callable[[str], T]) -> T:
+        """The attribute through `converter`, which raises `BadValueError`; `default` where absent, unknown or bad."""
+        found = self.get(name)
+        if found is None or not found.known:
+            return default
+        try:
+            return converter(found.text)
+        except values.BadValueError as error:
+            self.bad_value(name, found.text, str(error))
+            return default
+
+    def bad_value(self, name: str, value: str, expected: str, choices: tuple[str, ...] = ()) -> None:
+        """Note a value that roslaunch refuses."""
+        attribute = self.action.attribute(name)
+        span = attribute.value.span if attribute else self.action.kind_span
+        self.state.problem(
+            "bad-value",
+            self.scope.origin(span),
+            tag=self.action.kind,
+            attribute=name,
+            value=value,
+            expected=expected,
+            choices=choices,
+        )
+
+
+def positive_number(text: str) -> float:
+    """A number above zero."""
+    number = plain_number(text)
+    if number <= 0:
+        raise values.BadValueError("a number above 0")
+    return number
+
+
+def plain_number(text: str) -> float:
+    """Any number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise values.BadValueError("a number") from None
+
+
+def integer(text: str) -> int:
+    """An integer."""
+    try:
+        return int(text)
+    except ValueError:
+        raise values.BadValueError("an integer") from None
+
+
+def applies(state: State, scope: Scope, action: Action) -> bool:
+    """Whether the tag is evaluated at all, by its `if` and `unless`. One that is not is never looked into."""
+    attributes = Attributes(state, scope, action)
+    results = {name: attributes.get(name) for name in ("if", "unless")}
+    given = [name for name, found in results.items() if found is not None]
+    if len(given) == 2:
+        state.problem("attributes-exclude", scope.origin(action.kind_span), tag=action.kind, names=given)
+        return False
+    for name, found in results.items():
+        if found is None:
+            continue
+        if not found.known:
+            attribute = action.attribute(name)
+            span = attribute.value.span if attribute else action.kind_span
+            state.unknown(f"<{action.kind} {name}>", "its condition is not known", scope, span)
+            return False
+        try:
+            return values.to_bool(found.text) == (name == "if")
+        except values.BadValueError as error:
+            attributes.bad_value(name, found.text, str(error), ("true", "false"))
+            return False
+    return True

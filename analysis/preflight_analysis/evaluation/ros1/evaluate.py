@@ -1,0 +1,289 @@
+"""The walk over a launch file and its includes, from the root to a LaunchTree."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
+from preflight_analysis.evaluation.ros1.nodes import evaluate_node
+from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
+from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
+from preflight_analysis.evaluation.ros1.state import State
+from preflight_analysis.evaluation.ros1.tags import (
+    clear_params,
+    evaluate_arg,
+    evaluate_env,
+    evaluate_machine,
+    evaluate_remap,
+    namespace_of,
+)
+from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
+from preflight_analysis.launch.check_language import check_language
+from preflight_analysis.launch.model import Action, LaunchFile
+
+MAX_INCLUDE_DEPTH = 60
+MAX_INCLUDES = 5_000
+"""Real launches stay below a few hundred; an include that multiplies itself does not."""
+
+
+def evaluate(
+    path: str,
+    args: Mapping[str, str],
+    files: Files,
+    executables: Executables,
+    environment: Environment,
+    cwd: str,
+) -> LaunchTree:
+    """What `roslaunch path name:=value...` would start.
+
+    Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
+    paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing.
+    """
+    state = State(files, executables, environment, cwd)
+    path = os.path.normpath(path)
+    found = state.read_launch_file(path)
+    whole = (Location(path, Span(0, 0)),)
+    if isinstance(found, Unreadable):
+        kind = "file-not-text" if found.kind == "not-text" else "file-unreadable"
+        state.problem(kind, whole, path=path, reason=found.reason)
+    else:
+        ns = args.get("__ns") or environment.variables.get("ROS_NAMESPACE") or "/"
+        scope = Scope(path, (), names.as_namespace(ns))
+        scope.args = {name: ArgValue(value, None) for name, value in args.items()}
+        _file(state, scope, found, None)
+        state.args = _root_args(scope, found)
+    _check_machines(state)
+    return LaunchTree(
+        path,
+        1,
+        state.args,
+        tuple(state.nodes),
+        state.params,
+        tuple(state.clear_params),
+        tuple(state.includes),
+        state.machines,
+        tuple(state.uses),
+        tuple(state.problems),
+        tuple(state.unknowns),
+        tuple(state.visited),
+        state.inputs,
+    )
+
+
+def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: str | None) -> str | None:
+    """Evaluate one file in `scope`; the default machine after it."""
+    document = launch_file.document
+    for problem in document.problems:
+        state.problem("xml-malformed", scope.origin(problem.span), message=problem.message)
+    for name, span in document.entities:
+        state.problem("xml-entity", scope.origin(span), fatal=False, name=name)
+    root = launch_file.root
+    if root is None or launch_file.extra_roots:
+        span = launch_file.extra_roots[0] if launch_file.extra_roots else Span(0, min(1, len(document.text)))
+        if document.root is not None and root is None:
+            span = document.root.tag_span
+        tag = document.root.tag if document.root is not None else None
+        state.problem("root-not-launch", scope.origin(span), tag=tag)
+    if scope.file not in state.visited:
+        state.visited.append(scope.file)
+        for found in check_language(launch_file):
+            state.problem(found.kind, (Location(scope.file, found.span),), fatal=False, **found.data)
+    return _actions(state, scope, root.children, default_machine) if root is not None else default_machine
+
+
+def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
+    for action in actions:
+        match action.kind:
+            case "arg":
+                evaluate_arg(state, scope, action)
+            case "group":
+                default_machine = _group(state, scope, action, default_machine)
+            case "node" | "test":
+                evaluate_node(state, scope, action, default_machine)
+            case "param":
+                evaluate_param(state, scope, action)
+            case "rosparam":
+                evaluate_rosparam(state, scope, action)
+            case "remap":
+                remap = evaluate_remap(state, scope, action, inside_node=False)
+                if remap is not None:
+                    scope.add_remap(remap)
+            case "env":
+                evaluate_env(state, scope, action)
+            case "machine":
+                default_machine = evaluate_machine(state, scope, action) or default_machine
+            case "include":
+                default_machine = _include(state, scope, action, default_machine)
+    return default_machine
+
+
+def _group(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
+    """`<group>` (http://wiki.ros.org/roslaunch/XML/group)."""
+    if not applies(state, scope, action):
+        return default_machine
+    attributes = Attributes(state, scope, action)
+    ns = namespace_of(state, scope, action, attributes)
+    if ns is None:
+        return default_machine
+    inside = scope.child(ns.text)
+    inside.private_params = list(inside.private_params)
+    clear_params(state, scope, action, attributes, inside, ns.text)
+    if not attributes.all_known:
+        state.unknown("<group>", "its namespace is not known", scope, action.kind_span)
+    return _actions(state, inside, action.children, default_machine)
+
+
+def _include(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
+    """`<include>` (http://wiki.ros.org/roslaunch/XML/include)."""
+    if not applies(state, scope, action):
+        return default_machine
+    attributes = Attributes(state, scope, action)
+    required = attributes.require("file")
+    file_attribute = action.attribute("file")
+    if required is None or file_attribute is None:
+        return default_machine
+    file = required[0]
+    pass_all = attributes.convert("pass_all_args", False, values.to_flag)
+    ns = namespace_of(state, scope, action, attributes)
+    if ns is None:
+        return default_machine
+    inside = scope.child(ns.text)
+    clear_params(state, scope, action, attributes, inside, ns.text)
+    passed = _passed_args(state, scope, inside, action, pass_all)
+    place = Location(scope.file, file_attribute.value.span)
+    origin = scope.origin(action.head_span)
+    shown = {name: value.text for name, value in passed.items()}
+    state.includes.append(Include(file.text if file.known else None, origin, place, shown))
+    if not file.known:
+        state.unknown("<include>", "its file is not known", scope, file_attribute.value.span)
+        return default_machine
+    path = os.path.normpath(os.path.join(state.cwd, file.text))
+    state.uses.append(Use("include", place, file.text, path, Location(path, Span(0, 0))))
+    found = _included(state, scope, path, passed, scope.origin(file_attribute.value.span))
+    if found is None:
+        return default_machine
+    inside.file, inside.chain = path, origin
+    inside.args, inside.declared, inside.anonymous, inside.pass_all_args = passed, {}, {}, pass_all
+    given = dict(passed)
+    default_machine = _file(state, inside, found, default_machine)
+    if not pass_all:
+        declared = sorted(inside.declared)
+        for child in action.children:
+            name_attribute = child.attribute("name") if child.kind.lower() == "arg" else None
+            # The name as resolved above: an <arg> whose name has a substitution is rare enough to go by its text.
+            if name_attribute is None or name_attribute.value.text not in given:
+                continue
+            if name_attribute.value.text not in inside.declared:
+                at = scope.origin(name_attribute.value.span)
+                name = name_attribute.value.text
+                state.problem("include-arg-undeclared", at, name=name, file=path, declared=declared)
+    return default_machine
+
+
+def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass_all: bool) -> dict[str, ArgValue]:
+    """The arguments given to an included file. They are evaluated in the includer's scope and do not see each other."""
+    passed: dict[str, ArgValue] = {}
+    seen: dict[str, Location] = {}
+    if pass_all:
+        passed = {name: ArgValue(value.text, value.origin) for name, value in scope.args.items()}
+    for child in action.children:
+        kind = child.kind.lower()
+        if kind == "env":
+            evaluate_env(state, inside, child)
+            continue
+        if kind != "arg" or not applies(state, scope, child):
+            continue
+        attributes = Attributes(state, scope, child)
+        required = attributes.require("name")
+        if required is None:
+            continue
+        name = required[0].text
+        name_attribute = child.attribute("name")
+        span = name_attribute.value.span if name_attribute else child.kind_span
+        value, default = attributes.get("value"), attributes.get("default")
+        if value is not None and default is not None:
+            names_given = ["value", "default"]
+            state.problem("attributes-exclude", scope.origin(child.kind_span), tag="arg", names=names_given)
+            continue
+        if name in seen and not pass_all:
+            state.problem("arg-redeclared", scope.origin(span), name=name, first=seen[name])
+            continue
+        seen[name] = Location(scope.file, span)
+        given = value if value is not None else default
+        if given is None:
+            if name not in passed:
+                state.problem("include-arg-no-value", scope.origin(span), name=name)
+                passed[name] = ArgValue(None, scope.origin(span))
+        elif value is not None or name not in passed:
+            passed[name] = ArgValue(given.text if given.known else None, scope.origin(span))
+        now = passed.get(name)
+        state.uses.append(Use("argument", Location(scope.file, span), name, now.text if now else None))
+    return passed
+
+
+def _included(
+    state: State, scope: Scope, path: str, passed: Mapping[str, ArgValue], origin: tuple[Location, ...]
+) -> LaunchFile | None:
+    """Read the included file; None, with the reason noted, where it cannot be evaluated."""
+    above = [location.file for location in scope.chain] + [scope.file]
+    if path in above and _same_args(scope, path, passed):
+        state.problem("include-cycle", origin, path=path, chain=[*above[above.index(path) :], path])
+        return None
+    if len(above) > MAX_INCLUDE_DEPTH or len(state.includes) > MAX_INCLUDES:
+        state.problem("include-cycle", origin, path=path, chain=above[-10:])
+        return None
+    found = state.read_launch_file(path)
+    if isinstance(found, Unreadable):
+        kind = "include-not-found" if found.kind == "missing" else "include-unreadable"
+        state.problem(kind, origin, path=path, reason=found.reason)
+        state.unknown("<include>", f"{path} {found.reason}", scope, origin[-1].span)
+        return None
+    return found
+
+
+def _same_args(scope: Scope, path: str, passed: Mapping[str, ArgValue]) -> bool:
+    """Whether the file is being evaluated already with these very arguments: then it would never end."""
+    at: Scope | None = scope
+    wanted = {name: value.text for name, value in passed.items()}
+    while at is not None:
+        if at.file == path and all(at.args.get(n) is not None and at.args[n].text == t for n, t in wanted.items()):
+            return True
+        at = at.parent
+    return False
+
+
+def _root_args(scope: Scope, launch_file: LaunchFile) -> dict[str, Arg]:
+    found: dict[str, Arg] = {}
+    tags = [a for a in (launch_file.root.children if launch_file.root else ()) if a.kind == "arg"]
+    for name, location in scope.declared.items():
+        tag = next((t for t in tags if (n := t.attribute("name")) and n.value.span == location.span), None)
+        default = tag.value("default") if tag else None
+        fixed = tag.value("value") if tag else None
+        doc = tag.value("doc") if tag else None
+        given = scope.args.get(name)
+        found[name] = Arg(
+            name,
+            given.text if given else None,
+            default.text if default else None,
+            default is None and fixed is None,
+            (location,),
+            location,
+            given.origin if given else None,
+            doc.text if doc else None,
+        )
+    return found
+
+
+def _check_machines(state: State) -> None:
+    for node in state.nodes:
+        if node.machine and node.machine not in state.machines and not node.unknowns:
+            attribute = node.action.attribute("machine")
+            span = attribute.value.span if attribute else node.action.kind_span
+            origin = (*node.origin[:-1], Location(node.location.file, span))
+            state.problem("machine-undefined", origin, name=node.machine, declared=sorted(state.machines))

@@ -1,0 +1,247 @@
+"""`<param>` and `<rosparam>`: what the parameter server would be told (http://wiki.ros.org/roslaunch/XML/param)."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from preflight_analysis.documents.document import SpannedText
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.state import MISSING, State
+from preflight_analysis.evaluation.ros1.substitute import resolve
+from preflight_analysis.evaluation.tree import CommandValue, Param, Use
+from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.substitutions import parse_value
+
+SOURCES = ("value", "textfile", "binfile", "command")
+COMMANDS = ("load", "dump", "delete")
+
+
+def set_param(state: State, param: Param) -> None:
+    """Set a parameter as the last one to do so; what it replaces is kept with it."""
+    old = state.params.pop(param.name, None)
+    if old is not None:
+        param = Param(param.name, param.value, param.origin, param.owner, param.name_location, (*old.overrides, old))
+    state.params[param.name] = param
+
+
+def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | None = None) -> None:
+    """A `<param>`: a global one is set, a private one (or any in a node) kept in the scope for the nodes to come."""
+    if not applies(state, scope, action):
+        return
+    attributes = Attributes(state, scope, action)
+    given = [source for source in SOURCES if action.value(source) is not None]
+    if len(given) != 1:
+        kind = "attributes-exclude" if given else "missing-attribute"
+        state.problem(kind, scope.origin(action.kind_span), tag="param", names=given or list(SOURCES))
+        return
+    found = attributes.require("name")
+    if found is None:
+        return
+    name = names.canonicalize(found[0].text.strip())
+    name_attribute = action.attribute("name")
+    location = Location(scope.file, name_attribute.value.span) if name_attribute else None
+    value = _value(state, scope, action, attributes, given[0])
+    if isinstance(value, _NoValue):
+        state.unknown(f"parameter {name}", value.reason, scope, action.kind_span)
+        return
+    origin = scope.origin(action.head_span)
+    if node is not None or names.is_private(name):
+        scope.add_private(Param(name, value, origin, node, location))
+    else:
+        set_param(state, Param(names.canonicalize(names.join(scope.ns, name)), value, origin, None, location))
+
+
+@dataclass(frozen=True, slots=True)
+class _NoValue:
+    reason: str
+
+
+def _value(state: State, scope: Scope, action: Action, attributes: Attributes, source: str) -> Any:
+    given = attributes.get(source)
+    if given is None or not given.known:
+        return _NoValue("its value is not known")
+    type_attribute = action.value("type")
+    type_name = (type_attribute.text if type_attribute else "").lower().strip() or "auto"
+    if source == "command":
+        return CommandValue(given.text)
+    text = given.text.strip()
+    if source in ("textfile", "binfile"):
+        path = os.path.join(state.cwd, given.text)
+        found = state.read_text(path) if source == "textfile" else _data(state, path)
+        if isinstance(found, Unreadable):
+            report_file(state, scope, action, source, found)
+            return _NoValue(f"the file {path} {found.reason}")
+        if isinstance(found, bytes):
+            return found
+        text = found.text
+        state.uses.append(_file_use(scope, action, source, path))
+    try:
+        return values.convert(text, type_name)
+    except values.BadValueError as error:
+        attribute = source if type_name in values.TYPES else "type"
+        attributes.bad_value(attribute, text[:100] if attribute == source else type_name, str(error))
+        return _NoValue(f"it is not {error}")
+
+
+def _data(state: State, path: str) -> bytes | Unreadable:
+    found = state.files.data(path)
+    state.inputs[path] = MISSING if isinstance(found, Unreadable) else hashlib.sha1(found).hexdigest()  # noqa: S324
+    return found
+
+
+def report_file(state: State, scope: Scope, action: Action, attribute: str, found: Unreadable) -> None:
+    """Note that a file named in a parameter tag cannot be read."""
+    written = action.attribute(attribute)
+    kind = "param-file-not-found" if found.kind == "missing" else "param-file-unreadable"
+    origin = scope.origin(written.value.span if written else action.kind_span)
+    state.problem(kind, origin, path=found.path, tag=action.kind, attribute=attribute, reason=found.reason)
+
+
+def _file_use(scope: Scope, action: Action, attribute: str, path: str) -> Use:
+    written = action.attribute(attribute)
+    span = written.value.span if written else action.kind_span
+    return Use("file", Location(scope.file, span), path, path, Location(path, Span(0, 0)))
+
+
+def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str | None = None) -> None:
+    """A `<rosparam>` (http://wiki.ros.org/roslaunch/XML/rosparam). `dump` and `delete` act at launch time only."""
+    if not applies(state, scope, action):
+        return
+    attributes = Attributes(state, scope, action)
+    command, ns, file, param = (attributes.text(n) for n in ("command", "ns", "file", "param"))
+    if not attributes.all_known:
+        state.unknown("<rosparam>", "an attribute is not known", scope, action.kind_span)
+        return
+    substitute = attributes.convert("subst_value", False, values.to_flag)
+    command = command or "load"
+    if command not in COMMANDS:
+        attributes.bad_value("command", command, "load, dump or delete", COMMANDS)
+        return
+    if command == "delete" and file is not None:
+        state.problem("attributes-exclude", scope.origin(action.kind_span), tag="rosparam", names=["command", "file"])
+        return
+    if command != "load":
+        return
+    below = names.join(ns or "", param or "")
+    full = names.join(scope.ns, below) if below else scope.ns
+    text = _yaml_text(state, scope, action, file)
+    if text is None:
+        return
+    if substitute:
+        text = _substituted(state, scope, action, text)
+        if text is None:
+            return
+    _load(state, scope, action, text, file, full, bool(below), node)
+
+
+@dataclass(frozen=True, slots=True)
+class _YamlText:
+    """YAML and where its characters are: in a file of its own, in the launch file, or nowhere in particular."""
+
+    text: str
+    file: str
+    start: int | None
+
+    def location(self, span: Span) -> Location | None:
+        if self.start is None:
+            return None
+        return Location(self.file, Span(self.start + span.start, self.start + span.end))
+
+
+def _yaml_text(state: State, scope: Scope, action: Action, file: str | None) -> _YamlText | None:
+    if not file:
+        if file is not None:
+            report_file(state, scope, action, "file", Unreadable(file, "is empty", "missing"))
+            return None
+        body = action.body
+        plain = body.span.end - body.span.start == len(body.text)
+        return _YamlText(body.text, scope.file, body.span.start if plain else None)
+    path = os.path.join(state.cwd, file)
+    found = state.read_text(path)
+    if isinstance(found, Unreadable):
+        report_file(state, scope, action, "file", found)
+        state.unknown("<rosparam>", f"the file {path} {found.reason}", scope, action.kind_span)
+        return None
+    state.uses.append(_file_use(scope, action, "file", path))
+    return _YamlText(found.text, path, 0)
+
+
+def _substituted(state: State, scope: Scope, action: Action, text: _YamlText) -> _YamlText | None:
+    value = parse_value(SpannedText(text.text, Span(0, len(text.text))))
+    result = resolve(state, scope, value, at=action.head_span)
+    if not result.known:
+        state.unknown("<rosparam>", "a substitution in its text is not known", scope, action.kind_span)
+        return None
+    return _YamlText(result.text, text.file, text.start if result.text == text.text else None)
+
+
+def _load(
+    state: State,
+    scope: Scope,
+    action: Action,
+    text: _YamlText,
+    file: str | None,
+    full: str,
+    named: bool,
+    node: str | None,
+) -> None:
+    def refuse(message: str, span: Span | None = None) -> None:
+        place = text.location(span) if span else None
+        origin = scope.origin(action.head_span)
+        if place is not None:
+            origin = (*origin, place) if place.file != scope.file else (*scope.chain, place)
+        state.problem("bad-yaml", origin, message=message, path=file)
+        state.unknown("<rosparam>", "its YAML is malformed", scope, action.kind_span)
+
+    try:
+        loaded = load_yaml(text.text)
+    except YamlError as error:
+        refuse(error.message, Span(error.offset, error.offset) if error.offset is not None else None)
+        return
+    value = {} if loaded.value is None else loaded.value
+    if not isinstance(value, dict) and not named:
+        message = "only a dictionary can be loaded without the attribute 'param'"
+        refuse(message)
+        return
+    if full == "/" and not isinstance(value, dict):
+        refuse("only a dictionary can be loaded into the root namespace")
+        return
+    origin = scope.origin(action.head_span)
+    try:
+        for path, name, leaf in _leaves(full, value, ()):
+            span = loaded.keys.get(path)
+            place = text.location(span) if span else None
+            found: Origin = origin
+            if place is not None and place.file != scope.file:
+                found = (*origin, place)
+            set_param(state, Param(names.canonicalize(name), leaf, found, node, place))
+    except _BadKeyError as error:
+        refuse(f"the key {error.key!r} is not a string", None)
+    except RecursionError:
+        refuse("it is nested too deeply or contains itself")
+
+
+class _BadKeyError(Exception):
+    def __init__(self, key: object) -> None:
+        super().__init__(key)
+        self.key = key
+
+
+def _leaves(name: str, value: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], str, Any]]:
+    """Dictionaries become one parameter a leaf; an empty one none. Yields the path of keys, the name, the value."""
+    if not isinstance(value, dict):
+        yield path, name, value
+        return
+    for key, below in value.items():
+        if not isinstance(key, str):
+            raise _BadKeyError(key)
+        yield from _leaves(names.join(name, key), below, (*path, key))

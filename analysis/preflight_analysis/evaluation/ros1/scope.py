@@ -1,0 +1,81 @@
+"""The nested scopes of a launch file: namespace, remaps, private parameters, environment, arguments, anonymous names.
+
+The rules of what a child scope shares with its parent and what it copies are roslaunch's, odd ones included; each is
+held by a test against the real one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.evaluation.names import as_namespace, join
+from preflight_analysis.evaluation.tree import Param, Remap
+
+
+@dataclass(slots=True)
+class ArgValue:
+    """An argument as seen in a scope. `text` None: not known (something it depends on is missing)."""
+
+    text: str | None
+    origin: Origin | None
+    """Where the value was given; None for the command line."""
+
+
+@dataclass(slots=True)
+class Scope:
+    """Where a tag is evaluated. `chain` are the include tags that led here, outermost first."""
+
+    file: str
+    chain: Origin
+    ns: str
+    parent: Scope | None = None
+    own_remaps: list[Remap] = field(default_factory=list)
+    private_params: list[Param] = field(default_factory=list)
+    env: list[tuple[str, str]] = field(default_factory=list)
+    args: dict[str, ArgValue] = field(default_factory=dict)
+    declared: dict[str, Location] = field(default_factory=dict)
+    """`<arg>` tags seen in this file so far, by name."""
+    anonymous: dict[str, str] = field(default_factory=dict)
+    pass_all_args: bool = False
+
+    def origin(self, span: Span) -> Origin:
+        """The origin of a place in this scope's file."""
+        return (*self.chain, Location(self.file, span))
+
+    def child(self, ns: str | None = None) -> Scope:
+        """A scope below this one. Arguments and anonymous names are copied; what is set inside stays inside.
+
+        An absolute `ns` replaces the namespace. Private parameters are shared as long as there are any: an include
+        thereby passes them on, and back.
+        """
+        return Scope(
+            self.file,
+            self.chain,
+            as_namespace(join(self.ns, ns) if ns else self.ns),
+            self,
+            [],
+            self.private_params or [],
+            list(self.env),
+            {name: replace(value) for name, value in self.args.items()},
+            dict(self.declared),
+            dict(self.anonymous),
+        )
+
+    def add_remap(self, remap: Remap) -> None:
+        """A later remap of the same name replaces the earlier one."""
+        self.own_remaps = [r for r in self.own_remaps if r.source != remap.source]
+        self.own_remaps.append(remap)
+
+    def remaps(self) -> list[Remap]:
+        """All that apply here: the outer ones first, less those that an inner one replaces."""
+        if self.parent is None:
+            return list(self.own_remaps)
+        own = {r.source for r in self.own_remaps}
+        return [r for r in self.parent.remaps() if r.source not in own] + self.own_remaps
+
+    def add_private(self, param: Param) -> None:
+        """A `~param` for the nodes that come later in this scope."""
+        for old in [p for p in self.private_params if p.name == param.name]:
+            self.private_params.remove(old)
+        self.private_params.append(param)

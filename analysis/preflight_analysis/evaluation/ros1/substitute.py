@@ -1,0 +1,255 @@
+"""Substitutions: from a value as written to its text.
+
+roslaunch replaces in two rounds, `$(find)` last, because what follows it is part of a path by then
+(http://wiki.ros.org/roslaunch/XML#substitution_args).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.evaluation import expression, values
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.state import State
+from preflight_analysis.evaluation.tree import Use
+from preflight_analysis.launch.model import Substitution, Value
+from preflight_analysis.launch.substitutions import (
+    COMMANDS_ROS1,
+    SubstitutionSyntaxError,
+    find_substitutions,
+    is_eval,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """The text a value came to. Where `known` is false it still has the unresolved substitutions in it."""
+
+    text: str
+    known: bool = True
+
+
+class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list
+    """A substitution that has no value. `kind` None: the reason is known already."""
+
+    def __init__(
+        self, kind: str | None = None, *, origin: Origin | None = None, fatal: bool = True, **data: Any
+    ) -> None:
+        super().__init__(kind)
+        self.kind, self.origin, self.fatal, self.data = kind, origin, fatal, data
+
+
+def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) -> Resolved:
+    """Evaluate `value` in `scope`; problems are noted at the substitution concerned.
+
+    `at` is the place to speak of instead, for texts that do not stand in the file as they are (`subst_value`).
+    """
+    if value.problem is None and value.is_literal:
+        return Resolved(value.text)
+    if value.problem is not None:
+        state.problem("bad-substitution", scope.origin(at or value.span), text=value.text, message=value.problem)
+        return Resolved(value.text, False)
+    text, known, finds = value.text, True, False
+    for part in value.substitutions:
+        span = at or part.span
+        if part.command == "find":
+            finds = True
+            continue
+        result = _one(state, scope, part, span, record=at is None)
+        if result is None:
+            known = False
+        else:
+            text = result if is_eval(value.text) else text.replace(part.text, result)
+    if (finds or "$(" in text) and not is_eval(value.text):
+        found = _finds(state, scope, value, text, at)
+        text, known = found.text, known and found.known
+    if at is None:
+        state.uses.append(Use("value", Location(scope.file, value.span), value.text, text if known else None))
+    return Resolved(text, known)
+
+
+def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: bool) -> str | None:
+    words = [w for w in part.arguments.split(" ") if w]
+    target: Location | None = None
+    origin: Origin = ()
+    try:
+        if part.command == "arg":
+            if len(words) != 1:
+                raise _Failure("bad-substitution", text=part.text, message="$(arg name) takes exactly one name")
+            declaration = scope.declared.get(words[0])
+            given = scope.args.get(words[0])
+            origin = (given.origin if given else None) or ()
+            target = declaration or (origin[-1] if origin else None)
+            text = _arg(scope, words[0])
+        else:
+            text = _COMMANDS.get(part.command, _unknown_command)(state, scope, part, words)
+    except _Failure as failure:
+        if failure.kind is not None:
+            state.problem(failure.kind, failure.origin or scope.origin(span), fatal=failure.fatal, **failure.data)
+        text = None
+    if record:
+        name = words[0] if words and part.command != "eval" else part.arguments
+        state.uses.append(Use(part.command, Location(scope.file, span), name, text, target, origin))
+    return text
+
+
+def _arg(scope: Scope, name: str) -> str:
+    given = scope.args.get(name)
+    if given is not None:
+        if given.text is None:
+            raise _Failure
+        return given.text
+    if name not in scope.declared:
+        raise _Failure("arg-undeclared", name=name, declared=sorted({*scope.declared, *scope.args}))
+    if scope.chain:
+        passed = sorted(scope.args)
+        raise _Failure("arg-required", origin=scope.chain, name=name, file=scope.file, passed=passed)
+    raise _Failure("root-arg-required", origin=(scope.declared[name],), name=name)
+
+
+def _env(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
+    if len(words) != 1:
+        raise _Failure("bad-substitution", text=part.text, message="$(env NAME) takes exactly one name")
+    return _environment_variable(state, words[0])
+
+
+def _environment_variable(state: State, name: str) -> str:
+    try:
+        return state.environment.variables[name]
+    except KeyError:
+        raise _Failure("env-unset", name=name) from None
+
+
+def _optenv(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
+    if not words:
+        raise _Failure("bad-substitution", text=part.text, message="$(optenv NAME default) needs a name")
+    return state.environment.variables.get(words[0], " ".join(words[1:]))
+
+
+def _anon(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
+    if len(words) != 1:
+        raise _Failure("bad-substitution", text=part.text, message="$(anon name) takes exactly one name")
+    return _anonymous(state, scope, words[0])
+
+
+def _anonymous(state: State, scope: Scope, identifier: str) -> str:
+    if identifier not in scope.anonymous:
+        scope.anonymous[identifier] = state.anonymous_name(identifier)
+    return scope.anonymous[identifier]
+
+
+def _dirname(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
+    return os.path.dirname(scope.file)
+
+
+def _unknown_command(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
+    message = f"'{part.command}' is not a substitution" if part.command else "the substitution is empty"
+    if part.command == "eval":
+        message = "$(eval ...) must be the whole value"
+    raise _Failure("bad-substitution", text=part.text, message=message, command=part.command, commands=COMMANDS_ROS1)
+
+
+def _eval(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
+    if not is_eval(part.text):
+        return _unknown_command(state, scope, part, words)
+
+    def by_name(name: str) -> object:
+        if name not in scope.args:
+            if name in scope.declared:
+                _arg(scope, name)
+            raise KeyError(name)
+        return values.convert(_arg(scope, name), "auto")
+
+    functions: dict[str, Callable[..., object]] = {
+        "arg": lambda name: values.convert(_arg(scope, name), "auto"),
+        "env": lambda name: _environment_variable(state, name),
+        "optenv": lambda name, default="": state.environment.variables.get(name, default),
+        "find": lambda name: _package(state, name),
+        "anon": lambda name: _anonymous(state, scope, name),
+        "dirname": lambda: os.path.dirname(scope.file),
+    }
+    text = part.text[len("$(eval ") : -1]
+    try:
+        return str(expression.evaluate(text, by_name, functions))
+    except expression.NotAllowedError as error:
+        raise _Failure("eval-not-allowed", fatal=False, expression=text, message=str(error)) from error
+    except expression.EvaluationError as error:
+        raise _Failure("eval-error", expression=text, message=str(error)) from error
+
+
+def _package(state: State, name: str) -> str:
+    package = state.environment.packages.get(name)
+    if package is None:
+        raise _Failure("package-not-found", name=name)
+    return package.share
+
+
+_COMMANDS: dict[str, Callable[[State, Scope, Substitution, list[str]], str]] = {
+    "env": _env,
+    "optenv": _optenv,
+    "anon": _anon,
+    "dirname": _dirname,
+    "eval": _eval,
+}
+
+
+def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None) -> Resolved:
+    """The second round: `$(find pkg)` with the path that follows it, up to a blank."""
+    written = [part for part in value.substitutions if part.command == "find"]
+    known = True
+    try:
+        pieces = [text[start:end] for start, end in find_substitutions(text)]
+    except SubstitutionSyntaxError as error:
+        state.problem("bad-substitution", scope.origin(at or value.span), text=text, message=str(error))
+        return Resolved(text, False)
+    for piece in pieces:
+        words = [w for w in piece[2:-1].split(" ") if w]
+        if not words or words[0] != "find":
+            known = known and bool(words) and words[0] in COMMANDS_ROS1
+            continue
+        part = next((p for p in written if p.text == piece), None)
+        span = at or (part.span if part else value.span)
+        try:
+            if len(words) != 2:
+                raise _Failure("bad-substitution", text=piece, message="$(find package) takes exactly one package")
+            share = _package(state, words[1])
+        except _Failure as failure:
+            if failure.kind is not None:
+                state.problem(failure.kind, scope.origin(span), fatal=failure.fatal, **failure.data)
+            known = False
+            continue
+        text = _insert_package(state, text, piece, words[1], share)
+        if part is not None and at is None:
+            manifest = state.environment.packages[words[1]].manifest
+            target = Location(manifest, Span(0, 0))
+            state.uses.append(Use("find", Location(scope.file, span), words[1], share, target))
+    return Resolved(text, known)
+
+
+def _insert_package(state: State, text: str, piece: str, package: str, share: str) -> str:
+    before, _, after = text.partition(piece)
+    path, blank, rest = after.partition(" ")
+    path = path.replace("\\", "/").removeprefix("/")
+    if not path:
+        return before + share + after
+    return before + _path_in_package(state, package, share, path) + blank + rest
+
+
+def _path_in_package(state: State, package: str, share: str, path: str) -> str:
+    """Where `$(find package)/path` is: an executable of a devel or install space by its base name, else a file there,
+    else the path below the package's folder."""
+    for space in state.environment.devel_spaces:
+        executable = os.path.join(space, "lib", package, os.path.basename(path))
+        if os.path.isfile(executable) and os.access(executable, os.X_OK):
+            return executable
+    below = os.path.join(share, path)
+    if not os.path.exists(below):
+        for space in state.environment.devel_spaces:
+            other = os.path.join(space, "share", package, path)
+            if os.path.exists(other):
+                return other
+    return below

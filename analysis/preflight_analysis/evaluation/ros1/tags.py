@@ -1,0 +1,160 @@
+"""The small tags: remap, env, arg, machine, and the attributes `ns` and `clear_params` that several tags share."""
+
+from __future__ import annotations
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, positive_number
+from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
+from preflight_analysis.evaluation.ros1.state import State
+from preflight_analysis.evaluation.ros1.substitute import Resolved
+from preflight_analysis.evaluation.tree import Machine, Remap, Use
+from preflight_analysis.launch.model import Action
+
+_REMOVED_FROM_MACHINE = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
+
+
+def evaluate_remap(state: State, scope: Scope, action: Action, *, inside_node: bool) -> Remap | None:
+    """A `<remap>` (http://wiki.ros.org/roslaunch/XML/remap), None where it does not apply or is wrong."""
+    if not applies(state, scope, action):
+        return None
+    attributes = Attributes(state, scope, action)
+    found = attributes.require("from", "to")
+    if found is None:
+        return None
+    places = [attribute.value.span for attribute in map(action.attribute, ("from", "to")) if attribute is not None]
+    if not attributes.all_known:
+        state.unknown("<remap>", "a name in it is not known", scope, action.kind_span)
+        return None
+    ends = [names.canonicalize(side.text) for side in found]
+    for end, span in zip(ends, places, strict=True):
+        if not end or not names.is_legal(end):
+            reason = "a name is a letter, ~ or /, then letters, digits, _ and /" if end else "it is empty"
+            state.problem("invalid-name", scope.origin(span), what="remap", name=end, reason=reason)
+            return None
+    source, target = (Location(scope.file, span) for span in places)
+    return Remap(ends[0], ends[1], scope.origin(action.head_span), source, target, inside_node)
+
+
+def evaluate_env(state: State, scope: Scope, action: Action) -> None:
+    """An `<env>`: for the nodes that come later in the scope."""
+    if not applies(state, scope, action):
+        return
+    attributes = Attributes(state, scope, action)
+    found = attributes.require("name", "value")
+    if found is None:
+        return
+    if not found[0].text:
+        attributes.bad_value("name", "", "not empty")
+        return
+    if not attributes.all_known:
+        state.unknown(f"environment variable {found[0].text}", "its value is not known", scope, action.kind_span)
+    scope.env.append((found[0].text, found[1].text))
+
+
+def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
+    """The declaration of an argument in a launch file (http://wiki.ros.org/roslaunch/XML/arg)."""
+    if not applies(state, scope, action):
+        return
+    attributes = Attributes(state, scope, action)
+    found = attributes.require("name")
+    if found is None:
+        return
+    name = found[0].text
+    value, default = attributes.get("value"), attributes.get("default")
+    attributes.get("doc")
+    name_attribute = action.attribute("name")
+    span = name_attribute.value.span if name_attribute else action.kind_span
+    location = Location(scope.file, span)
+    if value is not None and default is not None:
+        state.problem("attributes-exclude", scope.origin(action.kind_span), tag="arg", names=["value", "default"])
+        default = None
+    if name in scope.declared and not scope.pass_all_args:
+        state.problem("arg-redeclared", scope.origin(span), name=name, first=scope.declared[name])
+        return
+    scope.declared.setdefault(name, location)
+    given = scope.args.get(name)
+    if value is not None:
+        if given is not None and not scope.pass_all_args:
+            state.problem("arg-override", scope.chain or scope.origin(span), name=name, declared=location)
+        else:
+            scope.args[name] = ArgValue(value.text if value.known else None, scope.origin(span))
+    elif default is not None and given is None:
+        scope.args[name] = ArgValue(default.text if default.known else None, scope.origin(span))
+    now = scope.args.get(name)
+    state.uses.append(
+        Use("declaration", location, name, now.text if now else None, None, (now.origin if now else None) or ())
+    )
+
+
+def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
+    """A `<machine>` (http://wiki.ros.org/roslaunch/XML/machine); its name where it is the default for what follows."""
+    if not applies(state, scope, action):
+        return None
+    attributes = Attributes(state, scope, action)
+    for name in _REMOVED_FROM_MACHINE:
+        removed = action.attribute(name)
+        if removed is not None and attributes.text(name):
+            origin = scope.origin(removed.name_span)
+            state.problem("unknown-attribute", origin, name=name, tag="machine", allowed=["env-loader"])
+            return None
+    found = attributes.require("name", "address")
+    if found is None:
+        return None
+    default = (attributes.text("default") or "false").lower()
+    if default not in ("true", "false", "never"):
+        attributes.bad_value("default", default, "true, false or never", ("true", "false", "never"))
+        return None
+    attributes.convert("ssh-port", 22, lambda text: integer(text or "22"))
+    timeout = attributes.convert("timeout", None, positive_number)
+    machine = Machine(
+        found[0].text,
+        found[1].text,
+        attributes.text("env-loader"),
+        attributes.text("user"),
+        timeout,
+        scope.origin(action.head_span),
+    )
+    old = state.machines.get(machine.name)
+    if old is not None and (old.address, old.user, old.env_loader) != (
+        machine.address,
+        machine.user,
+        machine.env_loader,
+    ):
+        reason = "it is declared twice, with different attributes"
+        state.problem("invalid-name", scope.origin(action.kind_span), what="machine", name=machine.name, reason=reason)
+        return None
+    state.machines.setdefault(machine.name, machine)
+    return machine.name if default == "true" else None
+
+
+def namespace_of(state: State, scope: Scope, action: Action, attributes: Attributes) -> Resolved | None:
+    """The attribute `ns`, its text empty where there is none; None where it is not a namespace, which is noted."""
+    ns = attributes.get("ns")
+    if ns is None:
+        return Resolved("")
+    if ns.known and (not ns.text or names.is_private(ns.text)):
+        attributes.bad_value("ns", ns.text, "a namespace" if ns.text else "not empty")
+        return None
+    return ns
+
+
+def clear_params(
+    state: State,
+    scope: Scope,
+    action: Action,
+    attributes: Attributes,
+    inside: Scope,
+    ns: str,
+    *,
+    node: str | None = None,
+) -> None:
+    """The attribute `clear_params`: parameters below the namespace are deleted before the launch."""
+    if not attributes.text("clear_params") or not attributes.convert("clear_params", False, values.to_flag):
+        return
+    if node is not None:
+        state.clear_params.append(names.as_namespace(names.join(inside.ns, node)))
+    elif not ns:
+        state.problem("missing-attribute", scope.origin(action.kind_span), tag=action.kind, names=["ns"])
+    else:
+        state.clear_params.append(inside.ns)
