@@ -57,5 +57,5 @@ class Graph:
 
     @property
     def complete(self) -> bool:
-        """Whether every node's interface is known and none stopped early: only then does absence mean absence."""
-        return self.tree.complete and all(i.known and i.outcome.status == "spinning" for i in self.interfaces)
+        """Whether every node's interface is known to its end: only then does absence mean absence."""
+        return self.tree.complete and all(i.complete for i in self.interfaces)

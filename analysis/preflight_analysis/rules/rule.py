@@ -10,6 +10,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
 
@@ -39,6 +40,10 @@ class Rule:
     """A rule. `id` and `name` as in DESIGN: `TOP001`, `subscribed-not-published`. The texts are Markdown.
 
     `severity` is the usual one; a check may give a finding another with `finding(..., severity=...)`.
+    `problems` are the kinds of `evaluation.problems.KINDS` that the rule reports; each kind has one rule.
+    `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
+    `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
+    `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
     """
 
     id: str
@@ -49,6 +54,10 @@ class Rule:
     example: str
     instead: str
     check: Check = field(repr=False)
+    problems: tuple[str, ...] = ()
+    needs_graph: bool = False
+    every_root: bool = False
+    unused_suppression: Callable[[Rule, Suppression], Finding] | None = field(default=None, repr=False)
 
     def finding(
         self,

@@ -78,5 +78,10 @@ class Interface:
         says what it made until then."""
         return self.source != "none"
 
+    @property
+    def complete(self) -> bool:
+        """Whether it is all that the node does: it was seen to spin, or the user declares it in an annotation."""
+        return self.source == "annotation" or (self.known and self.outcome.status == "spinning")
+
 
 NOT_RUN = Interface("none", Outcome("not-run"))

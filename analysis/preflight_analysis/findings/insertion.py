@@ -1,0 +1,36 @@
+"""Text edits of launch files that need to know how XML tags are written."""
+
+from __future__ import annotations
+
+import re
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.finding import Edit
+from preflight_analysis.launch.model import Action
+
+_BLANKS = re.compile(r"[ \t]*")
+_REST_IS_BLANK = re.compile(r"[ \t]*(?:[\r\n]|\Z)")
+
+
+def insert_child(action: Action, document: Document, child: str) -> Edit:
+    """The edit that makes `child` the first thing in the element of `action`, on lines of its own.
+
+    `child` may have several lines, each but the first with the indentation that it has relative to the first. A
+    self-closing tag is opened. Line breaks and indentation follow those of the document.
+    """
+    text = document.text
+    newline = "\r\n" if "\r\n" in text else "\n"
+    line, _ = document.lines.position(action.head_span.start)
+    blanks = _BLANKS.match(text, document.lines.line_start(line))
+    base = blanks.group() if blanks is not None else ""
+    deeper = base + ("\t" if "\t" in base else "  ")
+    body = newline + newline.join(deeper + part for part in child.split("\n"))
+    end = action.head_span.end
+    if text[action.head_span.start : end].endswith("/>"):
+        blank = end - 2
+        while text[blank - 1] in " \t":
+            blank -= 1
+        return Edit(Location(document.path, Span(blank, end)), f">{body}{newline}{base}</{action.kind}>")
+    tail = "" if _REST_IS_BLANK.match(text, end) else newline + base
+    return Edit(Location(document.path, Span(end, end)), body + tail)

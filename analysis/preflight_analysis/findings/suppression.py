@@ -1,0 +1,84 @@
+"""`<!-- preflight: ignore[TOP001, PRM001] reason -->` on the line of a finding or the line above it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.document import Comment, Document, Element, Node
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding
+
+_MARK = re.compile(r"preflight:\s*ignore\b(?:\[(?P<ids>[^\]]*)\])?")
+
+
+@dataclass(frozen=True, slots=True)
+class Suppression:
+    """One rule that one comment silences. `first_line` to `last_line`, counted from 0, are the lines it covers."""
+
+    rule: str
+    location: Location
+    first_line: int
+    last_line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Malformed:
+    """A comment that is meant to silence something and names no rule."""
+
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Filtered:
+    """Findings that are left, and the suppressions that silenced nothing."""
+
+    kept: tuple[Finding, ...]
+    unused: tuple[Suppression, ...]
+
+
+def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tuple[Malformed, ...]]:
+    """The suppressions in the comments of `document`, each at the place of its rule's id, in order."""
+    found: list[Suppression] = []
+    malformed: list[Malformed] = []
+    for comment in _comments(document.children):
+        content = comment.content
+        for mark in _MARK.finditer(content.text):
+            ids = list(re.finditer(r"[^\s,]+", mark["ids"] or ""))
+            if not ids:
+                malformed.append(Malformed(Location(document.path, content.slice_span(*mark.span()))))
+            first, _ = document.lines.position(comment.span.start)
+            last, _ = document.lines.position(comment.span.end)
+            for each in ids:
+                start = mark.start("ids") + each.start()
+                span = content.slice_span(start, start + len(each.group()))
+                found.append(Suppression(each.group(), Location(document.path, span), first, last + 1))
+    return tuple(found), tuple(malformed)
+
+
+def apply_suppressions(findings: Iterable[Finding], documents: Mapping[str, Document]) -> Filtered:
+    """Without the findings that a comment in their own file silences. A finding counts where it starts."""
+    by_file = {path: read_suppressions(document)[0] for path, document in documents.items()}
+    used: set[Suppression] = set()
+    kept: list[Finding] = []
+    for finding in findings:
+        path = finding.location.file
+        line = documents[path].lines.position(finding.location.span.start)[0] if path in documents else -1
+        hits = [s for s in by_file.get(path, ()) if s.rule == finding.rule and s.first_line <= line <= s.last_line]
+        used.update(hits)
+        if not hits:
+            kept.append(finding)
+    unused = tuple(s for suppressions in by_file.values() for s in suppressions if s not in used)
+    return Filtered(tuple(kept), unused)
+
+
+def _comments(nodes: Iterable[Node]) -> Iterator[Comment]:
+    # A stack, not recursion: a hostile file nests deeper than Python's stack.
+    stack = list(nodes)[::-1]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Comment):
+            yield node
+        elif isinstance(node, Element):
+            stack.extend(reversed(node.children))

@@ -1,0 +1,29 @@
+"""ARG002: an include does not pass an argument that the file requires."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        name, file = str(problem.data["name"]), shown(str(problem.data["file"]), context)
+        near = nearest(name, problem.data["passed"])
+        hint = f"; it passes '{near}'" if near else ""
+        yield problem_finding(rule, problem, f"'{file}' requires argument '{name}', which is not passed{hint}")
+
+
+RULE = Rule(
+    id="ARG002",
+    name="missing-argument",
+    severity="error",
+    what="Reports an `<include>` that gives no value to an argument that the included file declares without default.",
+    why="`roslaunch` stops with `requires the 'name' arg to be set`.",
+    example='<include file="$(find camera)/launch/camera.launch"/>',
+    instead='<include file="$(find camera)/launch/camera.launch">\n  <arg name="serial" value="7cd1"/>\n</include>',
+    check=_check,
+    problems=("arg-required",),
+)

@@ -1,0 +1,20 @@
+"""ARG006: a value is passed for an argument that the file fixes."""
+
+from preflight_analysis.rules.problems import check_problems
+from preflight_analysis.rules.rule import Rule
+
+RULE = Rule(
+    id="ARG006",
+    name="argument-fixed",
+    severity="error",
+    what="Reports an argument that is passed to a file which fixes it with `value=`.",
+    why="`roslaunch` stops: only arguments declared with `default=`, or with neither, can be set from outside.",
+    example='<!-- in camera.launch: <arg name="rate" value="30"/> -->\n<include file="camera.launch">\n'
+    '  <arg name="rate" value="10"/>\n</include>',
+    instead='<!-- in camera.launch: <arg name="rate" default="30"/> -->\n<include file="camera.launch">\n'
+    '  <arg name="rate" value="10"/>\n</include>',
+    check=check_problems(
+        lambda problem: f"argument '{problem.data['name']}' cannot be passed: the file fixes it with value="
+    ),
+    problems=("arg-override",),
+)

@@ -1,0 +1,23 @@
+"""LCH003: the document element is not <launch>."""
+
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.rules.problems import check_problems
+from preflight_analysis.rules.rule import Rule
+
+
+def _message(problem: Problem) -> str:
+    tag = problem.data["tag"]
+    return f"the outermost element is <{tag}>, not <launch>" if tag else "there is no <launch> element in this file"
+
+
+RULE = Rule(
+    id="LCH003",
+    name="no-launch-element",
+    severity="error",
+    what="Reports a launch file without a `<launch>` element around its content.",
+    why="`roslaunch` stops with `No root <launch> tag`.",
+    example='<node pkg="camera" type="driver" name="camera"/>',
+    instead='<launch>\n  <node pkg="camera" type="driver" name="camera"/>\n</launch>',
+    check=check_problems(_message),
+    problems=("root-not-launch",),
+)

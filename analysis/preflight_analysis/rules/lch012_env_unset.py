@@ -1,0 +1,16 @@
+"""LCH012: $(env) of a variable that is not set."""
+
+from preflight_analysis.rules.problems import check_problems
+from preflight_analysis.rules.rule import Rule
+
+RULE = Rule(
+    id="LCH012",
+    name="environment-variable-unset",
+    severity="warning",
+    what="Reports `$(env NAME)` of a variable that is not set in the environment in which the analysis looks.",
+    why="`roslaunch` stops where the variable is not set. It may be set on the robot, hence a warning.",
+    example='<arg name="robot" default="$(env ROBOT)"/>',
+    instead='<arg name="robot" default="$(optenv ROBOT turtle)"/>',
+    check=check_problems(lambda problem: f"environment variable '{problem.data['name']}' is not set"),
+    problems=("env-unset",),
+)

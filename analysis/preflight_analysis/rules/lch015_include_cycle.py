@@ -1,0 +1,27 @@
+"""LCH015: files that include each other."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.problems import problem_finding, problems_of, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        way = " -> ".join(shown(str(path), context) for path in problem.data["chain"])
+        message = f"'{shown(str(problem.data['path']), context)}' includes itself: {way}"
+        yield problem_finding(rule, problem, message)
+
+
+RULE = Rule(
+    id="LCH015",
+    name="include-cycle",
+    severity="error",
+    what="Reports an `<include>` that leads back to a file that is being included.",
+    why="`roslaunch` goes round until Python's recursion limit ends it, and starts nothing.",
+    example='<!-- in robot.launch -->\n<include file="$(find robot)/launch/robot.launch"/>',
+    instead='<!-- in robot.launch -->\n<include file="$(find robot)/launch/base.launch"/>',
+    check=_check,
+    problems=("include-cycle",),
+)

@@ -1,0 +1,44 @@
+"""LCH019: a suppression comment that silences nothing."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.findings.suppression import Suppression, read_suppressions
+from preflight_analysis.rules import registry
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Comments that cannot silence anything; those that merely did not are reported after all rules have run."""
+    known = {r.id for r in registry.all_rules()}
+    for document in context.documents.values():
+        suppressions, malformed = read_suppressions(document)
+        for each in malformed:
+            yield rule.finding("'preflight: ignore' names no rule; write ignore[TOP001]", each.location)
+        for each_rule in suppressions:
+            if each_rule.rule not in known:
+                near = nearest(each_rule.rule.upper(), known)
+                fixes: tuple[Fix, ...] = rename(context, each_rule.location, each_rule.rule, near) if near else ()
+                message = f"there is no rule '{each_rule.rule}'{did_you_mean(near)}"
+                yield rule.finding(message, each_rule.location, fixes=fixes)
+
+
+def _unused(rule: Rule, suppression: Suppression) -> Finding:
+    return rule.finding(f"no finding of {suppression.rule} is silenced here", suppression.location)
+
+
+RULE = Rule(
+    id="LCH019",
+    name="unused-suppression",
+    severity="warning",
+    what="Reports a `preflight: ignore[...]` comment that silences no finding, or names no rule. It is judged only "
+    "when the rule that it names was able to run: one that needs the nodes' interfaces is not while they are unknown.",
+    why="A comment that is left over would silence the next, real finding on that line.",
+    example='<!-- preflight: ignore[LCH004] -->\n<param name="rate" value="30"/>',
+    instead='<param name="rate" value="30"/>',
+    check=_check,
+    every_root=True,
+    unused_suppression=_unused,
+)

@@ -1,0 +1,30 @@
+"""LCH020: an annotation that cannot be read."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for node in context.tree.nodes:
+        _, problems = read_annotation(node.action)
+        for problem in problems:
+            location = Location(node.location.file, problem.span)
+            yield rule.finding(problem.message, location, related=include_chain(node.origin))
+
+
+RULE = Rule(
+    id="LCH020",
+    name="malformed-annotation",
+    severity="warning",
+    what="Reports what cannot be understood in the `<topics>`, `<services>`, `<params>` and `<actions>` that annotate "
+    "a node.",
+    why="The item is left out, so that findings that rest on the annotation are missing or wrong.",
+    example='<!-- <topics><topic name="chatter" type="String" class="publish"/></topics> -->',
+    instead='<!-- <topics><topic name="chatter" type="std_msgs/String" class="pub"/></topics> -->',
+    check=_check,
+)

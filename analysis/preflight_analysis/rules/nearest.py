@@ -1,0 +1,116 @@
+"""Which known name a wrong one was meant to be."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from typing import Literal
+
+from rapidfuzz.distance import OSA
+
+Likeness = Literal["typo", "words"]
+"""`typo`: a slip of the keyboard apart, or the same but for case and underscores. `words`: made of the same words."""
+
+_WORD = re.compile(r"[A-Za-z]+|\d+")
+_MIN_PREFIX = 4
+
+
+def cutoff(length: int) -> int:
+    """How many edits a word of `length` characters may be away and still count as a typo."""
+    if length <= 2:
+        return 0
+    return 1 if length <= 4 else 2 if length <= 8 else 3
+
+
+def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = str) -> str | None:
+    """The candidate that `name` is most likely a misspelling of, None if all are too far; ties go by alphabet.
+
+    Case, `-` against `_`, and what `key` removes do not count as edits.
+    """
+    wanted = _folded(key(name))
+    best: tuple[int, int, str] | None = None
+    for candidate in sorted(set(candidates)):
+        if candidate == name:
+            continue
+        folded = _folded(key(candidate))
+        limit = cutoff(max(len(wanted), len(folded)))
+        distance = int(OSA.distance(wanted, folded, score_cutoff=limit))
+        if distance > limit:
+            continue
+        rank = (distance, int(OSA.distance(name, candidate)), candidate)
+        if best is None or rank < best:
+            best = rank
+    return best[2] if best else None
+
+
+def did_you_mean(candidate: str | None) -> str:
+    """The end of a message that names the candidate; empty without one."""
+    return f"; did you mean '{candidate}'?" if candidate else ""
+
+
+def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
+    """How alike two graph names are, and their edit distance; None if they are not.
+
+    Names whose numbers differ (`/camera1`, `/camera2`) are never alike, nor are words of fewer than three letters
+    that differ (`/joint_x`, `/joint_y`): they were written so on purpose.
+    """
+    if name == other:
+        return None
+    mine, theirs = _numbers(name), _numbers(other)
+    if mine != theirs and mine and theirs:
+        return None
+    distance = int(OSA.distance(name, other))
+    if mine == theirs and _is_typo(name, other):
+        return "typo", distance
+    return ("words", distance) if _same_words(name, other) else None
+
+
+def _is_typo(name: str, other: str) -> bool:
+    if _squeezed(name) == _squeezed(other):
+        return True
+    parts, others = name.strip("/").split("/"), other.strip("/").split("/")
+    if len(parts) != len(others):
+        return False
+    pairs = [(a, b) for a, b in zip(parts, others, strict=True) if a != b]
+    words, other_words = _words("/".join(a for a, _ in pairs)), _words("/".join(b for _, b in pairs))
+    if len(words) != len(other_words):
+        # A stray or missing letter may also split a word (`cmd_vell`, `c_md_vel`): judge the segment as a whole.
+        return all(min(len(a), len(b)) >= 5 and OSA.distance(_squeezed(a), _squeezed(b)) <= 1 for a, b in pairs)
+    different = [(a, b) for a, b in zip(words, other_words, strict=True) if a != b]
+    return len(different) == 1 and all(_is_word_typo(a, b) for a, b in different)
+
+
+def _is_word_typo(word: str, other: str) -> bool:
+    if min(len(word), len(other)) < 3:
+        return False
+    if min(len(word), len(other)) >= _MIN_PREFIX and (word.startswith(other) or other.startswith(word)):
+        return True
+    return bool(OSA.distance(word, other) <= cutoff(min(len(word), len(other))))
+
+
+def _same_words(name: str, other: str) -> bool:
+    """Equal last segments, one name's words all among the other's, or most words in common."""
+    if name.rpartition("/")[2] == other.rpartition("/")[2]:
+        return True
+    mine = {w for w in _words(name) if not w.isdigit()}
+    theirs = {w for w in _words(other) if not w.isdigit()}
+    common = mine & theirs
+    if not common:
+        return False
+    return common in (mine, theirs) or len(common) / len(mine | theirs) >= 0.6
+
+
+def _words(name: str) -> list[str]:
+    return [w.lower() for w in _WORD.findall(name)]
+
+
+def _numbers(name: str) -> list[str]:
+    return re.findall(r"\d+", name)
+
+
+def _folded(name: str) -> str:
+    return name.lower().replace("-", "_")
+
+
+def _squeezed(name: str) -> str:
+    return re.sub(r"[_-]", "", name).lower()

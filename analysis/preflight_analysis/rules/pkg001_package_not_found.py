@@ -1,0 +1,50 @@
+"""PKG001: a package that is not there."""
+
+from collections.abc import Iterable, Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.problems import include_chain, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        name = str(problem.data["name"])
+        yield _finding(rule, context, name, problem.location, include_chain(problem.origin), stops=problem.fatal)
+    for node in context.tree.nodes:
+        if node.resolved.package_path is None and not node.unknowns:
+            location = attribute_location(node, "pkg")
+            yield _finding(rule, context, node.package, location, include_chain(node.origin), stops=False)
+
+
+def _finding(
+    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], *, stops: bool
+) -> Finding:
+    packages = context.environment.packages
+    near = nearest(name, packages)
+    fixes = rename(context, location, name, near) if near else ()
+    return rule.finding(
+        f"package '{name}' is not among the {len(packages)} packages of this environment{did_you_mean(near)}",
+        location,
+        related=related,
+        fixes=fixes,
+        stops_launch=stops,
+    )
+
+
+RULE = Rule(
+    id="PKG001",
+    name="package-not-found",
+    severity="error",
+    what="Reports a package, in `$(find ...)` or as a node's `pkg`, that is neither on the package path nor in the "
+    "workspace, and names the nearest one.",
+    why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
+    "command `ros-preflight doctor` shows where packages are looked for.",
+    example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',
+    instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
+    check=_check,
+    problems=("package-not-found",),
+)

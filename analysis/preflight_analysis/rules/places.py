@@ -1,0 +1,29 @@
+"""Where a finding about a node is shown."""
+
+from __future__ import annotations
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Related
+from preflight_analysis.graph.model import Connection
+
+
+def node_location(node: LaunchNode) -> Location:
+    """The start tag of the node."""
+    return Location(node.location.file, node.action.head_span)
+
+
+def attribute_location(node: LaunchNode, name: str) -> Location:
+    """The value of an attribute of the node's tag; the start tag if it has none of that name."""
+    value = node.action.value(name)
+    return Location(node.location.file, value.span) if value is not None else node_location(node)
+
+
+def connection_location(connection: Connection) -> Location:
+    """Where the launch file decides on the name of the connection: the remap's `to`, else the node's start tag."""
+    return connection.remap.target_location if connection.remap is not None else node_location(connection.node)
+
+
+def related_end(connection: Connection, verb: str) -> Related:
+    """The other end, `verb` says what it does: `publishes`, `subscribes to`, ..."""
+    return Related(f"{connection.node.name} {verb} {connection.name}", connection_location(connection))

@@ -1,0 +1,99 @@
+"""From what the evaluation met to findings: what all rules about problems share."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+
+from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.rule import Check, Context, Rule
+
+
+def problems_of(rule: Rule, context: Context) -> Iterator[Problem]:
+    """The problems whose kind `rule` owns."""
+    return (problem for problem in context.tree.problems if problem.kind in rule.problems)
+
+
+def problem_finding(
+    rule: Rule,
+    problem: Problem,
+    message: str,
+    *,
+    severity: Severity | None = None,
+    related: Iterable[Related] = (),
+    fixes: Iterable[Fix] = (),
+) -> Finding:
+    """The finding for a problem, at its place, with the includes that lead there."""
+    return rule.finding(
+        message,
+        problem.location,
+        severity=severity,
+        related=(*related, *include_chain(problem.origin)),
+        fixes=fixes,
+        stops_launch=problem.fatal,
+    )
+
+
+def check_problems(message: Callable[[Problem], str]) -> Check:
+    """The check of a rule that has nothing to do but to word its problems."""
+
+    def check(rule: Rule, context: Context) -> Iterator[Finding]:
+        for problem in problems_of(rule, context):
+            yield problem_finding(rule, problem, message(problem))
+
+    return check
+
+
+def check_names(message: Callable[[Problem], str], wrong: str, known: str) -> Check:
+    """As `check_problems`, for problems whose data has a wrong name at `wrong` and the known ones at `known`: the
+    nearest of them is named, and offered as a fix."""
+
+    def check(rule: Rule, context: Context) -> Iterator[Finding]:
+        for problem in problems_of(rule, context):
+            name = str(problem.data[wrong])
+            near = nearest(name, problem.data[known])
+            fixes = rename(context, problem.location, name, near) if near else ()
+            yield problem_finding(rule, problem, message(problem) + did_you_mean(near), fixes=fixes)
+
+    return check
+
+
+def include_chain(origin: Origin) -> tuple[Related, ...]:
+    """The include tags on the way to a place, the innermost first."""
+    return tuple(Related("included here", location) for location in reversed(origin[:-1]))
+
+
+def rename(context: Context, location: Location, old: str, new: str, *, preferred: bool = True) -> tuple[Fix, ...]:
+    """A fix that writes `new` for `old` at `location`; none if the text there does not hold `old` exactly once."""
+    document = context.documents.get(location.file)
+    if document is None or not old:
+        return ()
+    text = document.text[location.span.start : location.span.end]
+    hits = [m.start() for m in re.finditer(rf"(?<![\w]){re.escape(old)}(?![\w])", text)]
+    if len(hits) != 1:
+        return ()
+    start = location.span.start + hits[0]
+    edit = Edit(Location(location.file, Span(start, start + len(old))), new)
+    return (Fix(f"Replace '{old}' by '{new}'", (edit,), preferred),)
+
+
+def quoted(names: Iterable[str]) -> str:
+    """`'a', 'b' and 'c'`."""
+    words = [f"'{name}'" for name in names]
+    return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
+
+
+def shown(path: str, context: Context) -> str:
+    """A path as a message shows it: below its package or the workspace if it is there, else in full."""
+    best = ""
+    for package in context.environment.packages.values():
+        share = package.share.rstrip("/")
+        if path.startswith(share + "/") and len(share) > len(best):
+            best = share
+    if best:
+        return f"{Path(best).name}{path[len(best) :]}"
+    return path
