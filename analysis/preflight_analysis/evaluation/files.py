@@ -19,6 +19,9 @@ class Files(Protocol):
     def text(self, path: str) -> Document | Unreadable:
         """Any text file, not parsed: a Document without children."""
 
+    def digest(self, path: str) -> str:
+        """Names the content of a file as it is now; "" where there is none."""
+
     def data(self, path: str) -> bytes | Unreadable:
         """The bytes of a file (`binfile`)."""
 

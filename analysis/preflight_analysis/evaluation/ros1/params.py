@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.scope import Scope
-from preflight_analysis.evaluation.ros1.state import MISSING, State
+from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import resolve
 from preflight_analysis.evaluation.tree import CommandValue, Param, Use
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
@@ -76,7 +75,7 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
     text = given.text.strip()
     if source in ("textfile", "binfile"):
         path = os.path.join(state.cwd, given.text)
-        found = state.read_text(path) if source == "textfile" else _data(state, path)
+        found = state.read_text(path) if source == "textfile" else state.read_data(path)
         if isinstance(found, Unreadable):
             report_file(state, scope, action, source, found)
             return _NoValue(f"the file {path} {found.reason}")
@@ -90,12 +89,6 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
         attribute = source if type_name in values.TYPES else "type"
         attributes.bad_value(attribute, text[:100] if attribute == source else type_name, str(error))
         return _NoValue(f"it is not {error}")
-
-
-def _data(state: State, path: str) -> bytes | Unreadable:
-    found = state.files.data(path)
-    state.inputs[path] = MISSING if isinstance(found, Unreadable) else hashlib.sha1(found).hexdigest()  # noqa: S324
-    return found
 
 
 def report_file(state: State, scope: Scope, action: Action, attribute: str, found: Unreadable) -> None:

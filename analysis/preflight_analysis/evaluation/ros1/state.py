@@ -22,9 +22,6 @@ from preflight_analysis.evaluation.tree import (
 )
 from preflight_analysis.launch.model import LaunchFile
 
-MISSING = ""
-"""Digest of a file that was looked for and is not there."""
-
 
 class State:
     """The growing result, and what everything is read from."""
@@ -67,12 +64,15 @@ class State:
 
     def read_launch_file(self, path: str) -> LaunchFile | Unreadable:
         """A launch file, noted as an input."""
-        found = self.files.launch_file(path)
-        self.inputs[path] = MISSING if isinstance(found, Unreadable) else found.document.digest
-        return found
+        self.inputs[path] = self.files.digest(path)
+        return self.files.launch_file(path)
 
     def read_text(self, path: str) -> Document | Unreadable:
         """A text file, noted as an input."""
-        found = self.files.text(path)
-        self.inputs[path] = MISSING if isinstance(found, Unreadable) else found.digest
-        return found
+        self.inputs[path] = self.files.digest(path)
+        return self.files.text(path)
+
+    def read_data(self, path: str) -> bytes | Unreadable:
+        """The bytes of a file, noted as an input."""
+        self.inputs[path] = self.files.digest(path)
+        return self.files.data(path)

@@ -1,0 +1,129 @@
+"""Questions about a workspace, answered from memory as long as what they were answered from is unchanged."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.build import build_graph
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.rules.registry import run_rules
+from preflight_analysis.rules.rule import Context
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.workspace.sources import Sources
+
+
+@dataclass(frozen=True, slots=True)
+class Analysis:
+    """Everything known of one root. `documents` has each text that a location in it may point into, by path."""
+
+    root: str
+    tree: LaunchTree
+    documents: Mapping[str, Document]
+    launch_files: Mapping[str, LaunchFile]
+    environment: Environment
+    graph: Graph | None
+    findings: tuple[Finding, ...]
+    why_not_run: str | None
+
+
+class Workspace:
+    """The engine behind server and command. Thread-safe.
+
+    `cwd` is what relative paths in launch files are relative to, the folder where roslaunch would be called.
+    """
+
+    def __init__(self, environment: Environment, sources: Sources, cwd: str | None = None) -> None:
+        self.environment = environment
+        self.sources = sources
+        self._cwd = cwd or environment.workspace or os.getcwd()
+        self._executables = ExecutableIndex(environment)
+        self._lock = threading.Lock()
+        self._static: dict[tuple[str, tuple[tuple[str, str], ...]], Analysis] = {}
+
+    def static(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
+        """What can be said of `path` launched with `args` without running anything."""
+        path = os.path.normpath(path)
+        args = args or {}
+        key = (path, tuple(sorted(args.items())))
+        with self._lock:
+            known = self._static.get(key)
+        if known is not None and self._unchanged(known.tree):
+            return known
+        tree = evaluate(path, args, self.sources, self._executables, self.environment, self._cwd)
+        documents, launch_files = self._documents(tree)
+        context = Context(path, tree, documents, launch_files, self.environment)
+        findings = tuple(run_rules(context))
+        analysis = Analysis(path, tree, documents, launch_files, self.environment, None, findings, None)
+        with self._lock:
+            self._static[key] = analysis
+        return analysis
+
+    def refresh(self) -> None:
+        """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
+        with self._lock:
+            self._executables = ExecutableIndex(self.environment)
+            self._static.clear()
+
+    def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
+        """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
+        params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
+        return tuple(_request(node, params) for node in analysis.tree.nodes)
+
+    def with_interfaces(self, analysis: Analysis, interfaces: Sequence[Interface], why_not_run: str | None) -> Analysis:
+        """The analysis with the graph that the interfaces (one a node of the tree, in order) make, and all findings.
+
+        `why_not_run` says why nothing was executed, None where it was.
+        """
+        graph = build_graph(analysis.tree, interfaces)
+        context = Context(
+            analysis.root,
+            analysis.tree,
+            analysis.documents,
+            analysis.launch_files,
+            analysis.environment,
+            graph,
+            why_not_run,
+        )
+        return replace(analysis, graph=graph, findings=tuple(run_rules(context)), why_not_run=why_not_run)
+
+    def _unchanged(self, tree: LaunchTree) -> bool:
+        return all(self.sources.digest(path) == known for path, known in tree.inputs.items())
+
+    def _documents(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
+        launch_files: dict[str, LaunchFile] = {}
+        documents: dict[str, Document] = {}
+        for path in tree.files:
+            found = self.sources.launch_file(path)
+            if not isinstance(found, Unreadable):
+                launch_files[path] = found
+                documents[path] = found.document
+        for path in tree.inputs:
+            if path not in documents:
+                text = self.sources.text(path)
+                if not isinstance(text, Unreadable):
+                    documents[path] = text
+        return documents, launch_files
+
+
+def _request(node: LaunchNode, params: Mapping[str, object]) -> TraceRequest | None:
+    if node.unknowns or node.resolved.path is None:
+        return None
+    try:
+        args = tuple(shlex.split(node.args))
+    except ValueError:
+        args = tuple(node.args.split())
+    remaps = tuple((remap.source, remap.target) for remap in node.remaps)
+    return TraceRequest(node.name, node.package, node.resolved.path, args, remaps, params, node.env, node.cwd)
