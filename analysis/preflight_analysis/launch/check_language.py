@@ -36,15 +36,14 @@ def _check(action: Action) -> Iterator[LanguageProblem]:
     kind = action.kind if action.kind in TAGS else action.kind.lower()
     tag = TAGS[kind]
     for attribute in action.attributes:
-        # What is refused in a <test> is reported when it is evaluated, where it stops the launch.
-        refused = kind == "test" and attribute.name in ("respawn", "respawn_delay", "output")
-        if attribute.name not in tag.attributes and not refused:
+        # What is refused is reported when the tag is evaluated, where it stops the launch.
+        if attribute.name not in (*tag.attributes, *tag.refused):
             data = {"name": attribute.name, "tag": kind, "allowed": list(tag.attributes)}
             yield LanguageProblem("unknown-attribute", attribute.name_span, data)
     annotations = ANNOTATIONS if kind in ("node", "test") else ()
     for child in action.children:
         name = child.kind.lower() if kind in _LOWER_CASED else child.kind
-        if name in annotations or name in _DEFUNCT.get(kind, ()):
+        if name in annotations or name in _DEFUNCT.get(kind, ()) or name in tag.refused:
             continue
         if name in tag.children:
             yield from _check(child)

@@ -20,6 +20,8 @@ class Tag:
     optional: tuple[str, ...] = ()
     children: tuple[str, ...] = ()
     text: bool = False
+    refused: tuple[str, ...] = ()
+    """Attributes and children on which roslaunch stops, where others that it does not know get a warning."""
 
     @property
     def attributes(self) -> tuple[str, ...]:
@@ -39,6 +41,7 @@ TAGS: dict[str, Tag] = {
         ("pkg", "type", "test-name"),
         ("name", "args", "ns", "launch-prefix", "machine", "cwd", "clear_params", "time-limit", "retry", "required"),
         _NODE,
+        refused=("respawn", "respawn_delay", "output"),
     ),
     "include": Tag(("file",), ("ns", "clear_params", "pass_all_args"), ("arg", "env")),
     "arg": Tag(("name",), ("default", "value", "doc")),
@@ -46,5 +49,9 @@ TAGS: dict[str, Tag] = {
     "rosparam": Tag((), ("command", "file", "param", "ns", "subst_value"), (), text=True),
     "remap": Tag(("from", "to")),
     "env": Tag(("name", "value")),
-    "machine": Tag(("name", "address"), ("env-loader", "ssh-port", "user", "password", "default", "timeout"), ()),
+    "machine": Tag(
+        ("name", "address"),
+        ("env-loader", "ssh-port", "user", "password", "default", "timeout"),
+        refused=("ros-root", "ros-package-path", "ros-ip", "ros-hostname", "env"),
+    ),
 }

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.schema_ros1 import TAGS
 
 T = TypeVar("T")
 
@@ -56,6 +57,21 @@ class Attributes:
         except values.BadValueError as error:
             self.bad_value(name, found.text, str(error))
             return default
+
+    def refused(self) -> bool:
+        """Whether the tag has an attribute or a child on which roslaunch stops; the first is noted."""
+        kind, tag = self.action.kind, TAGS[self.action.kind]
+        for attribute in self.action.attributes:
+            if attribute.name in tag.refused:
+                origin, allowed = self.scope.origin(attribute.name_span), list(tag.attributes)
+                self.state.problem("unknown-attribute", origin, name=attribute.name, tag=kind, allowed=allowed)
+                return True
+        for child in self.action.children:
+            if child.kind in tag.refused:
+                origin, allowed = self.scope.origin(child.kind_span), list(tag.children)
+                self.state.problem("unknown-element", origin, tag=child.kind, parent=kind, allowed=allowed)
+                return True
+        return False
 
     def bad_value(self, name: str, value: str, expected: str, choices: tuple[str, ...] = ()) -> None:
         """Note a value that roslaunch refuses."""

@@ -15,8 +15,6 @@ from preflight_analysis.evaluation.ros1.tags import clear_params, evaluate_env, 
 from preflight_analysis.evaluation.tree import Executable, LaunchNode, Unknown, Use
 from preflight_analysis.launch.model import Action
 
-_NOT_IN_TEST = ("respawn", "respawn_delay", "output")
-
 
 def evaluate_node(state: State, scope: Scope, action: Action, default_machine: str | None) -> None:
     """Add the node of a `<node>` or `<test>` tag, and its parameters."""
@@ -136,13 +134,8 @@ def _options(attributes: Attributes) -> _Options | None:
 
 
 def _test_attributes(attributes: Attributes) -> bool:
-    action = attributes.action
-    for name in _NOT_IN_TEST:
-        attribute = action.attribute(name)
-        if attribute is not None:
-            origin = attributes.scope.origin(attribute.name_span)
-            attributes.state.problem("unknown-attribute", origin, name=name, tag="test", allowed=[])
-            return False
+    if attributes.refused():
+        return False
     attributes.convert("time-limit", None, lambda text: positive_number(text) if text else None)
     attributes.convert("retry", None, lambda text: integer(text) if text else None)
     return True

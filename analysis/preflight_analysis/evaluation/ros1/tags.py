@@ -11,8 +11,6 @@ from preflight_analysis.evaluation.ros1.substitute import Resolved
 from preflight_analysis.evaluation.tree import Machine, Remap, Use
 from preflight_analysis.launch.model import Action
 
-_REMOVED_FROM_MACHINE = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
-
 
 def evaluate_remap(state: State, scope: Scope, action: Action, *, inside_node: bool) -> Remap | None:
     """A `<remap>` (http://wiki.ros.org/roslaunch/XML/remap), None where it does not apply or is wrong."""
@@ -92,12 +90,8 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
     if not applies(state, scope, action):
         return None
     attributes = Attributes(state, scope, action)
-    for name in _REMOVED_FROM_MACHINE:
-        removed = action.attribute(name)
-        if removed is not None and attributes.text(name):
-            origin = scope.origin(removed.name_span)
-            state.problem("unknown-attribute", origin, name=name, tag="machine", allowed=["env-loader"])
-            return None
+    if attributes.refused():
+        return None
     found = attributes.require("name", "address")
     if found is None:
         return None
