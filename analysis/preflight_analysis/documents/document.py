@@ -92,7 +92,9 @@ Node = Element | Comment | Text
 class Document:
     """One file's text and what it parses to. `digest` names the text; equal digests mean equal documents.
 
-    `root` is the first top-level element, None in a file that has none yet.
+    `root` is the first top-level element, None in a file that has none yet. `entities` are the references, with
+    their places, to entities that the file's DOCTYPE declares: they are never expanded, and stand as written
+    (`&name;`) in the values and texts that hold them.
     """
 
     path: str
@@ -101,6 +103,7 @@ class Document:
     children: tuple[Node, ...]
     problems: tuple[SyntaxProblem, ...]
     lines: LineIndex = field(compare=False, repr=False)
+    entities: tuple[tuple[str, Span], ...] = ()
 
     @property
     def root(self) -> Element | None:

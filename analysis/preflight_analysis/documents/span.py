@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass
+
+_LINE_END = re.compile(r"\r\n?|\n")
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -37,17 +40,7 @@ class LineIndex:
 
     def __init__(self, text: str) -> None:
         starts = [0]
-        if "\r" in text:
-            at = 0
-            while at < len(text):
-                if text[at] == "\n" or (text[at] == "\r" and text[at + 1 : at + 2] != "\n"):
-                    starts.append(at + 1)
-                at += 1
-        else:
-            at = text.find("\n")
-            while at >= 0:
-                starts.append(at + 1)
-                at = text.find("\n", at + 1)
+        starts.extend(found.end() for found in _LINE_END.finditer(text))
         self._starts = starts
         self._length = len(text)
 

@@ -1,0 +1,121 @@
+"""Files to text: regular files of bounded size, decoded as their first bytes say, and a reason where that fails."""
+
+from __future__ import annotations
+
+import codecs
+import hashlib
+import os
+import re
+import stat
+from dataclasses import dataclass
+from typing import Literal
+
+SIZE_LIMIT = 4 * 1024 * 1024
+"""In bytes. The largest launch file of some 3,400 public ones is 200 times smaller."""
+
+_DECLARED_ENCODING = re.compile(rb"""<\?xml\b[^>]{0,200}?\bencoding[ \t\r\n]*=[ \t\r\n]*["']([A-Za-z0-9._:-]+)["']""")
+_BYTE_ORDER_MARKS = (
+    (codecs.BOM_UTF8, "utf-8"),
+    (codecs.BOM_UTF32_LE, "utf-32-le"),  # before UTF-16, whose mark it starts with
+    (codecs.BOM_UTF32_BE, "utf-32-be"),
+    (codecs.BOM_UTF16_LE, "utf-16-le"),
+    (codecs.BOM_UTF16_BE, "utf-16-be"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """What a file holds, line ends as they are. `digest` names the text (not the bytes, nor the path)."""
+
+    path: str
+    text: str
+    digest: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unreadable:
+    """Why there is no text. `reason` goes on from the file's name: "x.launch " + "is a folder".
+
+    `kind`: nothing is there; it cannot be read; or it can, and is not text that we analyse.
+    """
+
+    path: str
+    reason: str
+    kind: Literal["missing", "unreadable", "not-text"]
+
+
+def digest(content: str | bytes) -> str:
+    """The name of a content: equal digests mean equal contents. 40 hexadecimal digits."""
+    data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
+    return hashlib.blake2b(data, digest_size=20).hexdigest()
+
+
+def read_text(path: str) -> Text | Unreadable:
+    """Read a file whole. Never raises, and never waits for a FIFO, a device or a terminal.
+
+    The encoding is that of the byte order mark, else the one that an XML declaration names, else UTF-8.
+    """
+    try:
+        # Before the open: opening some devices has an effect.
+        if refused := _refuse(path, os.stat(path)):
+            return refused
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
+        with open(descriptor, "rb") as file:
+            # Again, of what was really opened: the file may have been replaced in between.
+            if refused := _refuse(path, os.fstat(descriptor)):
+                return refused
+            data = file.read(SIZE_LIMIT + 1)
+    except (FileNotFoundError, NotADirectoryError):
+        return Unreadable(path, "does not exist", "missing")
+    except PermissionError:
+        return Unreadable(path, "cannot be read: no permission to read it", "unreadable")
+    except OSError as error:
+        return Unreadable(path, f"cannot be read: {(error.strerror or str(error)).lower()}", "unreadable")
+    except ValueError:  # a NUL or a lone surrogate in the path
+        return Unreadable(path, "does not exist: no file can have this name", "missing")
+    if len(data) > SIZE_LIMIT:
+        return _too_large(path, len(data))
+    return _decode(path, data)
+
+
+def _refuse(path: str, status: os.stat_result) -> Unreadable | None:
+    if stat.S_ISDIR(status.st_mode):
+        return Unreadable(path, "is a folder", "unreadable")
+    if not stat.S_ISREG(status.st_mode):
+        return Unreadable(path, "is not a regular file", "unreadable")
+    if status.st_size > SIZE_LIMIT:
+        return _too_large(path, status.st_size)
+    return None
+
+
+def _too_large(path: str, size: int) -> Unreadable:
+    limit = SIZE_LIMIT // (1024 * 1024)
+    return Unreadable(path, f"is {size / 1e6:.1f} MB; files above {limit} MiB are not analysed", "not-text")
+
+
+def _decode(path: str, data: bytes) -> Text | Unreadable:
+    encoding, declared = "utf-8", False
+    for mark, name in _BYTE_ORDER_MARKS:
+        if data.startswith(mark):
+            encoding, data = name, data[len(mark) :]
+            break
+    else:
+        if found := _DECLARED_ENCODING.match(data):
+            encoding, declared = found[1].decode("ascii"), True
+    if encoding.lower().replace("_", "-") in {"utf-8", "utf8"} and b"\0" in data:
+        return Unreadable(path, "is not a text file", "not-text")
+    try:
+        text = data.decode(encoding)
+    except LookupError:
+        return Unreadable(path, f"declares the encoding {encoding!r}, which is not known", "not-text")
+    except UnicodeDecodeError as error:
+        if declared:
+            return Unreadable(path, f"declares the encoding {encoding!r} and is not written in it", "not-text")
+        line = data.count(b"\n", 0, error.start) + 1
+        what = f"byte 0x{data[error.start]:02x} in line {line}"
+        return Unreadable(path, f"is not a text file in {encoding.upper()} ({what})", "not-text")
+    except ValueError:  # what a few codecs raise instead (idna, punycode)
+        return Unreadable(path, f"declares the encoding {encoding!r} and is not written in it", "not-text")
+    if "\0" in text:
+        return Unreadable(path, "is not a text file", "not-text")
+    return Text(path, text, digest(text))

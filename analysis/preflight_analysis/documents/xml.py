@@ -1,0 +1,85 @@
+"""XML to Document. The tree is that of the tolerant scanner; whether a text is well-formed, expat decides."""
+
+from __future__ import annotations
+
+import re
+from xml.parsers import expat
+
+from preflight_analysis.documents.document import Document, SyntaxProblem
+from preflight_analysis.documents.reading import digest
+from preflight_analysis.documents.span import LineIndex, Span
+from preflight_analysis.documents.xml_scanner import NAME, Scan, scan
+
+MAX_PROBLEMS = 100
+"""A text that is no XML at all has one per character or so; nobody reads them."""
+
+_WORD = re.compile(f"</?(?:{NAME})?|{NAME}|[^ \t\r\n]")
+_CONTINUATION_BYTES = bytes(range(0x80, 0xC0))
+_PARAMETER_REFERENCE = re.compile(f"%{NAME};")
+
+
+def parse_xml(path: str, text: str) -> Document:
+    """Parse the text of an XML file, whatever it looks like, in time linear in its length. Never raises.
+
+    `problems` is empty exactly when expat, the parser that roslaunch uses through minidom, takes the text (an empty
+    one aside: it has no root and no problem). Values are decoded and normalised as XML says; the entities of a
+    DOCTYPE are not expanded.
+    """
+    lines = LineIndex(text)
+    scanned = scan(text, lines)
+    complaint = _expat_complaint(text, scanned)
+    if complaint is None:
+        problems: tuple[SyntaxProblem, ...] = ()
+    elif scanned.problems:
+        problems = tuple(sorted(scanned.problems, key=lambda p: p.span)[:MAX_PROBLEMS])
+    else:
+        problems = (complaint,)
+    return Document(path, text, digest(text), scanned.children, problems, lines, scanned.entities)
+
+
+def _expat_complaint(text: str, scanned: Scan) -> SyntaxProblem | None:
+    """What expat has against the text, None when it is well-formed or has no element yet.
+
+    expat is as safe here as the text that it gets: references to the entities that the DOCTYPE declares are blotted
+    out, so that there is nothing to expand ("billion laughs"), and it never opens an external one by itself.
+    """
+    parser = expat.ParserCreate("utf-8", namespace_separator=" ")  # with namespaces, as minidom has it
+    data = _without_expansions(text, scanned).encode("utf-8", "surrogatepass")
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        if error.code == expat.errors.codes[expat.errors.XML_ERROR_NO_ELEMENTS] and not scanned.has_element:
+            return None
+        # expat counts bytes, we code points: each has one byte that is no continuation byte.
+        before = data[: parser.ErrorByteIndex].translate(None, _CONTINUATION_BYTES)
+        return SyntaxProblem(_message(error.code), _span_at(text, len(before)))
+    return None
+
+
+def _message(code: int) -> str:
+    if code == expat.errors.codes[expat.errors.XML_ERROR_UNBOUND_PREFIX]:
+        return "a prefix is used here that no xmlns:... attribute declares"
+    return f"not well-formed XML: {expat.errors.messages[code]}"
+
+
+def _span_at(text: str, offset: int) -> Span:
+    """The word at `offset`; the last one of the text when expat complains about its end."""
+    if offset >= len(text):
+        end = len(text.rstrip())
+        return Span(max(0, end - 1), end)
+    found = _WORD.match(text, offset)
+    return Span(offset, found.end() if found else offset + 1)
+
+
+def _without_expansions(text: str, scanned: Scan) -> str:
+    """The text, of the same length, in which no entity of its own is referred to.
+
+    An opening parenthesis is character data where a reference may stand, and an error where it may not.
+    """
+    if not scanned.declared:
+        return text
+    names = "|".join(sorted(map(re.escape, scanned.declared)))
+    masked = re.sub(f"&(?:{names});", lambda m: "(" * len(m[0]), text)
+    subset = scanned.doctype
+    blank = _PARAMETER_REFERENCE.sub(lambda m: " " * len(m[0]), masked[subset.start : subset.end])
+    return masked[: subset.start] + blank + masked[subset.end :]

@@ -1,0 +1,629 @@
+"""A tolerant XML scanner, in the manner of LemMinX's: a tree with spans of any text, and what is wrong in it.
+
+Start tags that are in order are taken by one regular expression each. What it does not take goes piece by piece
+through the methods that recover, which guess what was meant: an unclosed quote ends with its line, an unclosed
+element where an ancestor ends or where its sibling starts by the indentation. Every guess has its problem, so in a
+well-formed text nothing was guessed. No pattern can backtrack more than linearly, nothing recurses.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter, deque
+from dataclasses import dataclass
+
+from rapidfuzz.distance import OSA
+
+from preflight_analysis.documents.document import Attribute, Comment, Element, Node, SpannedText, SyntaxProblem, Text
+from preflight_analysis.documents.span import LineIndex, Span
+
+# The names of XML 1.0, fifth edition; those of the fourth, which expat knows, are among them.
+_NAME_START = (
+    ":A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c-\u200d\u2070-\u218f\u2c00-\u2fef"
+    "\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
+)
+NAME = f"[{_NAME_START}][{_NAME_START}\\-.0-9\xb7\u0300-\u036f\u203f-\u2040]*"
+"""Pattern of an XML name."""
+
+_BLANK = " \t\r\n"
+_S = "[ \t\r\n]"
+_ATTRIBUTE = re.compile(f"{_S}+({NAME}){_S}*={_S}*(?:\"([^<\"]*)\"|'([^<']*)')")
+_START_TAG = re.compile(f"<({NAME})((?:{_S}+{NAME}{_S}*={_S}*(?:\"[^<\"]*\"|'[^<']*'))*){_S}*(/?)>")
+_END_TAG = re.compile(f"</({NAME}){_S}*>")
+_SPACE = re.compile(f"{_S}*")
+_NAME = re.compile(NAME)
+_NAME_EQUALS = re.compile(f"{NAME}{_S}*=")
+_UNQUOTED = re.compile(r"""(?:\$\([^()<>"'\n]*\)|[^ \t\r\n<>"'/$]|/(?!>)|\$)+""")
+_TAG_LIKE = re.compile(f"<[/!?]?[{_NAME_START}]|<!--|</")
+_JUNK = re.compile(f"[^{_NAME_START} \t\r\n<>/\"'=]+")
+_LINE_REST = re.compile(r"[^\r\n]*")
+_TEXT_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?")
+_VALUE_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?|[\n\t]")
+_COMMENT_MARK = re.compile("<!--|-->")
+_NOT_A_CHARACTER = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]+")
+_ENTITY_DECLARATION = re.compile(f"<!ENTITY{_S}+({NAME}){_S}")
+_EXTERNAL = re.compile(f"<!DOCTYPE{_S}+{NAME}{_S}+(?:SYSTEM|PUBLIC)\\b|%{NAME};")
+_SUBSET_MARK = re.compile("<!--|<\\?|[\"'\\[\\]<>]")
+_PREDEFINED = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
+_VALUE_BLANKS = {ord("\n"): " ", ord("\t"): " "}
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """What the scanner makes of a text. `declared` are the entities that its DOCTYPE, at `doctype`, declares."""
+
+    children: tuple[Node, ...]
+    problems: tuple[SyntaxProblem, ...]
+    entities: tuple[tuple[str, Span], ...]
+    declared: frozenset[str]
+    doctype: Span
+
+    @property
+    def has_element(self) -> bool:
+        """Whether anything like a tag was found."""
+        return any(isinstance(child, Element) for child in self.children)
+
+
+def scan(text: str, lines: LineIndex) -> Scan:
+    """Scan a whole text; `lines` is its index."""
+    return _Scanner(text, lines).scan()
+
+
+class _Open:
+    """An element whose end is not reached yet. `broken`: its start tag has no `>`."""
+
+    __slots__ = ("attributes", "broken", "children", "open_span", "tag", "tag_span")
+
+    def __init__(
+        self, tag: str, tag_span: Span, attributes: tuple[Attribute, ...], open_span: Span, broken: bool
+    ) -> None:
+        self.tag = tag
+        self.tag_span = tag_span
+        self.attributes = attributes
+        self.open_span = open_span
+        self.broken = broken
+        self.children: list[Node] = []
+
+    def closed(self, end: int) -> Element:
+        return Element(
+            self.tag,
+            self.tag_span,
+            self.attributes,
+            tuple(self.children),
+            self.open_span,
+            Span(self.open_span.start, end),
+        )
+
+
+class _Scanner:
+    def __init__(self, text: str, lines: LineIndex) -> None:
+        self.text = text
+        self.lines = lines
+        self.top: list[Node] = []
+        self.children = self.top
+        self.stack: list[_Open] = []
+        self.open_tags: Counter[str] = Counter()
+        self.root_seen = False
+        self.junk_seen = False
+        self.problems: list[SyntaxProblem] = []
+        self.entities: list[tuple[str, Span]] = []
+        self.declared: frozenset[str] = frozenset()
+        self.external = False
+        self.doctype = Span(0, 0)
+        self.found_at: dict[str, tuple[int, int]] = {}
+        self.comment_ends: dict[int, int] | None = None
+
+    def scan(self) -> Scan:
+        text = self.text
+        end = len(text)
+        at = 1 if text.startswith("\ufeff") else 0
+        while at < end:
+            less = text.find("<", at)
+            if less < 0:
+                less = end
+            if less > at:
+                self._text(at, less)
+            if less == end:
+                break
+            if tag := _START_TAG.match(text, less):
+                self._start_tag(tag)
+                at = tag.end()
+            elif tag := _END_TAG.match(text, less):
+                self._end_tag(tag[1], Span(*tag.span(1)), less, tag.end())
+                at = tag.end()
+            else:
+                at = self._markup(less)
+        self._give_up(0, end)
+        for bad in _NOT_A_CHARACTER.finditer(text):
+            self._problem(f"the character U+{ord(bad[0][0]):04X} is not allowed in XML", *bad.span())
+        return Scan(tuple(self.top), tuple(self.problems), tuple(self.entities), self.declared, self.doctype)
+
+    def _problem(self, message: str, start: int, end: int) -> None:
+        self.problems.append(SyntaxProblem(message, Span(start, end)))
+
+    def _find(self, needle: str, start: int) -> int:
+        """`text.find`, for searches from ever later starts: a far hit, or none, is not searched for again."""
+        since, hit = self.found_at.get(needle, (len(self.text) + 1, -1))
+        if since > start or 0 <= hit < start:
+            hit = self.text.find(needle, start)
+            self.found_at[needle] = (start, hit)
+        return hit
+
+    def _line_end(self, start: int) -> int:
+        """End of the line's content, its trailing blanks left out; at least `start`."""
+        found = _LINE_REST.match(self.text, start)
+        return start + len(found[0].rstrip()) if found else start
+
+    # Character data
+
+    def _text(self, start: int, end: int) -> None:
+        if not self.stack:
+            raw = self.text[start:end]
+            stripped = raw.strip(_BLANK)
+            if not stripped:
+                return
+            first = start + raw.index(stripped)
+            self._outside_root(first, first + len(stripped), "text")
+        self.children.append(Text(self._decoded(start, end, _TEXT_SPECIAL)))
+        close = self.text.find("]]>", start, end)
+        if close >= 0:
+            self._problem("']]>' must be written as ]]&gt; in text", close, close + 3)
+
+    def _outside_root(self, start: int, end: int, what: str) -> None:
+        if not self.junk_seen:
+            self.junk_seen = True
+            where = "after" if self.root_seen else "before"
+            self._problem(f"{what} {where} the document element", start, end)
+
+    def _decoded(self, start: int, end: int, special: re.Pattern[str]) -> SpannedText:
+        raw = self.text[start:end]
+        value = special is _VALUE_SPECIAL
+        if "&" not in raw and "\r" not in raw:
+            if value and ("\n" in raw or "\t" in raw):
+                raw = raw.translate(_VALUE_BLANKS)
+            return SpannedText(raw, Span(start, end))
+        pieces: list[str] = []
+        offsets: list[int] = []
+        at = start
+        for found in special.finditer(self.text, start, end):
+            pieces.append(self.text[at : found.start()])
+            offsets.extend(range(at, found.start()))
+            at = found.end()
+            if found[0][0] == "&":
+                decoded = self._reference(found[0], found.start())
+                pieces.append(decoded)
+                offsets.extend(range(found.start(), at) if decoded == found[0] else [found.start()])
+            else:
+                pieces.append(" " if value else "\n")
+                offsets.append(found.start())
+        pieces.append(self.text[at:end])
+        offsets.extend(range(at, end + 1))
+        return SpannedText("".join(pieces), Span(start, end), tuple(offsets))
+
+    def _reference(self, reference: str, at: int) -> str:
+        """What `&...;` stands for; itself when it is an error or an entity of the file's own."""
+        span = Span(at, at + len(reference))
+        name = reference[1:-1]
+        if reference == "&":
+            self._problem("'&' must be written as &amp;", at, at + 1)
+        elif name.startswith("#"):
+            code = _code_point(name[1:])
+            if code is not None:
+                return chr(code)
+            self._problem(f"{reference} is not a character of XML", span.start, span.end)
+        elif name in _PREDEFINED:
+            return _PREDEFINED[name]
+        elif name in self.declared or self.external:
+            self.entities.append((name, span))
+        else:
+            self._problem(f"the entity {reference} is not defined", span.start, span.end)
+        return reference
+
+    # Start tags
+
+    def _start_tag(self, tag: re.Match[str]) -> None:
+        """A start tag that is in order."""
+        attributes: list[Attribute] = []
+        if tag.end(2) > tag.start(2):
+            for found in _ATTRIBUTE.finditer(self.text, tag.start(2), tag.end(2)):
+                quoted = 2 if found[2] is not None else 3
+                start, end = found.span(1)
+                attributes.append(
+                    Attribute(
+                        found[1],
+                        Span(start, end),
+                        self._decoded(found.start(quoted), found.end(quoted), _VALUE_SPECIAL),
+                        Span(start, found.end()),
+                    )
+                )
+        self._opened(tag[1], Span(*tag.span(1)), attributes, tag.end(), empty=bool(tag[3]))
+
+    def _opened(
+        self, tag: str, tag_span: Span, attributes: list[Attribute], end: int, *, empty: bool, broken: bool = False
+    ) -> None:
+        if len(attributes) > 1:
+            seen: set[str] = set()
+            for attribute in attributes:
+                if attribute.name in seen:
+                    span = attribute.name_span
+                    self._problem(f"the attribute '{attribute.name}' is given twice", span.start, span.end)
+                seen.add(attribute.name)
+        if not self.stack:
+            if self.root_seen:
+                self._outside_root(tag_span.start, tag_span.end, "another element")
+            self.root_seen = True
+        start = tag_span.start - 1
+        if empty:
+            span = Span(start, end)
+            self.children.append(Element(tag, tag_span, tuple(attributes), (), span, span))
+            return
+        opened = _Open(tag, tag_span, tuple(attributes), Span(start, end), broken)
+        self.stack.append(opened)
+        self.open_tags[tag] += 1
+        self.children = opened.children
+
+    def _broken_start_tag(self, name: re.Match[str]) -> int:
+        """A start tag with something wrong in it, from its name on. Returns where it ends."""
+        text = self.text
+        attributes: list[Attribute] = []
+        at = name.end()
+        last_start, last_end = name.span()
+        told = False  # whether the last piece has a problem of its own
+        while True:
+            gap = at
+            at = _skip(_SPACE, text, at)
+            char = text[at : at + 1]
+            if char == ">":
+                self._opened(name[0], Span(*name.span()), attributes, at + 1, empty=False)
+                return at + 1
+            if char in ("", "<"):
+                if not told:
+                    self._problem(f"the tag <{name[0]}> has no '>'", last_start, last_end)
+                self._opened(name[0], Span(*name.span()), attributes, last_end, empty=False, broken=True)
+                return at
+            if char == "/":
+                after = _skip(_SPACE, text, at + 1)
+                if text[after : after + 1] in (">", "<", ""):
+                    complete = text[after : after + 1] == ">"
+                    end = after + 1 if complete else at + 1
+                    if not complete or after > at + 1:
+                        self._problem("'/' must be followed by '>'", at, at + 1)
+                    self._opened(name[0], Span(*name.span()), attributes, end, empty=True)
+                    return end
+            attribute_name = _NAME.match(text, at)
+            count = len(self.problems)
+            last_start = at
+            if attribute_name:
+                if gap == at and not told:
+                    self._problem(f"a blank is missing before '{attribute_name[0]}'", *attribute_name.span())
+                attribute = self._broken_attribute(attribute_name)
+                attributes.append(attribute)
+                at = attribute.span.end
+                told = len(self.problems) > count
+            else:
+                at = self._stray(at, name[0])
+                told = True
+            last_end = at
+
+    def _stray(self, at: int, tag: str) -> int:
+        """Something in a start tag that is no attribute. Returns where it ends."""
+        text = self.text
+        if text[at] == "=":
+            self._problem("the name of an attribute is missing before '='", at, at + 1)
+            return self._broken_value(_skip(_SPACE, text, at + 1), at, at + 1)[1]
+        end = max(at + 1, _skip(_JUNK, text, at))
+        while (word := _NAME.match(text, end)) and not _NAME_EQUALS.match(text, end):
+            end = _skip(_JUNK, text, word.end())
+        self._problem(f"{text[at:end]!r} does not belong in the tag <{tag}>", at, end)
+        return end
+
+    def _broken_attribute(self, name: re.Match[str]) -> Attribute:
+        text = self.text
+        name_span = Span(*name.span())
+        equals = _skip(_SPACE, text, name.end())
+        if text[equals : equals + 1] != "=":
+            self._problem(f"the attribute '{name[0]}' has no value", *name.span())
+            return Attribute(name[0], name_span, SpannedText("", Span(name.end(), name.end())), name_span)
+        after = _skip(_SPACE, text, equals + 1)
+        value, end = self._broken_value(after, name.start(), equals + 1)
+        return Attribute(name[0], name_span, value, Span(name.start(), end))
+
+    def _broken_value(self, at: int, start: int, after_equals: int) -> tuple[SpannedText, int]:
+        """The value that should start at `at`, of an attribute from `start`, and where the attribute ends."""
+        text = self.text
+        quote = text[at : at + 1]
+        if quote and quote in "\"'":
+            return self._broken_quote(at, quote)
+        unquoted = _UNQUOTED.match(text, at)
+        on_next_line = "\n" in text[after_equals:at] or "\r" in text[after_equals:at]
+        if unquoted is None or on_next_line or _NAME_EQUALS.match(text, at):
+            self._problem(f"a value in quotes is missing after '{text[start:after_equals]}'", start, after_equals)
+            return SpannedText("", Span(after_equals, after_equals)), after_equals
+        self._problem("the value must stand in quotes", *unquoted.span())
+        return self._decoded(*unquoted.span(), _VALUE_SPECIAL), unquoted.end()
+
+    def _broken_quote(self, at: int, quote: str) -> tuple[SpannedText, int]:
+        """A value that starts with a quote: it may lack its closing one, or hold a `<`."""
+        start = at + 1
+        close = self._find(quote, start)
+        end = self._unclosed_value_end(start, close)
+        if end < 0:
+            less = self.text.find("<", start, close)
+            while less >= 0:
+                self._problem("'<' must be written as &lt; in a value", less, less + 1)
+                less = self.text.find("<", less + 1, close)
+            return self._decoded(start, close, _VALUE_SPECIAL), close + 1
+        self._problem(f"the closing {quote} is missing", at, end)
+        return self._decoded(start, end, _VALUE_SPECIAL), end
+
+    def _unclosed_value_end(self, start: int, close: int) -> int:
+        """Where the value from `start` ends if it lacks its closing quote; -1 if the quote at `close` is that.
+
+        It is not when it opens the next attribute's value, or when a tag starts on a line in between.
+        """
+        text = self.text
+        line_end = _skip(_LINE_REST, text, start)
+        tag = _TAG_LIKE.search(text, start, close if close >= 0 else line_end)
+        end = line_end
+        if close >= 0:
+            closes = text[close + 1 : close + 2] in ("", ">", *_BLANK) or text.startswith("/>", close + 1)
+            next_attribute = -1 if closes else _before_next_attribute(text[start:close])
+            if next_attribute >= 0:
+                end = min(end, start + next_attribute)
+            elif not (tag and tag.start() > line_end):
+                return -1
+        if tag and tag.start() < end:
+            end = tag.start()
+        kept = text[start:end].rstrip(_BLANK)
+        if kept.endswith(">"):
+            kept = kept[:-1].removesuffix("/").rstrip(_BLANK)
+        return start + len(kept)
+
+    # Other markup
+
+    def _markup(self, less: int) -> int:
+        """What starts with `<` and is neither a start tag nor an end tag in order. Returns where it ends."""
+        text = self.text
+        if name := _NAME.match(text, less + 1):
+            return self._broken_start_tag(name)
+        if text.startswith("</", less):
+            return self._broken_end_tag(less)
+        if text.startswith("<!--", less):
+            return self._comment(less)
+        if text.startswith("<![CDATA[", less):
+            return self._cdata(less)
+        if text.startswith("<?", less):
+            return self._instruction(less)
+        if text.startswith("<!DOCTYPE", less) and not self.stack:
+            return self._doctype(less)
+        self._problem("'<' must be written as &lt; where it starts no tag", less, less + 1)
+        end = text.find("<", less + 1)
+        end = len(text) if end < 0 else end
+        if self.stack:
+            self.children.append(Text(self._decoded(less, end, _TEXT_SPECIAL)))
+        return end
+
+    def _comment(self, less: int) -> int:
+        text = self.text
+        start = less + 4
+        close = self._find("-->", start)
+        end = close + 3
+        inner = text.find("<!--", start, close) if close >= 0 else -1
+        if inner >= 0:
+            end = self._nested_comment_end(less)
+            close = end - 3
+            if end >= 0:
+                self._problem("a comment cannot hold another one", inner, inner + 4)
+        if close < 0:
+            self._problem("the comment is not closed with '-->'", less, start)
+            close = end = max(start, self._line_end(start))
+        elif inner < 0:
+            dashes = text.find("--", start, close + 1)
+            if dashes >= 0:
+                self._problem("'--' is not allowed in a comment", dashes, dashes + 2)
+        body = text[start:close]
+        if "\r" in body:
+            content = self._unified(start, close)
+        else:
+            content = SpannedText(body, Span(start, close))
+        self.children.append(Comment(content, Span(less, end)))
+        return end
+
+    def _unified(self, start: int, end: int) -> SpannedText:
+        """Text that holds no references, with its line ends as XML has them."""
+        offsets = [at for at in range(start, end) if self.text[at] != "\n" or self.text[at - 1] != "\r"]
+        unified = self.text[start:end].replace("\r\n", "\n").replace("\r", "\n")
+        return SpannedText(unified, Span(start, end), (*offsets, end))
+
+    def _nested_comment_end(self, less: int) -> int:
+        """End of the comment at `less` when its inner ones are paired off; -1 when that leaves it open."""
+        if self.comment_ends is None:
+            self.comment_ends = {}
+            opened: list[int] = []
+            for mark in _COMMENT_MARK.finditer(self.text):
+                if mark[0] == "<!--":
+                    opened.append(mark.start())
+                elif opened:
+                    self.comment_ends[opened.pop()] = mark.end()
+        return self.comment_ends.get(less, -1)
+
+    def _cdata(self, less: int) -> int:
+        start = less + 9
+        close = self._find("]]>", start)
+        end = close + 3
+        if close < 0:
+            self._problem("the CDATA section is not closed with ']]>'", less, start)
+            close = self._find("</", start)
+            close = end = len(self.text) if close < 0 else close
+        if not self.stack:
+            self._outside_root(less, start, "text")
+        raw = self.text[start:close]
+        content = self._unified(start, close) if "\r" in raw else SpannedText(raw, Span(start, close))
+        self.children.append(Text(content))
+        return end
+
+    def _instruction(self, less: int) -> int:
+        text = self.text
+        close = self._find("?>", less + 2)
+        declaration = _NAME.match(text, less + 2)
+        is_declaration = declaration is not None and declaration[0] == "xml"
+        if is_declaration and less > (1 if text.startswith("\ufeff") else 0):
+            self._problem("the XML declaration must be the very first thing in the file", less, less + 5)
+        if close >= 0 and not (is_declaration and text.find("<", less + 1, close) >= 0):
+            return close + 2
+        self._problem("'?>' is missing", less, declaration.end() if declaration else less + 2)
+        line_end = self._line_end(less)
+        greater = text.find(">", less, line_end)
+        return greater + 1 if greater >= 0 else line_end
+
+    def _doctype(self, less: int) -> int:
+        """A document type declaration: only the names of its entities matter. Returns where it ends."""
+        text = self.text
+        depth = 0
+        in_subset = False
+        at = less + 2
+        while mark := _SUBSET_MARK.search(text, at):
+            at = mark.end()
+            kind = mark[0]
+            if kind in ("<!--", "<?", '"', "'"):
+                closing = {"<!--": "-->", "<?": "?>"}.get(kind, kind)
+                close = self._find(closing, at)
+                at = close + len(closing) if close >= 0 else at
+            elif kind == "[":
+                in_subset = True
+            elif kind == "]":
+                in_subset = False
+            elif kind == "<":
+                depth += 1
+            elif depth:
+                depth -= 1
+            elif not in_subset:
+                declaration = text[less:at]
+                self.doctype = Span(less, at)
+                self.declared |= frozenset(_ENTITY_DECLARATION.findall(declaration))
+                self.external = self.external or _EXTERNAL.search(declaration) is not None
+                return at
+        self._problem("the DOCTYPE is not closed with '>'", less, less + 9)
+        return self._line_end(less)
+
+    # The ends of elements
+
+    def _broken_end_tag(self, less: int) -> int:
+        """An end tag that lacks its name or its `>`, or has something after its name. Returns where it ends."""
+        text = self.text
+        name = _NAME.match(text, less + 2)
+        at = name.end() if name else less + 2
+        line_end = _skip(_LINE_REST, text, at)
+        next_tag = text.find("<", at, line_end)
+        greater = text.find(">", at, line_end if next_tag < 0 else next_tag)
+        end = greater + 1 if greater >= 0 else at
+        if name is None:
+            # Half typed: it is meant for the innermost element, unless that one's own end tag is the next thing.
+            following = _END_TAG.match(text, _skip(_SPACE, text, end))
+            inner = self.stack[-1] if self.stack else None
+            if inner is None or (following and following[1] == inner.tag):
+                self._problem("the name of an end tag is missing", less, at)
+            else:
+                self._problem(f"expected </{inner.tag}>", less, at)
+                self._close(len(self.stack) - 1, less, end)
+            return end
+        if greater < 0:
+            self._problem(f"the end tag </{name[0]}> has no '>'", *name.span())
+        else:
+            self._problem(f"only the name may stand in the end tag </{name[0]}>", at, greater)
+        self._end_tag(name[0], Span(*name.span()), less, end)
+        return end
+
+    def _end_tag(self, tag: str, tag_span: Span, start: int, end: int) -> None:
+        if self.stack and self.stack[-1].tag == tag:
+            self._close(len(self.stack) - 1, start, end)
+        elif self.open_tags[tag]:
+            index = next(i for i in range(len(self.stack) - 1, -1, -1) if self.stack[i].tag == tag)
+            self._close(index, start, end)
+        elif self.stack and _resembles(tag, self.stack[-1].tag):
+            self._problem(f"expected </{self.stack[-1].tag}>", tag_span.start, tag_span.end)
+            self._close(len(self.stack) - 1, start, end)
+        else:
+            self._problem(f"</{tag}> closes nothing", tag_span.start, tag_span.end)
+
+    def _close(self, index: int, start: int, end: int) -> None:
+        """The end tag at `start` belongs to `stack[index]`; what is open in it has none."""
+        if index + 1 < len(self.stack):
+            self._give_up(index + 1, start)
+        opened = self.stack.pop()
+        self.open_tags[opened.tag] -= 1
+        self.children = self.stack[-1].children if self.stack else self.top
+        self.children.append(opened.closed(end))
+
+    def _give_up(self, keep: int, at: int) -> None:
+        """Close the elements above `stack[:keep]`, which have no end tag, at `at` or where a sibling starts.
+
+        Its children from the first that is not indented deeper are its siblings, as whoever wrote them sees it.
+        """
+        siblings: deque[Node] = deque()
+        while len(self.stack) > keep:
+            opened = self.stack.pop()
+            self.open_tags[opened.tag] -= 1
+            if not opened.broken:
+                self._problem(f"<{opened.tag}> is not closed", opened.tag_span.start, opened.tag_span.end)
+            self.children = self.stack[-1].children if self.stack else self.top
+            cut = self._first_sibling(opened)
+            if cut < len(opened.children):
+                siblings.extendleft(reversed(opened.children[cut:]))
+                del opened.children[cut:]
+            else:
+                while siblings and not self._is_sibling(opened, siblings[0]):
+                    opened.children.append(siblings.popleft())
+            self.children.append(opened.closed(_start(siblings[0]) if siblings else at))
+        self.children.extend(siblings)
+
+    def _first_sibling(self, opened: _Open) -> int:
+        return next(
+            (i for i, node in enumerate(opened.children) if self._is_sibling(opened, node)), len(opened.children)
+        )
+
+    def _is_sibling(self, opened: _Open, node: Node) -> bool:
+        if not self.stack or not isinstance(node, Element):  # the document element has none
+            return False
+        line, column = self.lines.position(opened.open_span.start)
+        node_line, node_column = self.lines.position(node.span.start)
+        if node_line == line:
+            return opened.broken
+        return node_column <= column
+
+
+def _skip(pattern: re.Pattern[str], text: str, at: int) -> int:
+    found = pattern.match(text, at)
+    return found.end() if found else at
+
+
+def _start(node: Node) -> int:
+    return node.content.span.start if isinstance(node, Text) else node.span.start
+
+
+def _code_point(digits: str) -> int | None:
+    """The code point of a character reference without `&#` and `;`, None when XML does not allow it."""
+    base, digits = (16, digits[1:]) if digits.startswith("x") else (10, digits)
+    digits = digits.lstrip("0")
+    code = int(digits or "0", base) if len(digits) <= 7 else 0x110000
+    if code > 0x10FFFF or (code < 0x20 and chr(code) not in "\t\n\r"):
+        return None
+    return None if 0xD800 <= code <= 0xDFFF or code in (0xFFFE, 0xFFFF) else code
+
+
+def _before_next_attribute(value: str) -> int:
+    """Length of `value` before ` name=` at its end, -1 when it does not end so."""
+    head = value.rstrip(_BLANK)
+    if not head.endswith("="):
+        return -1
+    head = head[:-1].rstrip(_BLANK)
+    blank = max(head.rfind(char) for char in _BLANK)
+    if blank < 0 or not _NAME.fullmatch(head, blank + 1):
+        return -1
+    return len(head[:blank].rstrip(_BLANK))
+
+
+def _resembles(typed: str, meant: str) -> bool:
+    """Whether an end tag's name is the element's name mistyped, or the beginning of it."""
+    typed, meant = typed.lower(), meant.lower()
+    return meant.startswith(typed) or OSA.distance(typed, meant) <= max(1, len(meant) // 3)
