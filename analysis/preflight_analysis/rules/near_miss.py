@@ -1,0 +1,183 @@
+"""Ends of topics or services that were probably meant to meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import Remap
+from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
+from preflight_analysis.findings.insertion import insert_child
+from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.rules.nearest import Likeness, likeness
+from preflight_analysis.rules.places import connection_location
+from preflight_analysis.rules.rule import Context
+from preflight_analysis.rules.well_known import may_dangle
+
+_GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
+"""Types that say nothing of what is carried: that two ends have the same one is no evidence."""
+
+
+@dataclass(frozen=True, slots=True)
+class NearMiss:
+    """`wanting` (a subscriber or client) has no other end; `offering` has a like name and no conflicting type."""
+
+    wanting: Connection
+    offering: Connection
+    likeness: Likeness
+    same_type: bool
+    """Both types are known and equal."""
+    offering_dangles: bool
+
+    @property
+    def site(self) -> Connection:
+        """The end at which it is reported: that whose name the launch file sets, else the wanting one."""
+        if self.wanting.remap is None and self.offering.remap is not None:
+            return self.offering
+        return self.wanting
+
+    @property
+    def other(self) -> Connection:
+        """The end that is not the site."""
+        return self.offering if self.site is self.wanting else self.wanting
+
+
+def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
+    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one."""
+    found: list[NearMiss] = []
+    for wanting in dangling_wants(channels):
+        best: tuple[tuple[object, ...], NearMiss] | None = None
+        for channel in channels.values():
+            for candidate, distance in _candidates(wanting, channel):
+                rank = (candidate.likeness != "typo", not candidate.offering_dangles, distance, channel.name)
+                if best is None or rank < best[0]:
+                    best = (rank, candidate)
+        if best is not None:
+            found.append(best[1])
+    return tuple(found)
+
+
+def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
+    """Subscribers or clients without any other end, but for those that may well be served from outside."""
+    for channel in channels.values():
+        if not channel.offers:
+            yield from (c for c in channel.wants if not may_dangle(channel.name, c.endpoint))
+
+
+def dangling_offers(channels: Mapping[str, Channel]) -> Iterator[Connection]:
+    """Publishers or servers without any other end, but for those that may well be used from outside."""
+    for channel in channels.values():
+        if not channel.wants:
+            yield from (c for c in channel.offers if not may_dangle(channel.name, c.endpoint))
+
+
+def lone_of_type(wanting: Connection, channels: Mapping[str, Channel]) -> Connection | None:
+    """The only offering end of the same specific type that dangles, if there is exactly one."""
+    type_ = wanting.endpoint.type
+    if type_ is None or type_ == "*" or type_.startswith(_GENERIC_PACKAGES):
+        return None
+    found = [c for c in dangling_offers(channels) if c.endpoint.type == type_ and c.node is not wanting.node]
+    return found[0] if len(found) == 1 else None
+
+
+def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
+    """How severe a near miss is and how sure: without evidence beside a like name it is but a hint."""
+    speculative = near.wanting.endpoint.speculative or near.offering.endpoint.speculative
+    sure = graph.complete and near.same_type and not speculative
+    evidence = near.same_type and (near.likeness == "typo" or (near.offering_dangles and graph.complete))
+    return "warning" if evidence else "hint", "likely" if sure else "possible"
+
+
+def nodes_looked_at(graph: Graph) -> str:
+    """`none of the 3 nodes of this launch`, with how many of them are not known."""
+    count = len(graph.tree.nodes)
+    unknown = sum(not interface.complete for interface in graph.interfaces)
+    nodes = f"none of the {count} nodes of this launch" if count > 1 else "no other node of this launch"
+    return f"{nodes} ({unknown} of them not fully known)" if unknown else nodes
+
+
+def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
+    """What makes the two ends meet: the remap that gave the wrong name corrected, else a remap into a node's tag."""
+    site, other = near.site, near.other
+    if site.remap is not None:
+        corrected = _correct_remap(context, site, site.remap, other.name)
+        if corrected is not None:
+            return (corrected,)
+    ends = [end for end in (site, other) if end.remap is None]
+    found = [_insert_remap(context, end, other.name if end is site else site.name, end is ends[0]) for end in ends]
+    return tuple(fix for fix in found if fix is not None)
+
+
+def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMiss, int]]:
+    alike = likeness(wanting.name, channel.name) if channel.offers else None
+    if alike is None:
+        return
+    how, distance = alike
+    for offering in channel.offers:
+        if offering.endpoint.builtin or offering.node is wanting.node:
+            # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
+            continue
+        mine, theirs = wanting.endpoint.type, offering.endpoint.type
+        known = mine is not None and theirs is not None and "*" not in (mine, theirs)
+        if known and mine != theirs:
+            continue
+        dangles = not channel.wants
+        if how == "words" and not (known and dangles and _says_enough(wanting.name, channel.name, mine or "")):
+            continue
+        if not known and not dangles:
+            continue
+        yield NearMiss(wanting, offering, how, known, dangles), distance
+
+
+def _says_enough(name: str, other: str, type_: str) -> bool:
+    """Whether like words suffice: for a generic type only if the whole shorter name ends the longer one."""
+    if not type_.startswith(_GENERIC_PACKAGES):
+        return True
+    short, long = sorted((name, other), key=len)
+    return short.count("/") >= 2 and long.endswith(short)
+
+
+def _correct_remap(context: Context, end: Connection, remap: Remap, new: str) -> Fix | None:
+    document = context.documents.get(remap.target_location.file)
+    if document is None:
+        return None
+    span = remap.target_location.span
+    written = document.text[span.start : span.end]
+    if "$(" in written or "&" in written or not written:
+        return None
+    text = _in_style_of(written, end.name, new)
+    edit = Edit(remap.target_location, text)
+    return Fix(f"Remap '{remap_source(document.text, remap)}' to '{text}' instead of '{written}'", (edit,), True)
+
+
+def remap_source(text: str, remap: Remap) -> str:
+    """The `from` of a remap as it is written."""
+    span = remap.source_location.span
+    return text[span.start : span.end]
+
+
+def _in_style_of(written: str, full: str, new: str) -> str:
+    """`new`, a full name, as relative as `written` is, which stands for `full`; as a full name if that cannot be."""
+    if written.startswith("/"):
+        return new
+    mark = "~" if written.startswith("~") else ""
+    stem = names.canonicalize(written[len(mark) :])
+    prefix = full.removesuffix(stem)
+    if full.endswith("/" + stem) and new.startswith(prefix) and len(new) > len(prefix):
+        return mark + new[len(prefix) :]
+    return new
+
+
+def _insert_remap(context: Context, end: Connection, target: str, preferred: bool) -> Fix | None:
+    location: Location = connection_location(end)
+    document = context.documents.get(location.file)
+    if document is None:
+        return None
+    source = end.endpoint.name
+    namespace = names.parent(end.node.name)
+    relative = not source.startswith("/") and target.startswith(namespace)
+    written = target[len(namespace) :] if relative else target
+    edit = insert_child(end.node.action, document, f'<remap from="{source}" to="{written}"/>')
+    return Fix(f"Remap '{source}' to '{written}' in {end.node.name}", (edit,), preferred)

@@ -1,0 +1,92 @@
+"""TOP001: a node subscribes to what nobody publishes."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.rules.near_miss import (
+    NearMiss,
+    dangling_wants,
+    fixes,
+    lone_of_type,
+    near_misses,
+    nodes_looked_at,
+    weight,
+)
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None:
+        return
+    near = near_misses(graph.topics)
+    for pair in near:
+        severity, confidence = weight(graph, pair)
+        yield rule.finding(
+            _near_message(graph, pair),
+            connection_location(pair.site),
+            severity=severity,
+            confidence=confidence,
+            related=(
+                related_end(pair.other, "publishes" if pair.other is pair.offering else "subscribes to"),
+                *include_chain(pair.site.node.origin),
+            ),
+            fixes=fixes(context, pair),
+        )
+    explained = {id(pair.wanting) for pair in near}
+    for end in dangling_wants(graph.topics):
+        if id(end) not in explained:
+            yield _hint(rule, graph, end)
+
+
+def _near_message(graph: Graph, pair: NearMiss) -> str:
+    wanting, offering = pair.wanting, pair.offering
+    kind = f"same type {wanting.endpoint.type}" if pair.same_type else "type not known"
+    if pair.site is wanting:
+        return (
+            f"{nodes_looked_at(graph)} publishes '{wanting.name}', to which {wanting.node.name} subscribes; "
+            f"did you mean '{offering.name}', published by {offering.node.name} ({kind})?"
+        )
+    return (
+        f"{offering.node.name} publishes '{offering.name}', but {wanting.node.name} subscribes to '{wanting.name}' "
+        f"({kind}), which {nodes_looked_at(graph)} publishes; did you mean '{wanting.name}'?"
+    )
+
+
+def _hint(rule: Rule, graph: Graph, end: Connection) -> Finding:
+    kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
+    message = f"{nodes_looked_at(graph)} publishes '{end.name}'{kind}, to which {end.node.name} subscribes"
+    lone = lone_of_type(end, graph.topics)
+    related = include_chain(end.node.origin)
+    if lone is not None:
+        message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
+        related = (related_end(lone, "publishes"), *related)
+    sure = graph.complete and not end.endpoint.speculative
+    return rule.finding(
+        message,
+        connection_location(end),
+        severity="hint",
+        confidence="likely" if sure else "possible",
+        related=related,
+    )
+
+
+RULE = Rule(
+    id="TOP001",
+    name="subscribed-not-published",
+    severity="warning",
+    what="Reports a node that subscribes to a topic which no node of the launch publishes. Where one publishes a topic "
+    "of a like name and the same type, it is a warning that names both, at the remap that gave the name if there is "
+    "one; otherwise only a hint, as the publisher may be started elsewhere.",
+    why="The node waits for messages that never come, and nothing says so: not `roslaunch`, not the node.",
+    example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
+    '  <remap from="chatter" to="chater"/>\n</node>',
+    instead='<node pkg="rospy_tutorials" type="listener" name="listener">\n'
+    '  <remap from="chatter" to="chatter"/>\n</node>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

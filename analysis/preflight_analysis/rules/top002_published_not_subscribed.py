@@ -1,0 +1,45 @@
+"""TOP002: a node publishes what nobody subscribes to."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.near_miss import dangling_offers, near_misses
+from preflight_analysis.rules.places import connection_location
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None:
+        return
+    reported = {id(pair.offering) for pair in near_misses(graph.topics)}
+    # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
+    at: dict[tuple[Location, str], list[Connection]] = {}
+    for end in dangling_offers(graph.topics):
+        if id(end) not in reported:
+            at.setdefault((connection_location(end), end.node.name), []).append(end)
+    for (location, node), ends in at.items():
+        sure = graph.complete and not any(end.endpoint.speculative for end in ends)
+        yield rule.finding(
+            f"no node of this launch subscribes to {quoted(sorted({end.name for end in ends}))}, published by {node}",
+            location,
+            confidence="likely" if sure else "possible",
+            related=include_chain(ends[0].node.origin),
+        )
+
+
+RULE = Rule(
+    id="TOP002",
+    name="published-not-subscribed",
+    severity="hint",
+    what="Says which topics of a node have no subscriber in the launch.",
+    why="Mostly that is as it should be. Where something does not move, it is where to look first.",
+    example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
+    instead='<remap from="cmd_vel" to="base/cmd_vel"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

@@ -1,0 +1,58 @@
+"""TRC001: a node crashed when it was run."""
+
+import re
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Outcome
+
+_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Exit|Interrupt|Warning|Fault)\b")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+        outcome = interface.outcome
+        failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
+        if not failed:
+            continue
+        # After a made-up answer of ours the crash may be our own doing.
+        ours = any(endpoint.speculative for endpoint in interface.endpoints)
+        yield rule.finding(
+            _message(node.name, outcome),
+            node_location(node),
+            severity="info" if ours else None,
+            confidence="possible" if ours else "likely",
+            related=include_chain(node.origin),
+        )
+
+
+def _message(name: str, outcome: Outcome) -> str:
+    if outcome.reason:
+        message = f"{name} crashed when it was run: {outcome.reason}"
+    elif outcome.signal:
+        message = f"{name} crashed when it was run: killed by {outcome.signal}"
+    else:
+        message = f"{name} crashed when it was run: exit code {outcome.exit_code}"
+    lines = [line.strip() for line in outcome.stderr_tail if line.strip()]
+    telling = next((line for line in reversed(lines) if _EXCEPTION.match(line)), lines[-1] if lines else "")
+    return message if not telling or telling in message else f"{message}; {telling}"
+
+
+RULE = Rule(
+    id="TRC001",
+    name="node-crashed",
+    severity="warning",
+    what="Reports a node that ended with an error before it reached its event loop, with the line of its standard "
+    "error that tells why.",
+    why="With the parameters and arguments of this launch file it would most likely end so on the robot too, unless it "
+    "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it.",
+    example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
+    instead='<param name="model" value="$(find my_package)/config/model.json"/>',
+    check=_check,
+    needs_graph=True,
+)

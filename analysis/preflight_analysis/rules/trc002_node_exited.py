@@ -1,0 +1,38 @@
+"""TRC002: a node ended without error before it reached its event loop."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+        outcome = interface.outcome
+        if outcome.status == "exited" and outcome.exit_code in (None, 0):
+            because = f": {outcome.reason}" if outcome.reason else ""
+            yield rule.finding(
+                f"{node.name} ended by itself when it was run, without error{because}",
+                node_location(node),
+                confidence="likely",
+                related=include_chain(node.origin),
+            )
+
+
+RULE = Rule(
+    id="TRC002",
+    name="node-exited",
+    severity="info",
+    what="Says that a node ended by itself, with exit code 0, before it reached an event loop.",
+    why="Some do their work and are done. Where it is not meant to, it lacks its loop or gave up on something; only "
+    "what it did until then is known of it.",
+    example="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)",
+    instead="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)\n"
+    "    rospy.spin()",
+    check=_check,
+    needs_graph=True,
+)

@@ -1,0 +1,36 @@
+"""TRC003: a node did not reach its event loop in time."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+        if interface.outcome.status == "timed-out":
+            because = f": {interface.outcome.reason}" if interface.outcome.reason else ""
+            yield rule.finding(
+                f"{node.name} was stopped before it reached its event loop{because}",
+                node_location(node),
+                confidence="likely",
+                related=include_chain(node.origin),
+            )
+
+
+RULE = Rule(
+    id="TRC003",
+    name="node-timed-out",
+    severity="info",
+    what="Says that a node was still starting when its time was up.",
+    why="Only what it did until then is known of it: it may have more topics, services and parameters. Often it waits "
+    "for something that nobody in the sandbox gives it.",
+    example="while not ready():  # for hardware, say\n    time.sleep(1)\npub = rospy.Publisher('state', String)",
+    instead="pub = rospy.Publisher('state', String)\nwhile not ready():\n    time.sleep(1)",
+    check=_check,
+    needs_graph=True,
+)

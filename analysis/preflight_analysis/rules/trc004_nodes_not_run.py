@@ -1,0 +1,50 @@
+"""TRC004: nodes were not run, and why."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    count = len(context.tree.nodes)
+    if context.why_not_run is not None:
+        if count:
+            nodes = f"the {count} nodes of this launch were" if count > 1 else "the node of this launch was"
+            yield rule.finding(f"{nodes} not run: {context.why_not_run}", _root_location(context))
+        return
+    if context.graph is None:
+        return
+    skipped: dict[tuple[str, str], list[LaunchNode]] = {}
+    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+        # That there is nothing to run is a finding about the package or executable.
+        if interface.outcome.status == "not-run" and interface.source == "none" and node.resolved.path is not None:
+            reason = interface.outcome.reason or "no reason is known"
+            skipped.setdefault((node.location.file, reason), []).append(node)
+    for (_, reason), nodes_there in skipped.items():
+        names = ", ".join(node.name for node in nodes_there)
+        yield rule.finding(f"not run: {names}; {reason}", node_location(nodes_there[0]))
+
+
+def _root_location(context: Context) -> Location:
+    launch_file = context.launch_files.get(context.root)
+    if launch_file is not None and launch_file.root is not None:
+        return Location(context.root, launch_file.root.head_span)
+    return Location(context.root, Span(0, 0))
+
+
+RULE = Rule(
+    id="TRC004",
+    name="nodes-not-run",
+    severity="info",
+    what="Says which nodes were not run, and why: the workspace is not trusted, there is no sandbox on this machine, a "
+    "value that the node needs is unknown.",
+    why="Nothing is known of their topics, services and parameters, unless annotations tell. Findings about "
+    "connections are missing, or less sure.",
+    example="ros-preflight: the 2 nodes of this launch were not run: the workspace is not trusted",
+    instead="Trust the workspace in the editor, install `bubblewrap`, or annotate the nodes.",
+    check=_check,
+)

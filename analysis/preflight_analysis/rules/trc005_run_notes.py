@@ -1,0 +1,31 @@
+"""TRC005: what else was noticed when a node was run."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+        for note in interface.notes:
+            yield rule.finding(f"{node.name}: {note}", node_location(node), related=include_chain(node.origin))
+
+
+RULE = Rule(
+    id="TRC005",
+    name="run-notes",
+    severity="info",
+    what="Tells what was noticed of a node when it was run in the sandbox: it tried to write where it may not, did not "
+    "end when asked to, wrote more than is read, or the like.",
+    why="Nothing of that reached the machine, but on the robot it would; and what the node did after a refusal may "
+    "differ from what it does there.",
+    example="open('/home/me/.calibration', 'w')",
+    instead="open(os.path.join(rospkg.get_ros_home(), 'calibration'), 'w')",
+    check=_check,
+    needs_graph=True,
+)

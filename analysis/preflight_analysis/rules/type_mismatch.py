@@ -1,0 +1,67 @@
+"""Ends that meet under one name with types that do not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.findings.finding import Confidence, Finding
+from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Rule
+
+
+@dataclass(frozen=True, slots=True)
+class Verbs:
+    """How to say what the two ends do: `publishes`, `subscribes to`."""
+
+    offers: str
+    wants: str
+
+
+def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs: Verbs) -> Iterator[Finding]:
+    """A finding for each wanting end and each type that does not fit it."""
+    for channel in channels.values():
+        for wanting in channel.wants:
+            told: set[tuple[str | None, str]] = set()
+            for offering in channel.offers:
+                difference = _difference(wanting, offering)
+                if difference is None or (offering.endpoint.type, difference) in told:
+                    continue
+                told.add((offering.endpoint.type, difference))
+                site, other = (wanting, offering)
+                if wanting.remap is None and offering.remap is not None:
+                    site, other = offering, wanting
+                yield rule.finding(
+                    f"types of '{channel.name}' differ: {offering.node.name} {verbs.offers} it as "
+                    f"{offering.endpoint.type}, {wanting.node.name} {verbs.wants} it as {wanting.endpoint.type}"
+                    f"{difference}",
+                    connection_location(site),
+                    confidence=_confidence(graph, wanting, offering),
+                    related=(
+                        related_end(other, verbs.offers if other is offering else verbs.wants),
+                        *include_chain(site.node.origin),
+                    ),
+                )
+
+
+def _difference(wanting: Connection, offering: Connection) -> str | None:
+    """None when they fit; else what to add to the message, which is empty when the types' names tell it all."""
+    mine, theirs = wanting.endpoint, offering.endpoint
+    if mine.type is None or theirs.type is None or "*" in (mine.type, theirs.type):
+        return None
+    if mine.type != theirs.type:
+        return ""
+    if mine.md5 and theirs.md5 and "*" not in (mine.md5, theirs.md5) and mine.md5 != theirs.md5:
+        return f", with the MD5 sums {theirs.md5} and {mine.md5}: one of them was built from another definition"
+    return None
+
+
+def _confidence(graph: Graph, *ends: Connection) -> Confidence:
+    """Types that a run showed are certain; those of an annotation are the user's word."""
+    for end in ends:
+        index = next(i for i, node in enumerate(graph.tree.nodes) if node is end.node)
+        if end.endpoint.speculative or graph.interfaces[index].source != "trace":
+            return "likely"
+    return "certain"

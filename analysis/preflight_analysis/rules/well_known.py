@@ -1,0 +1,63 @@
+"""Names that are served or used from outside of most launches: that nobody does so in this one means nothing."""
+
+from __future__ import annotations
+
+from preflight_analysis.tracing.interface import Endpoint
+
+_TOPICS = frozenset(
+    {
+        "/clock",  # a simulator or `rosbag play --clock`
+        "/diagnostics",
+        "/diagnostics_agg",
+        "/diagnostics_toplevel_state",
+        "/rosout",
+        "/rosout_agg",
+        "/statistics",
+        "/tf",
+        "/tf_static",
+    }
+)
+_FROM_RVIZ = frozenset({"clicked_point", "initialpose", "move_base_simple/goal"})
+_TO_TOOLS = ("/parameter_descriptions", "/parameter_updates")
+"""dynamic_reconfigure's, read by its own graphical client."""
+_IMAGE_TRANSPORTS = ("/compressed", "/compressedDepth", "/theora")
+
+_TO_ACTION_SERVER = ("ActionGoal", "actionlib_msgs/GoalID")
+_FROM_ACTION_SERVER = ("ActionFeedback", "ActionResult", "actionlib_msgs/GoalStatusArray")
+_BESIDE_ACTION_RESULT = ("ActionFeedback", "actionlib_msgs/GoalStatusArray")
+
+_PARAMS = frozenset(
+    {
+        "/enable_statistics",
+        "/robot_description",
+        "/robot_description_semantic",
+        "/rosdistro",
+        "/rosversion",
+        "/run_id",
+        "/tcp_keepalive",
+        "/use_sim_time",
+    }
+)
+
+
+def may_dangle(name: str, endpoint: Endpoint) -> bool:
+    """Whether it means nothing that the topic has no other end in the launch.
+
+    So it is for what tools and simulators talk to, for the topics of an action server, whose clients come and go, and
+    for four of an action client's five, since the fifth, its result, tells the same.
+    """
+    if endpoint.builtin or name in _TOPICS or name.endswith(("/tf", "/tf_static")):
+        return True
+    kind = endpoint.type or ""
+    if endpoint.role == "subscriber":
+        if any(name.endswith("/" + topic) for topic in _FROM_RVIZ):
+            return True
+        return kind.endswith((*_TO_ACTION_SERVER, *_BESIDE_ACTION_RESULT))
+    if name.endswith((*_TO_TOOLS, *_IMAGE_TRANSPORTS)):
+        return True
+    return kind.endswith((*_TO_ACTION_SERVER, *_FROM_ACTION_SERVER))
+
+
+def is_for_tools(parameter: str) -> bool:
+    """Whether a parameter is read by ROS itself or by tools rather than by the nodes of the launch."""
+    return parameter in _PARAMS or parameter.startswith("/roslaunch/")
