@@ -1,0 +1,325 @@
+"""The aspects woven into rospy: each endpoint and parameter call is told with the name that the node gave it."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import json
+import sys
+import threading
+import time
+from types import FrameType, ModuleType
+from typing import Any, Callable, Optional
+
+import aspectlib  # type: ignore[import-untyped]
+
+from . import channel
+
+Advised = Callable[..., Any]
+
+_LIBRARIES = frozenset(
+    (
+        "rospy",
+        "aspectlib",
+        "preflight_agents",
+        "functools",
+        "message_filters",
+        "actionlib",
+        "tf",
+        "tf2_ros",
+        "dynamic_reconfigure",
+        "ddynamic_reconfigure_python",
+        "image_transport",
+        "rosparam",
+        "diagnostic_updater",
+    )
+)
+"""Frames in these are not the node's own."""
+_BUILTINS = frozenset(("/rosout", "~get_loggers", "~set_logger_level", "/clock"))
+_MAX_DEFAULT = 4_000
+_MAX_SITES = 2_000
+
+_told: set[tuple[Any, ...]] = set()
+
+
+def _top(frame: FrameType) -> str:
+    return str(frame.f_globals.get("__name__", "")).partition(".")[0]
+
+
+def _caller() -> tuple[Optional[str], Optional[int], bool]:
+    """File and line of the node's own call, and whether rospy itself made the call."""
+    frame: Optional[FrameType] = sys._getframe(1)
+    while frame is not None and _top(frame) in ("preflight_agents", "aspectlib", "functools"):
+        frame = frame.f_back
+    internal = frame is not None and _top(frame) == "rospy"
+    while frame is not None and _top(frame) in _LIBRARIES:
+        frame = frame.f_back
+    if frame is None:
+        return None, None, internal
+    return frame.f_code.co_filename, frame.f_lineno, internal
+
+
+def _in_main_thread() -> bool:
+    return threading.current_thread() is threading.main_thread()
+
+
+def _quiet(tell: Callable[..., None]) -> Callable[..., None]:
+    """An advice that fails must not fail the node."""
+
+    @functools.wraps(tell)
+    def safe(*args: Any, **kwargs: Any) -> None:
+        try:
+            tell(*args, **kwargs)
+        except Exception as error:
+            channel.send("weave-failed", message=repr(error))
+
+    return safe
+
+
+def _before(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
+    """Aspect: `tell(bound arguments)` before the call."""
+    tell = _quiet(tell)
+
+    def aspect(cutpoint: Advised) -> Advised:
+        signature = inspect.signature(cutpoint)
+
+        def advised(*args: Any, **kwargs: Any) -> Any:
+            try:
+                arguments = signature.bind(*args, **kwargs).arguments
+            except TypeError:
+                return cutpoint(*args, **kwargs)
+            tell(arguments)
+            return cutpoint(*args, **kwargs)
+
+        return advised
+
+    return aspect
+
+
+def _after(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
+    """Aspect: `tell(bound arguments)` after the call returned."""
+    tell = _quiet(tell)
+
+    def aspect(cutpoint: Advised) -> Advised:
+        signature = inspect.signature(cutpoint)
+
+        def advised(*args: Any, **kwargs: Any) -> Any:
+            result = cutpoint(*args, **kwargs)
+            tell(signature.bind(*args, **kwargs).arguments)
+            return result
+
+        return advised
+
+    return aspect
+
+
+def _endpoint(role: str) -> Callable[[Advised], Advised]:
+    def tell(arguments: dict[str, Any]) -> None:
+        made, given = arguments["self"], str(arguments["name"])
+        described = arguments.get("data_class", arguments.get("service_class"))
+        file, line, internal = _caller()
+        qos: dict[str, Any] = {}
+        if role == "publisher":
+            qos["latch"] = bool(arguments.get("latch", False))
+        if role in ("publisher", "subscriber"):
+            size = arguments.get("queue_size")
+            qos["queue_size"] = size if isinstance(size, int) else None
+        channel.send(
+            "endpoint",
+            role=role,
+            name=given,
+            resolved=made.resolved_name,
+            type=getattr(described, "_type", None),
+            md5=getattr(described, "_md5sum", None),
+            qos=qos,
+            file=file,
+            line=line,
+            builtin=internal and given in _BUILTINS,
+        )
+
+    return _after(tell)
+
+
+def _default(value: object) -> object:
+    try:
+        return value if len(json.dumps(value)) <= _MAX_DEFAULT else repr(value)[:_MAX_DEFAULT]
+    except (TypeError, ValueError, RecursionError):
+        return repr(value)[:_MAX_DEFAULT]
+
+
+def _parameter(access: str, unspecified: object, resolve: Callable[[str], str]) -> Callable[[Advised], Advised]:
+    def tell(arguments: dict[str, Any]) -> None:
+        file, line, internal = _caller()
+        name = str(arguments.get("param_name", "/"))
+        site = (access, name, file, line)
+        if site in _told or len(_told) > _MAX_SITES:
+            return
+        _told.add(site)
+        default = arguments.get("default", unspecified)
+        channel.send(
+            "param",
+            access=access,
+            name=name,
+            resolved=name if access in ("search", "list") else resolve(name),
+            default=None if default is unspecified else _default(default),
+            has_default=default is not unspecified,
+            file=file,
+            line=line,
+            builtin=internal,
+        )
+
+    return _before(tell)
+
+
+def _asked(*what: str) -> Callable[[Advised], Advised]:
+    """The node looks at its own name, namespace or remaps: what it does may depend on them."""
+
+    def tell(_arguments: dict[str, Any]) -> None:
+        if what not in _told and not _caller()[2]:
+            _told.add(what)
+            for one in what:
+                channel.send("asked", what=one)
+
+    return _before(tell)
+
+
+def _other_threads() -> int:
+    """How many threads the node started itself; rospy's own do not count."""
+    own = 0
+    for thread in threading.enumerate():
+        if thread is threading.main_thread() or isinstance(thread, threading._DummyThread):
+            continue
+        module = str(getattr(getattr(thread, "_target", None), "__module__", None) or type(thread).__module__)
+        if module.partition(".")[0] not in ("rospy", "rosgraph", "roslib") or module == "rospy.timer":
+            own += 1
+    return own
+
+
+def _state(flush: Callable[[], None], state: str) -> Callable[[Advised], Advised]:
+    """The main thread is in its event loop (`spin`), or in what looks like one (`idle`)."""
+
+    def tell(_arguments: dict[str, Any]) -> None:
+        if state in _told_states or not _in_main_thread() or _caller()[2]:
+            return
+        _told_states.add(state)
+        flush()
+        channel.send("state", state=state, threads=_other_threads())
+
+    return _before(tell)
+
+
+_told_states: set[str] = set()
+_sleeps: set[tuple[Any, ...]] = set()
+
+
+def _sleep(flush: Callable[[], None]) -> Callable[[Advised], Advised]:
+    """A second sleep at the same place is a loop; a single one may be a pause before more endpoints are made."""
+
+    def tell(arguments: dict[str, Any]) -> None:
+        file, line, internal = _caller()
+        if "idle" in _told_states or internal or not _in_main_thread():
+            return
+        flush()
+        if (file, line) in _sleeps:
+            _told_states.add("idle")
+            channel.send("state", state="idle", threads=_other_threads())
+            return
+        _sleeps.add((file, line))
+        duration = arguments["duration"]
+        seconds = duration.to_sec() if hasattr(duration, "to_sec") else float(duration)
+        channel.send("state", state="sleep", seconds=seconds)
+
+    return _before(tell)
+
+
+def _wait(flush: Callable[[], None], kind: str, argument: str) -> Callable[[Advised], Advised]:
+    """The node blocks until somebody else is there."""
+
+    @_quiet
+    def tell(state: str, name: str) -> None:
+        file, line, _ = _caller()
+        channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=_in_main_thread())
+        if state == "wait":
+            flush()
+
+    def aspect(cutpoint: Advised) -> Advised:
+        signature = inspect.signature(cutpoint)
+
+        def advised(*args: Any, **kwargs: Any) -> Any:
+            try:
+                name = str(signature.bind(*args, **kwargs).arguments[argument])
+            except TypeError:
+                return cutpoint(*args, **kwargs)
+            tell("wait", name)
+            try:
+                return cutpoint(*args, **kwargs)
+            finally:
+                tell("resume", name)
+
+        return advised
+
+    return aspect
+
+
+class _QuickTime:
+    """`time` for rospy's start, which looks for its registration only every 0.1 s."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(time, name)
+
+    @staticmethod
+    def sleep(seconds: float) -> None:
+        time.sleep(min(seconds, 0.001))
+
+
+def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
+    """Weave rospy, freshly imported. `flush` tells the files opened so far; it is called when the node may stop."""
+
+    def function(module: Any, name: str, aspect: Callable[[Advised], Advised], *aliases: Any) -> None:
+        original = getattr(module, name)
+        aspectlib.patch_module_function(module, original, aspect, force_name=name)
+        for alias in aliases:
+            if getattr(alias, name, None) is original:
+                setattr(alias, name, getattr(module, name))
+
+    root: Any = rospy
+    services = root.impl.tcpros_service
+    for module, name, role in (
+        (root.topics, "Publisher", "publisher"),
+        (root.topics, "Subscriber", "subscriber"),
+        (services, "Service", "service"),
+        (services, "ServiceProxy", "client"),
+    ):
+        aspectlib.weave(getattr(module, name), _endpoint(role), methods=["__init__"], subclasses=False)
+
+    client = root.client
+    for name, access in (
+        ("get_param", "get"),
+        ("get_param_cached", "get"),
+        ("has_param", "has"),
+        ("set_param", "set"),
+        ("delete_param", "delete"),
+        ("search_param", "search"),
+        ("get_param_names", "list"),
+    ):
+        if hasattr(client, name):
+            function(client, name, _parameter(access, client._unspecified, root.names.resolve_name), rospy)
+
+    function(client, "init_node", _after(lambda _arguments: channel.send("state", state="init")), rospy)
+    function(client, "spin", _state(flush, "spin"), rospy)
+    function(client, "wait_for_message", _wait(flush, "message", "topic"), rospy)
+    function(services, "wait_for_service", _wait(flush, "service", "service"), rospy)
+    aspectlib.weave(root.timer.Rate, _state(flush, "idle"), methods=["sleep"], subclasses=False)
+    # Only the names that nodes use: rospy's own modules call these on every turn.
+    function(rospy, "sleep", _sleep(flush))
+    function(rospy, "is_shutdown", _state(flush, "idle"))
+    for name, what in (
+        ("get_name", ("name",)),
+        ("get_caller_id", ("name",)),
+        ("get_namespace", ("namespace",)),
+        ("resolve_name", ("name", "remaps")),
+        ("remap_name", ("name", "remaps")),
+    ):
+        function(rospy, name, _asked(*what))
+    root.impl.init.time = _QuickTime()
+    channel.send("woven")

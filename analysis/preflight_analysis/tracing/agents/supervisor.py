@@ -1,0 +1,296 @@
+"""The sandbox's first process of ours: starts the node, is its master, and decides when the run is over.
+
+The job comes on standard input as JSON; what is seen goes to standard output as JSON lines. The host treats those as
+coming from the node itself, which could write them as well. When this process ends, the kernel ends every other
+process of the sandbox's pid namespace with it.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import resource
+import select
+import signal
+import socket
+import sys
+import threading
+import time
+from typing import Any, Optional
+
+from .params import ParamTree
+
+MASTER_PORT = 11311
+FIFO = "/run/preflight/events"
+MAX_LINE = 64_000
+MAX_EVENTS = 20_000
+EVENTS = frozenset(("endpoint", "param", "asked", "state", "files", "wrote", "woven", "weave-failed"))
+TICK = 0.02
+"""Seconds between looks at the clock."""
+
+
+class Run:
+    """One node, from exec to the end. Times are seconds of the monotonic clock."""
+
+    def __init__(self, job: dict[str, Any]) -> None:
+        self.job = job
+        self.lock = threading.Lock()
+        self.told: set[str] = set()
+        self.count = 0
+        self.dropped = 0
+        self.started = self.active = time.monotonic()
+        self.spins = False
+        self.idle = False
+        self.initialised = False
+        self.pause_until = 0.0
+        self.waits: list[tuple[str, str]] = []
+        self.lookups: dict[str, int] = {}
+        self.polled = ""
+        self.polled_at = 0.0
+        self.cpu = 0.0
+        self.pid = -1
+
+    def emit(self, record: dict[str, Any]) -> None:
+        """One line to the host; repetitions are left out."""
+        line = json.dumps(record, sort_keys=True)
+        with self.lock:
+            if line in self.told or self.count >= MAX_EVENTS:
+                return
+            self.told.add(line)
+            self.count += 1
+            sys.stdout.write(line + "\n")
+            sys.stdout.flush()
+
+    def master_report(self, event: str, **fields: Any) -> None:
+        """What the stub master hears. Polling for a service is no activity, or a waiting node would never be quiet."""
+        if event == "m-lookup":
+            self._lookup(fields["name"])
+        else:
+            self.active = time.monotonic()
+        if event == "m-endpoint" and fields["role"] == "service" and fields["name"].endswith("/set_logger_level"):
+            self.initialised = True  # the last thing that roscpp and rospy do at their start
+        self.emit({"own": dict(fields, ev=event)})
+
+    def _lookup(self, service: str) -> None:
+        self.lookups[service] = self.lookups.get(service, 0) + 1
+        if self.lookups[service] > 2:
+            self.polled, self.polled_at = service, time.monotonic()
+
+    def node_line(self, line: bytes) -> None:
+        """One line from the event FIFO."""
+        try:
+            event = json.loads(line)
+        except (ValueError, RecursionError):
+            event = None
+        if not isinstance(event, dict) or event.get("ev") not in EVENTS:
+            self.dropped += 1
+            return
+        if event["ev"] in ("endpoint", "param"):
+            self.active = time.monotonic()
+        if event["ev"] == "state":
+            self._state(event)
+        else:
+            self.emit({"node": event})
+
+    def _state(self, event: dict[str, Any]) -> None:
+        state, now = event.get("state"), time.monotonic()
+        if state == "spin":
+            if event.get("threads"):
+                self.idle = True
+                self.active = now
+            else:
+                self.spins = True
+        elif state == "idle":
+            self.idle = True
+            self.active = now
+        elif state == "init":
+            self.initialised = True
+            self.active = now
+        elif state == "sleep" and isinstance(event.get("seconds"), (int, float)):
+            self.pause_until = now + min(float(event["seconds"]), 60.0)
+        elif state in ("wait", "resume"):
+            wait = (str(event.get("kind"))[:20], str(event.get("name"))[:300])
+            if state == "wait":
+                self.emit({"node": event})
+                if event.get("main"):
+                    self.waits.append(wait)
+            elif wait in self.waits:
+                self.waits.remove(wait)
+                self.active = now
+
+    def _polls(self) -> bool:
+        """Whether a node that no hook watches (roscpp) asks for the same missing service over and over."""
+        return bool(self.polled) and not self.idle and time.monotonic() - self.polled_at < 1.0
+
+    def blocked_by(self) -> list[tuple[str, str]]:
+        """What the node waits for, as far as known."""
+        return self.waits[-1:] or ([("service", self.polled)] if self._polls() else [])
+
+    def over(self) -> Optional[str]:
+        """Why to stop now: `spinning`, `timed-out`, or None."""
+        now = time.monotonic()
+        if self.spins:
+            return "spinning"
+        if now - self.started > self.job["limits"]["wall"]:
+            return "timed-out"
+        if self.waits or now < self.pause_until or self._polls():
+            return None
+        quiet = now - max(self.active, self.pause_until)
+        if self.idle and quiet > self.job["limits"]["quiet"]:
+            return "spinning"
+        # An event loop that no hook knows: up and running, asleep, and nothing new for a good while.
+        if self.initialised and quiet > self.job["limits"]["settled"]:
+            used = _cpu_seconds(self.pid)
+            if used - self.cpu < 0.05:
+                return "spinning"
+            self.cpu, self.active = used, now
+        return None
+
+
+def _cpu_seconds(pid: int) -> float:
+    try:
+        with open(f"/proc/{pid}/stat") as stat:
+            fields = stat.read().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    except (OSError, IndexError, ValueError):
+        return 0.0
+
+
+def _shared_objects(pid: int) -> list[str]:
+    try:
+        with open(f"/proc/{pid}/maps") as maps:
+            paths = {line.rstrip("\n").partition("/")[2] for line in maps if "/" in line}
+    except OSError:
+        return []
+    return sorted("/" + path for path in paths if not path.endswith("(deleted)"))
+
+
+def _load(params: ParamTree, pairs: list[list[Any]]) -> None:
+    def decode(value: Any) -> Any:
+        if isinstance(value, dict):
+            if list(value) == ["$binary"]:
+                from xmlrpc.client import Binary  # noqa: PLC0415
+
+                return Binary(base64.b64decode(value["$binary"]))
+            return {key: decode(below) for key, below in value.items()}
+        return [decode(item) for item in value] if isinstance(value, list) else value
+
+    for name, value in pairs:
+        params.set(name, decode(value))
+
+
+def _limit(limits: dict[str, int]) -> None:
+    for name, wanted in limits.items():
+        which = getattr(resource, "RLIMIT_" + name)
+        hard = resource.getrlimit(which)[1]
+        value = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+        resource.setrlimit(which, (value, value))
+
+
+def _exec(job: dict[str, Any], failure: int) -> None:
+    """In the child: become the node. Returns never; what went wrong is written to the pipe `failure`."""
+    try:
+        os.setsid()
+        null = os.open(os.devnull, os.O_RDWR)
+        os.dup2(null, 0)
+        os.dup2(null, 1)
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it, and what is ignored stays so over an exec
+        os.chdir(job["cwd"])
+        _limit(job["rlimits"])
+        os.execve(job["argv"][0], job["argv"], job["env"])  # noqa: S606
+    except OSError as error:
+        os.write(failure, str(error.strerror).encode())
+    finally:
+        os._exit(127)
+
+
+def main() -> None:
+    """Run the job and end, and with it everything in the sandbox."""
+    job = json.load(sys.stdin)
+    for folder in job["folders"]:
+        os.makedirs(folder, exist_ok=True)
+    os.mkfifo(FIFO, 0o600)
+    events = os.open(FIFO, os.O_RDWR | os.O_NONBLOCK | os.O_CLOEXEC)
+    listening = socket.socket()
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listening.bind(("127.0.0.1", MASTER_PORT))
+    listening.listen(64)
+
+    wake_read, wake_write = os.pipe()
+    os.set_blocking(wake_write, False)
+    failure_read, failure_write = os.pipe()
+    signal.set_wakeup_fd(wake_write)
+    signal.signal(signal.SIGCHLD, lambda *_: None)
+    run = Run(job)
+    pid = os.fork()
+    if pid == 0:
+        _exec(job, failure_write)
+    os.close(failure_write)
+    run.pid = pid
+    # After the fork on purpose: until the node reaches its first call, the sockets' backlog holds it.
+    from . import stub_master  # noqa: PLC0415
+
+    params = ParamTree()
+    _load(params, job["params"])
+    stub_master.serve(listening, params, run.master_report)
+
+    status, code, why = _watch(run, events, wake_read)
+    if status == "ended" and code == 127:
+        failed = os.read(failure_read, 1000)
+        if failed:
+            status, why = "exec-failed", failed.decode(errors="replace")
+    run.emit({"own": {"ev": "maps", "paths": _shared_objects(pid)[:2000]}})
+    run.emit(
+        {
+            "own": {
+                "ev": "end",
+                "status": status,
+                "code": code,
+                "why": why,
+                "waits": run.blocked_by() if status == "timed-out" else [],
+                "initialised": run.initialised,
+                "dropped": run.dropped,
+                "seconds": time.monotonic() - run.started,
+            }
+        }
+    )
+    os._exit(0)
+
+
+def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
+    """Read events until the node is over. The status, and where it ended itself its exit code or minus the signal."""
+    rest = b""
+    while True:
+        ready = select.select([events, wake], [], [], TICK)[0]
+        ended = None
+        if wake in ready:
+            os.read(wake, 512)
+            done, status = os.waitpid(run.pid, os.WNOHANG)
+            if done == run.pid:
+                ended = -os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
+        rest = _drain(run, events, rest)
+        if ended is not None:
+            return "ended", ended, ""
+        reason = run.over()
+        if reason is not None:
+            return reason, None, ""
+
+
+def _drain(run: Run, events: int, rest: bytes) -> bytes:
+    """What stands in the FIFO, but no more than fits into it at once: a flood must not keep us from the clock."""
+    for _ in range(16):
+        try:
+            rest += os.read(events, 65536)
+        except BlockingIOError:
+            break
+        *lines, rest = rest.split(b"\n")
+        for line in lines:
+            if len(line) > MAX_LINE or run.count >= MAX_EVENTS:
+                run.dropped += 1
+            else:
+                run.node_line(line)
+        if len(rest) > MAX_LINE:
+            run.dropped += 1
+            rest = b""
+    return rest

@@ -1,0 +1,394 @@
+"""The records of a run to an Interface and what it depended on.
+
+Every field is checked: the node could have written the records itself. What does not fit is dropped and counted.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import signal
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
+from preflight_analysis.tracing.recipe import Recipe
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.run import RLIMITS, WALL_SECONDS, RawRun
+
+MAX_ENDPOINTS = 2_000
+MAX_PARAMS = 5_000
+MAX_FILES = 10_000
+TAIL_LINES = 20
+TAIL_COLUMNS = 500
+
+_ROLES = ("publisher", "subscriber", "service", "client")
+_ACCESS = ("get", "has", "set", "delete", "search", "list")
+_NAME = re.compile(r"[^\x00-\x1f\x7f]{1,300}\Z")
+_TYPE = re.compile(r"(\*|[A-Za-z]\w*/[A-Za-z]\w*)\Z")
+_MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
+_ESCAPES = re.compile(r"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[@-Z\\-_])")
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
+_LIBRARY_PARAMS = re.compile(r"/(use_sim_time|tcp_keepalive|rosout_disable_topics_generation|enable_statistics"
+                             r"|statistics_window_\w+)\Z")  # fmt: skip
+_LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
+
+
+@dataclass(frozen=True, slots=True)
+class ParamDependency:
+    """A look at the parameter server. `name` is as the node gave it if `given`, else the full name."""
+
+    access: str
+    name: str
+    given: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Dependencies:
+    """What the run depended on. `asked` has `name`, `namespace`, `remaps` if the node looked at them itself."""
+
+    files: tuple[str, ...] = ()
+    params: tuple[ParamDependency, ...] = ()
+    asked: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """A checked run. `lasting` tells whether it would come out the same again, so that it may be cached."""
+
+    interface: Interface
+    dependencies: Dependencies
+    lasting: bool
+
+
+@dataclass(slots=True)
+class _Gathered:
+    endpoints: dict[str, tuple[Endpoint, str | None]] = field(default_factory=dict)
+    params: dict[str, tuple[ParamUse, str | None]] = field(default_factory=dict)
+    """By their `repr`, so that each counts once; with the resolved name that the library told."""
+    seen_endpoints: list[tuple[str, str, str | None]] = field(default_factory=list)
+    seen_params: list[tuple[str, str]] = field(default_factory=list)
+    lookups: list[str] = field(default_factory=list)
+    waits: list[tuple[str, str, str | None, int | None]] = field(default_factory=list)
+    files: dict[str, None] = field(default_factory=dict)
+    asked: set[str] = field(default_factory=set)
+    wrote: dict[str, None] = field(default_factory=dict)
+    failures: list[str] = field(default_factory=list)
+    woven: bool = False
+    end: Mapping[str, Any] | None = None
+    dropped: int = 0
+
+
+def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
+    """Read a run. Never raises, whatever the records are."""
+    found = _Gathered(dropped=raw.dropped)
+    for record in raw.records:
+        own, told = record.get("own"), record.get("node")
+        if isinstance(own, dict):
+            taken = _own(own, found)
+        elif isinstance(told, dict):
+            taken = _told(told, found)
+        else:
+            taken = False
+        found.dropped += not taken
+    tail = stderr_tail(raw.stderr)
+    outcome = _outcome(raw, found, tail)
+    if outcome.status == "not-run":
+        return Observation(Interface("none", outcome), Dependencies(), lasting=False)
+    remaps = names.resolve_remaps(request.remaps, request.node) if recipe.python else {}
+    endpoints = _endpoints(found, request.node, remaps)
+    params, param_dependencies = _params(found)
+    asked = set(found.asked)
+    unexplained = len(endpoints) > len(found.endpoints) or any(
+        not d.given and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
+    )
+    if not found.woven or unexplained:
+        asked |= {"name", "remaps"} if recipe.python else {"name"}
+    interface = Interface("trace", outcome, endpoints, params, notes=_notes(found))
+    dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
+    return Observation(interface, dependencies, lasting=not raw.killed and not raw.cancelled)
+
+
+def stderr_tail(data: bytes) -> tuple[str, ...]:
+    """The last lines, without terminal escapes, other control characters and our own frames in tracebacks."""
+    lines: list[str] = []
+    ours = False
+    for raw_line in data.decode(errors="replace").split("\n"):
+        line = _CONTROL.sub("", _ESCAPES.sub("", raw_line.rpartition("\r")[2] or raw_line)).rstrip()
+        if line.startswith("  File "):
+            ours = f'"{sandbox.LIBRARY}' in line
+        elif not line.startswith("    "):
+            ours = False
+        if line and not ours:
+            lines.append(line[:TAIL_COLUMNS])
+    return tuple(lines[-TAIL_LINES:])
+
+
+def _text(value: object, pattern: re.Pattern[str]) -> str | None:
+    return value if isinstance(value, str) and pattern.match(value) else None
+
+
+def _place(record: Mapping[str, Any]) -> tuple[str | None, int | None]:
+    file, line = record.get("file"), record.get("line")
+    if isinstance(file, str) and file.startswith("/") and len(file) < 4096 and isinstance(line, int) and line > 0:
+        return file, line
+    return None, None
+
+
+def _paths(value: object) -> Iterable[str]:
+    return (
+        (p for p in value if isinstance(p, str) and p.startswith("/") and len(p) < 4096 and "\0" not in p)
+        if (isinstance(value, list))
+        else ()
+    )
+
+
+def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
+    """What the woven library says."""
+    match record.get("ev"):
+        case "endpoint":
+            return _told_endpoint(record, found)
+        case "param":
+            return _told_param(record, found)
+        case "asked" if record.get("what") in ("name", "namespace", "remaps"):
+            found.asked.add(str(record["what"]))
+        case "files":
+            _add_files(_paths(record.get("paths")), found)
+        case "wrote":
+            if len(found.wrote) < 100:
+                found.wrote.update((p, None) for p in _paths([record.get("path")]))
+        case "state" if record.get("state") == "wait":
+            kind, name = record.get("kind"), _text(record.get("name"), _NAME)
+            if kind in ("service", "message") and name is not None:
+                found.waits.append((str(kind), name, *_place(record)))
+        case "woven":
+            found.woven = True
+        case "weave-failed":
+            if len(found.failures) < 3:
+                found.failures.append(_CONTROL.sub("", str(record.get("message")))[:300])
+        case _:
+            return False
+    return True
+
+
+def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
+    role, name = record.get("role"), _text(record.get("name"), _NAME)
+    if role not in _ROLES or name is None or len(found.endpoints) >= MAX_ENDPOINTS:
+        return False
+    qos: dict[str, Any] = {}
+    given = record.get("qos")
+    if isinstance(given, dict):
+        if isinstance(given.get("latch"), bool):
+            qos["latch"] = given["latch"]
+        if given.get("queue_size") is None or isinstance(given.get("queue_size"), int):
+            qos["queue_size"] = given.get("queue_size")
+    if role in ("service", "client"):
+        qos = {}
+    file, line = _place(record)
+    endpoint = Endpoint(
+        cast(Role, role),
+        name,
+        _text(record.get("type"), _TYPE),
+        _text(record.get("md5"), _MD5),
+        qos,
+        file,
+        line,
+        builtin=record.get("builtin") is True,
+    )
+    found.endpoints.setdefault(repr(endpoint), (endpoint, _text(record.get("resolved"), _NAME)))
+    return True
+
+
+def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:
+    access, name = record.get("access"), _text(record.get("name"), _NAME)
+    if access not in _ACCESS or name is None or len(found.params) >= MAX_PARAMS:
+        return False
+    file, line = _place(record)
+    has_default = record.get("has_default") is True
+    use = ParamUse(
+        name,
+        str(access),
+        _plain(record.get("default")) if has_default else None,
+        has_default,
+        mandatory=access == "get" and not has_default,
+        source_file=file,
+        source_line=line,
+        builtin=record.get("builtin") is True,
+    )
+    found.params.setdefault(repr(use), (use, _text(record.get("resolved"), _NAME)))
+    return True
+
+
+def _own(record: Mapping[str, Any], found: _Gathered) -> bool:
+    """What the supervisor and its master say."""
+    match record.get("ev"):
+        case "m-endpoint":
+            role, name = record.get("role"), _text(record.get("name"), _NAME)
+            if role not in _ROLES or name is None or len(found.seen_endpoints) >= MAX_ENDPOINTS:
+                return False
+            found.seen_endpoints.append((str(role), name, _text(record.get("type"), _TYPE)))
+        case "m-param":
+            access, name = record.get("access"), _text(record.get("name"), _NAME)
+            if access not in _ACCESS or name is None or len(found.seen_params) >= MAX_PARAMS:
+                return False
+            found.seen_params.append((str(access), name))
+        case "m-lookup":
+            name = _text(record.get("name"), _NAME)
+            if name is None or len(found.lookups) >= MAX_ENDPOINTS:
+                return False
+            found.lookups.append(name)
+        case "maps":
+            _add_files(_paths(record.get("paths")), found)
+        case "end":
+            found.end = record
+            if isinstance(record.get("dropped"), int):
+                found.dropped += min(max(record["dropped"], 0), 10**9)
+        case _:
+            return False
+    return True
+
+
+def _add_files(paths: Iterable[str], found: _Gathered) -> None:
+    for path in paths:
+        if len(found.files) < MAX_FILES:
+            found.files[path] = None
+
+
+def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[Endpoint, ...]:
+    """The union of both views: what the library told, and what only the master or a wait shows."""
+    endpoints = [endpoint for endpoint, _ in found.endpoints.values()]
+    known: set[tuple[str, str]] = {
+        (e.role, full or names.resolve(e.name, node, remaps)) for e, full in found.endpoints.values()
+    }
+    for role, name, kind in found.seen_endpoints:
+        if (role, name) in known:
+            continue
+        known.add((role, name))
+        private = name.removeprefix(node + "/")
+        if role == "service" and name.startswith(node + "/") and private in _LIBRARY_SERVICES:
+            endpoints.append(Endpoint("service", "~" + private, _logger_type(private), builtin=True))
+        else:
+            builtin = (role, name) in (("publisher", "/rosout"), ("subscriber", "/clock"))
+            endpoints.append(Endpoint(cast(Role, role), name, kind, builtin=builtin))
+    for kind, name, file, line in found.waits:
+        full = names.resolve(name, node, remaps)
+        if kind == "service" and ("client", full) not in known:
+            known.add(("client", full))
+            endpoints.append(Endpoint("client", name, None, source_file=file, source_line=line))
+    for full in found.lookups:
+        if ("client", full) not in known:
+            known.add(("client", full))
+            endpoints.append(Endpoint("client", full, None))
+    return tuple(endpoints)
+
+
+def _logger_type(service: str) -> str:
+    return {"get_loggers": "roscpp/GetLoggers", "set_logger_level": "roscpp/SetLoggerLevel"}[service]
+
+
+def _params(found: _Gathered) -> tuple[tuple[ParamUse, ...], list[ParamDependency]]:
+    uses = [use for use, _ in found.params.values()]
+    known = {(use.access, full) for use, full in found.params.values()}
+    searched = any(use.access == "search" for use in uses)
+    dependencies = {ParamDependency(use.access, use.name, given=True): None for use in uses}
+    for access, name in found.seen_params:
+        if (access, name) in known or (access == "search" and searched):
+            continue
+        known.add((access, name))
+        builtin = _LIBRARY_PARAMS.match(name) is not None
+        uses.append(ParamUse(name, access, builtin=builtin))
+        dependencies[ParamDependency(access, name, given=False)] = None
+    return tuple(uses), [d for d in dependencies if d.access in ("get", "has", "search", "list")]
+
+
+def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...]) -> Outcome:
+    if raw.cancelled:
+        return Outcome("not-run", reason="the run was cancelled")
+    end = found.end
+    if end is None:
+        if raw.killed:
+            return Outcome("timed-out", None, None, tail, "the sandbox did not end in time and was killed")
+        if not found.endpoints and not found.seen_endpoints and not found.woven:
+            said = f": {tail[-1]}" if tail else ""
+            return Outcome("not-run", None, None, tail, f"the sandbox could not start the node{said}")
+        return Outcome("crashed", None, None, tail, "the node ended the whole sandbox")
+    seconds = end.get("seconds")
+    spent = float(seconds) if isinstance(seconds, (int, float)) and 0 <= seconds < 3600 else 0.0
+    code = end.get("code")
+    match end.get("status"):
+        case "spinning":
+            return Outcome("spinning", seconds=spent)
+        case "timed-out":
+            return Outcome("timed-out", None, None, tail, _waiting(end), spent)
+        case "exec-failed":
+            why = _CONTROL.sub("", str(end.get("why")))[:300]
+            return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {why}", spent)
+        case "ended" if isinstance(code, int) and 0 < -code < 65:
+            return Outcome("crashed", None, _signal(-code), tail, _signal_reason(-code, tail), spent)
+        case "ended" if code == 0:
+            return Outcome("exited", 0, None, tail, "the node ended by itself, with exit code 0", spent)
+        case "ended" if isinstance(code, int):
+            return Outcome("crashed", code, None, tail, _crash_reason(code, tail), spent)
+    return Outcome("crashed", None, None, tail, "the node garbled the report of its run", spent)
+
+
+def _waiting(end: Mapping[str, Any]) -> str:
+    waits = end.get("waits")
+    limit = f"within {WALL_SECONDS:g} s"
+    if isinstance(waits, list) and waits and isinstance(waits[0], list) and len(waits[0]) == 2:
+        kind, name = waits[0]
+        if kind in ("service", "message") and _text(name, _NAME):
+            subject = f"the service {name}" if kind == "service" else f"a message on {name}"
+            return f"it waits for {subject}, and did not reach its event loop {limit}"
+    return f"it did not reach its event loop {limit}" + ("" if end.get("initialised") else ", nor register as a node")
+
+
+def _signal(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def _signal_reason(number: int, tail: tuple[str, ...]) -> str:
+    if number == signal.SIGXCPU:
+        return f"it used more than {RLIMITS['CPU']} s of processor time"
+    return f"it was killed by {_signal(number)}" + (f": {tail[-1][:200]}" if tail else "")
+
+
+def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
+    exception = next((line for line in reversed(tail) if _EXCEPTION.match(line)), None)
+    if exception is None and tail and tail[-1].strip():
+        exception = tail[-1].strip()
+    return f"it ended with exit code {code}" + (f": {exception[:200]}" if exception else "")
+
+
+def _notes(found: _Gathered) -> tuple[str, ...]:
+    notes = []
+    wrote = [p for p in found.wrote if not p.startswith(("/tmp/ros_home", "/tmp/ros_log", "/run/", "/dev/"))]  # noqa: S108
+    if wrote:
+        more = f" and {len(wrote) - 3} more" if len(wrote) > 3 else ""
+        notes.append(
+            "it opened files for writing, which the sandbox kept from the disk: " + ", ".join(wrote[:3]) + more
+        )
+    if found.dropped:
+        notes.append(f"{found.dropped} records of the run were malformed or too many, and were left out")
+    notes += [f"part of the node's calls could not be watched: {failure}" for failure in found.failures]
+    return tuple(notes)
+
+
+def _plain(value: Any) -> Any:
+    """A default value, of JSON's types and bounded."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    if isinstance(value, str):
+        return value[:4000]
+    if isinstance(value, list):
+        return [_plain(item) for item in value[:1000]]
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in list(value.items())[:1000]}
+    return value

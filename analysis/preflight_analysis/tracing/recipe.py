@@ -1,0 +1,165 @@
+"""What exactly is executed for a `TraceRequest`: command, environment, folder, and what must be visible to it.
+
+As roslaunch does it (roslaunch.node_args): arguments, then remaps as `from:=to`, then `__name:=`, `__log:=`; the
+namespace in `ROS_NAMESPACE`; the folder ROS_HOME unless `cwd="node"`.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
+from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.request import TraceRequest
+
+ROS_HOME = "/tmp/ros_home"  # noqa: S108
+LOG_FOLDER = "/tmp/ros_log"  # noqa: S108
+MASTER_URI = "http://127.0.0.1:11311/"
+
+_SEARCH_PATHS = ("PYTHONPATH", "LD_LIBRARY_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH", "GAZEBO_PLUGIN_PATH")
+_PASSED = frozenset(
+    (*_SEARCH_PATHS, "PATH", "LANG", "LANGUAGE", "TZ", "PYTHONUNBUFFERED", "PYTHONIOENCODING", "CMAKE_PREFIX_PATH")
+)
+_PASSED_PREFIXES = ("ROS_", "ROSCONSOLE_", "LC_")
+_NEVER_PASSED = ("TOKEN", "SECRET", "PASSWORD", "PASSWD", "CREDENTIAL", "_KEY")
+_DEFAULT_PATH = "/usr/local/bin:/usr/bin:/bin"
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """Everything of a run but the parameters. `stable` is the part of the environment that names the run in the
+    cache: the node's name and namespace and what is the same for all are left out."""
+
+    argv: tuple[str, ...]
+    env: Mapping[str, str]
+    stable: Mapping[str, str]
+    cwd: str
+    python: bool
+    """Whether the executable is a Python script: its names are then told by rospy itself, before remapping."""
+
+
+def make(environment: Environment, request: TraceRequest) -> Recipe:
+    """The recipe of a request. Reads the executable's first line; an unreadable one is left for exec to complain of."""
+    stable = _variables(environment, request)
+    interpreter, python = _interpreter(environment, request.executable, stable.get("PATH", _DEFAULT_PATH))
+    argv = [*interpreter, request.executable, *request.args]
+    if python:
+        argv += [f"{source}:={target}" for source, target in request.remaps]
+    # Of any other executable only the master's view is known, where names are remapped already. It gets no remaps, so
+    # that there too the names are those before remapping, and the graph can apply them.
+    base = request.node.rpartition("/")[2]
+    argv += [f"__name:={base}", f"__log:={LOG_FOLDER}/{base}.log"]
+    env = dict(stable)
+    env["PYTHONPATH"] = os.pathsep.join(p for p in (sandbox.SITE, stable.get("PYTHONPATH", "")) if p)
+    namespace = names.parent(request.node).rstrip("/")
+    if namespace:
+        env["ROS_NAMESPACE"] = namespace
+    env |= {
+        "HOME": sandbox.home(),
+        "ROS_MASTER_URI": MASTER_URI,
+        "ROS_IP": "127.0.0.1",
+        "ROS_HOME": ROS_HOME,
+        "ROS_LOG_DIR": LOG_FOLDER,
+        "TMPDIR": "/tmp",  # noqa: S108
+        "PREFLIGHT_EVENTS": "/run/preflight/events",
+    }
+    # Its threads cost more than they give in a run of half a second: 0.1 s of processor time for numpy's import.
+    env.setdefault("OPENBLAS_NUM_THREADS", "1")
+    return Recipe(tuple(argv), env, stable, _folder(request), python)
+
+
+def visible_paths(environment: Environment) -> list[str]:
+    """What nodes of this environment need to see below the masked folders."""
+    paths = [*environment.package_path, *environment.devel_spaces, *environment.system_prefixes]
+    paths += [package.share for package in environment.packages.values()]
+    for variable in (
+        "PYTHONPATH",
+        "LD_LIBRARY_PATH",
+        "GAZEBO_MODEL_PATH",
+        "GAZEBO_RESOURCE_PATH",
+        "GAZEBO_PLUGIN_PATH",
+    ):
+        paths += environment.variables.get(variable, "").split(os.pathsep)
+    if environment.python:
+        paths += _interpreter_paths(environment.python)
+    paths += [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
+    return sandbox.needs_binding(paths)
+
+
+def request_paths(request: TraceRequest) -> list[str]:
+    """What this node needs to see besides."""
+    paths = [os.path.dirname(request.executable), os.path.dirname(os.path.realpath(request.executable))]
+    interpreter = _shebang(request.executable)
+    if interpreter:
+        paths += _interpreter_paths(interpreter[0])
+    return sandbox.needs_binding(paths)
+
+
+def _variables(environment: Environment, request: TraceRequest) -> dict[str, str]:
+    overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
+    kept = {
+        name: value
+        for name, value in environment.variables.items()
+        if (name in _PASSED or name.startswith(_PASSED_PREFIXES))
+        and name not in overridden
+        and not any(word in name.upper() for word in _NEVER_PASSED)
+    }
+    kept.setdefault("PATH", _DEFAULT_PATH)
+    kept.update((name, value) for name, value in request.env if name and "=" not in name and "\0" not in name + value)
+    return kept
+
+
+def _shebang(executable: str) -> list[str]:
+    try:
+        with Path(executable).open("rb") as file:
+            line = file.read(256).split(b"\n", 1)[0]
+    except OSError:
+        return []
+    return line[2:].decode(errors="replace").split() if line.startswith(b"#!") else []
+
+
+def _interpreter(environment: Environment, executable: str, path: str) -> tuple[list[str], bool]:
+    """What to put before the script, and whether it is Python.
+
+    `#!/usr/bin/env python3` means the interpreter that the user's nodes have, which is not always the first of the
+    PATH that this process was started with. A name that the PATH does not know stays for `env` to complain of.
+    """
+    words = _shebang(executable)
+    if not words:
+        return [], False
+    if os.path.basename(words[0]) != "env":
+        return [], os.path.basename(words[0]).startswith("python")
+    names_after = [word for word in words[1:] if not word.startswith("-") and "=" not in word]
+    name = names_after[0] if names_after else ""
+    python = name.startswith("python") and not name.startswith("python2")
+    if python and len(words) == 2 and environment.python and shutil.which(name, path=path):
+        return [environment.python], True
+    return [], python
+
+
+def _interpreter_paths(python: str) -> Iterable[str]:
+    """The interpreter and the prefixes it needs: of the virtual environment, and of what that was made from."""
+    seen: list[str] = []
+    at = os.path.abspath(python)
+    for _ in range(16):
+        seen.append(at)
+        prefix = os.path.dirname(os.path.dirname(at))
+        if os.path.isfile(os.path.join(prefix, "pyvenv.cfg")) or any(Path(prefix, "lib").glob("python3*")):
+            seen.append(prefix)
+        if not os.path.islink(at):
+            break
+        at = os.path.normpath(os.path.join(os.path.dirname(at), os.readlink(at)))
+    return seen
+
+
+def _folder(request: TraceRequest) -> str:
+    if request.cwd == "node":
+        return os.path.dirname(request.executable)
+    if request.cwd and os.path.isabs(request.cwd):
+        return request.cwd
+    return ROS_HOME

@@ -1,0 +1,189 @@
+"""One run in the sandbox, seen from outside: a process, two pipes, a clock.
+
+What comes out of the pipes was written by code that is not ours and may be anything; here it is only bounded and cut
+into JSON objects, `observation` checks what they say. The way out of a run that does not end is one signal to one
+process: nothing is forked for it, so that a machine out of processes does not keep us from it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import selectors
+import subprocess
+import threading
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing import sandbox
+
+WALL_SECONDS = 5.0
+"""From exec to the end, at most."""
+QUIET_SECONDS = 0.3
+"""A loop with sleeps counts as the event loop after so long without a new endpoint or parameter call."""
+SETTLED_SECONDS = 0.75
+"""The same for a node that is up and asleep in a way that no hook knows."""
+OUTER_SECONDS = WALL_SECONDS + 5.0
+"""When the whole sandbox is killed from outside; the supervisor inside should have ended long before."""
+
+MAX_LINE = 128_000
+MAX_RECORDS = 25_000
+MAX_BYTES = 16 << 20
+STDERR_BYTES = 64_000
+"""How much of the end of standard error is kept."""
+
+RLIMITS = {
+    "AS": 4 << 30,
+    "CPU": 20,
+    "FSIZE": 64 << 20,
+    "NOFILE": 1024,
+    "CORE": 0,
+}
+_PROCESSES = 512
+_PROCESSES_SHARED = 8192
+"""Before Linux 5.14 the limit counts all of the user's processes, not only those of the sandbox."""
+
+_POLL = 0.05
+
+
+@dataclass(slots=True)
+class RawRun:
+    """What came out: JSON objects in order, the end of standard error, and how it ended if not by itself."""
+
+    records: list[dict[str, Any]] = field(default_factory=list)
+    stderr: bytes = b""
+    dropped: int = 0
+    cancelled: bool = False
+    killed: bool = False
+    """The outer clock ran out."""
+    started: float = 0.0
+    """Seconds since the epoch."""
+
+
+def execute(
+    recipe: recipes.Recipe, params: Mapping[str, Any], visible: list[str], interpreter: str, cancel: threading.Event
+) -> RawRun:
+    """Run it. `interpreter` is the Python 3.8 or later that the supervisor runs in. Raises `OSError` if bubblewrap
+    cannot be started."""
+    job = {
+        "argv": list(recipe.argv),
+        "env": dict(recipe.env),
+        "cwd": recipe.cwd,
+        "folders": [recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home()],
+        "params": encode_params(params),
+        "limits": {"wall": WALL_SECONDS, "quiet": QUIET_SECONDS, "settled": SETTLED_SECONDS},
+        "rlimits": RLIMITS | {"NPROC": _PROCESSES if _own_process_count() else _PROCESSES_SHARED},
+    }
+    start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
+    command = sandbox.command([interpreter, "-I", "-S", "-c", start], visible)
+    with os.fdopen(os.memfd_create("job"), "w+b") as handed:
+        handed.write(json.dumps(job).encode())
+        handed.seek(0)
+        raw = RawRun(started=time.time())
+        process = subprocess.Popen(
+            command,
+            stdin=handed,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env={},
+            cwd="/",
+            start_new_session=True,
+        )
+    try:
+        _read(process, raw, cancel)
+    finally:
+        process.kill()
+        process.wait()
+        for pipe in (process.stdout, process.stderr):
+            if pipe is not None:
+                pipe.close()
+    return raw
+
+
+def encode_params(params: Mapping[str, Any]) -> list[list[Any]]:
+    """As `[name, value]` pairs in JSON; what the parameter server cannot hold (None, unknown values) is left out."""
+    pairs = []
+    for name, value in params.items():
+        try:
+            pairs.append([name, _encode(value)])
+        except TypeError:
+            continue
+    return pairs
+
+
+def _encode(value: Any) -> Any:
+    if isinstance(value, (bool, str, float)):
+        return value
+    if isinstance(value, int):
+        if not -(2**31) <= value < 2**31:
+            raise TypeError("XML-RPC integers have 32 bits")
+        return value
+    if isinstance(value, bytes):
+        import base64  # noqa: PLC0415
+
+        return {"$binary": base64.b64encode(value).decode()}
+    if isinstance(value, Mapping):
+        return {str(key): _encode(below) for key, below in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_encode(item) for item in value]
+    raise TypeError(type(value).__name__)
+
+
+def _own_process_count() -> bool:
+    release = os.uname().release.split(".")
+    try:
+        return (int(release[0]), int(release[1].split("-")[0])) >= (5, 14)
+    except (IndexError, ValueError):
+        return False
+
+
+def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event) -> None:
+    assert process.stdout is not None
+    assert process.stderr is not None
+    deadline = time.monotonic() + OUTER_SECONDS
+    rest, total = b"", 0
+    with selectors.DefaultSelector() as selector:
+        for pipe in (process.stdout, process.stderr):
+            os.set_blocking(pipe.fileno(), False)
+            selector.register(pipe, selectors.EVENT_READ)
+        while selector.get_map():
+            if cancel.is_set():
+                raw.cancelled = True
+                return
+            if time.monotonic() > deadline:
+                raw.killed = True
+                return
+            for key, _ in selector.select(_POLL):
+                data = os.read(key.fd, 65536)
+                if not data:
+                    selector.unregister(key.fileobj)
+                elif key.fileobj is process.stderr:
+                    raw.stderr = (raw.stderr + data)[-STDERR_BYTES:]
+                else:
+                    total += len(data)
+                    if total > MAX_BYTES:
+                        raw.dropped += 1
+                        continue
+                    *lines, rest = (rest + data).split(b"\n")
+                    for line in lines:
+                        _take(line, raw)
+                    if len(rest) > MAX_LINE:
+                        raw.dropped += 1
+                        rest = b""
+
+
+def _take(line: bytes, raw: RawRun) -> None:
+    if len(line) > MAX_LINE or len(raw.records) >= MAX_RECORDS:
+        raw.dropped += 1
+        return
+    try:
+        record = json.loads(line)
+    except (ValueError, RecursionError):
+        record = None
+    if isinstance(record, dict):
+        raw.records.append(record)
+    else:
+        raw.dropped += 1

@@ -1,0 +1,151 @@
+"""Isolation by bubblewrap: the command line in which other people's code runs, and whether it works here.
+
+There is no other way to run anything: where `probe` says no, nothing runs.
+
+Inside: the host's files read-only; `/tmp`, `/run`, the home folders and shared memory empty and of bounded size, with
+only the named folders below them bound back read-only; own process, network, IPC and host name spaces, so no network
+but an own loopback and no other process to see; no capabilities; no environment variable but those given.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import shutil
+import subprocess
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import aspectlib  # type: ignore[import-untyped]
+
+LIBRARY = "/run/preflight/lib"
+"""Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
+SITE = "/run/preflight/site"
+"""The folder with `sitecustomize.py`, inside."""
+TEMPORARY_BYTES = 64 << 20
+"""Size of each writable file system inside: /tmp, /dev/shm, the home folder."""
+
+_AGENTS = Path(__file__).parent / "agents"
+_SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-", "/etc/sudoers")
+_USERNS_SWITCHES = (
+    ("/proc/sys/kernel/unprivileged_userns_clone", "0", "sysctl kernel.unprivileged_userns_clone=1"),
+    ("/proc/sys/user/max_user_namespaces", "0", "sysctl user.max_user_namespaces=10000"),
+    (
+        "/proc/sys/kernel/apparmor_restrict_unprivileged_userns",
+        "1",
+        "an AppArmor profile for bwrap (Ubuntu: apt install apparmor-profiles), "
+        "or sysctl kernel.apparmor_restrict_unprivileged_userns=0",
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class SandboxStatus:
+    """Whether nodes can be run. `reason` is a sentence that says why not and what to do about it."""
+
+    works: bool
+    reason: str | None = None
+
+
+@functools.lru_cache(maxsize=1)
+def probe() -> SandboxStatus:
+    """Try an empty run, once per process (`probe.cache_clear()` forgets the answer)."""
+    program = shutil.which("bwrap")
+    if program is None:
+        return SandboxStatus(False, "bubblewrap is not installed: apt install bubblewrap")
+    command = [program, *_isolation(()), "--", shutil.which("true") or "/bin/true"]
+    try:
+        done = subprocess.run(
+            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=10, env={}, check=False, cwd="/"
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return SandboxStatus(False, f"bubblewrap cannot be run: {error}")
+    if done.returncode == 0:
+        return SandboxStatus(True)
+    said = done.stderr.decode(errors="replace").strip().splitlines()
+    why = said[-1][:300] if said else f"exit code {done.returncode}"
+    for switch, off, remedy in _USERNS_SWITCHES:
+        try:
+            if Path(switch).read_text().strip() == off:
+                return SandboxStatus(False, f"user namespaces are switched off ({why}); needed: {remedy}")
+        except OSError:
+            continue
+    return SandboxStatus(
+        False, f"bubblewrap does not work here ({why}); in a container, user namespaces must be allowed"
+    )
+
+
+def command(argv: Sequence[str], visible: Iterable[str]) -> list[str]:
+    """The command line that runs `argv` isolated. `visible` are paths below the masked folders to show, read-only."""
+    program = shutil.which("bwrap")
+    if program is None:
+        raise FileNotFoundError("bwrap")
+    return [program, *_isolation(visible), "--", *argv]
+
+
+def masked(path: str) -> bool:
+    """Whether `path` lies in what is hidden inside, unless it is bound back."""
+    return any(_within(path, root) for root in _masks())
+
+
+def needs_binding(paths: Iterable[str]) -> list[str]:
+    """Of `paths`, the existing ones that are hidden inside, each as given and resolved, outermost only.
+
+    A folder that holds all of a masked one (a package path of `~`, say) is left out: it would show everything in it.
+    """
+    wanted: set[str] = set()
+    for path in paths:
+        if not path or not os.path.isabs(path):
+            continue
+        for form in (os.path.normpath(path), os.path.realpath(path)):
+            if masked(form) and not any(_within(root, form) for root in _masks()) and os.path.lexists(form):
+                wanted.add(form)
+    kept: list[str] = []
+    for path in sorted(wanted):
+        if not any(_within(path, outer) for outer in kept):
+            kept.append(path)
+    return kept
+
+
+def home() -> str:
+    """The home folder inside: the user's own, but empty save for what was bound back."""
+    found = os.path.realpath(os.path.expanduser("~"))
+    return found if os.path.isdir(found) and found != "/" else "/tmp/home"  # noqa: S108
+
+
+@functools.lru_cache(maxsize=8)
+def _masks_for(home_folder: str) -> tuple[str, ...]:
+    roots = {"/tmp", "/var/tmp", "/run", "/home", "/root", home_folder}  # noqa: S108
+    existing = sorted({os.path.realpath(root) for root in roots if os.path.isdir(root)} - {"/"})
+    return tuple(root for root in existing if not any(_within(root, o) for o in existing if o != root))
+
+
+def _masks() -> tuple[str, ...]:
+    return _masks_for(home())
+
+
+def _within(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(folder.rstrip("/") + "/")
+
+
+def _isolation(visible: Iterable[str]) -> list[str]:
+    size = str(TEMPORARY_BYTES)
+    options = ["--unshare-user", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts"]
+    options += ["--unshare-cgroup-try", "--hostname", "localhost", "--clearenv", "--die-with-parent", "--new-session"]
+    options += ["--cap-drop", "ALL", "--ro-bind", "/", "/"]
+    options += ["--dev", "/dev", "--size", size, "--tmpfs", "/dev/shm"]  # noqa: S108
+    # Root in a container could else write through a fresh /proc, core_pattern for one.
+    options += ["--proc", "/proc", "--ro-bind", "/proc/sys", "/proc/sys"]
+    for root in _masks():
+        options += ["--size", size, "--tmpfs", root]
+    options += ["--dir", home(), "--chmod", "0700", home()]
+    for path in _SECRET_FILES:
+        if os.path.exists(path):
+            options += ["--ro-bind", "/dev/null", path]
+    for path in needs_binding(visible):
+        options += ["--ro-bind", path, path]
+    options += ["--ro-bind", str(_AGENTS), LIBRARY + "/preflight_agents"]
+    options += ["--ro-bind", str(Path(aspectlib.__file__).parent), LIBRARY + "/aspectlib"]
+    options += ["--ro-bind", str(_AGENTS / "sitecustomize.py"), SITE + "/sitecustomize.py"]
+    return options

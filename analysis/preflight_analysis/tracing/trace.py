@@ -1,0 +1,106 @@
+"""A node and its configuration to its Interface: from the cache, or by a run in the sandbox."""
+
+from __future__ import annotations
+
+import functools
+import logging
+import os
+import sys
+import threading
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing import run, sandbox
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface, Outcome
+from preflight_analysis.tracing.observation import Dependencies, Observation, observe
+from preflight_analysis.tracing.request import TraceRequest
+
+_log = logging.getLogger(__name__)
+
+
+class Tracer:
+    """Traces nodes of one environment. Usable from several threads at once. Without `cache` each trace is a run."""
+
+    def __init__(self, environment: Environment, cache: TraceCache | None) -> None:
+        self.environment = environment
+        self.cache = cache
+
+    @functools.cached_property
+    def _visible(self) -> list[str]:
+        return recipes.visible_paths(self.environment)
+
+    def lookup(self, request: TraceRequest) -> Interface | None:
+        """A cached trace that is still valid; nothing is run."""
+        if self.cache is None:
+            return None
+        try:
+            return self.cache.load(recipes.make(self.environment, request), request)
+        except Exception:
+            _log.exception("looking up a trace of %s failed", request.node)
+            return None
+
+    def trace(self, request: TraceRequest, cancel: threading.Event) -> Interface:
+        """The cached trace, or a new run. Never raises: what stands in the way of a run is the outcome's reason."""
+        found = self.lookup(request)
+        if found is not None:
+            return found
+        try:
+            return self._run(request, cancel)
+        except Exception as error:
+            _log.exception("tracing %s failed", request.node)
+            return _not_run(f"the run failed: {error}")
+
+    def _run(self, request: TraceRequest, cancel: threading.Event) -> Interface:
+        status = sandbox.probe()
+        if not status.works:
+            return _not_run(f"no sandbox: {status.reason}")
+        if cancel.is_set():
+            return _not_run("the run was cancelled")
+        recipe = recipes.make(self.environment, request)
+        visible = sorted({*self._visible, *recipes.request_paths(request)})
+        raw = run.execute(recipe, request.params, visible, self.environment.python or sys.executable, cancel)
+        observed = observe(raw, recipe, request)
+        if self.cache is not None and observed.lasting:
+            self.cache.store(
+                recipe,
+                request,
+                observed.interface,
+                _on_host(observed.dependencies, visible),
+                listings=_searched(observed, recipe, request),
+                started=raw.started,
+            )
+        return observed.interface
+
+
+def _on_host(dependencies: Dependencies, visible: list[str]) -> Dependencies:
+    """Without the files that were the sandbox's own: the host's of the same name are others."""
+    kept: dict[str, None] = {}
+    for opened in dependencies.files:
+        path = _source(opened)
+        if not sandbox.masked(path) or any(path == root or path.startswith(root + "/") for root in visible):
+            kept[path] = None
+    return Dependencies(tuple(kept), dependencies.params, dependencies.asked)
+
+
+def _source(path: str) -> str:
+    """The module that a compiled file was made from (PEP 3147), any other file itself."""
+    folder, name = os.path.split(path)
+    if os.path.basename(folder) == "__pycache__" and name.endswith(".pyc"):
+        return os.path.join(os.path.dirname(folder), name.partition(".")[0] + ".py")
+    return path
+
+
+def _searched(observed: Observation, recipe: recipes.Recipe, request: TraceRequest) -> list[str]:
+    """For a Python node that crashed: where a module that was missing could turn up."""
+    if observed.interface.outcome.status != "crashed" or not recipe.python:
+        return []
+    opened = {os.path.dirname(_source(path)) for path in observed.dependencies.files if "-packages/" in path}
+    roots = {path[: path.index("-packages/") + len("-packages")] for path in (p + "/" for p in opened)}
+    entries = recipe.stable.get("PYTHONPATH", "").split(os.pathsep)
+    folder = os.path.dirname(os.path.realpath(request.executable))
+    return sorted({folder, *roots, *(e for e in entries if os.path.isabs(e))})
+
+
+def _not_run(reason: str) -> Interface:
+    return Interface("none", Outcome("not-run", reason=reason))
