@@ -22,8 +22,8 @@ def parse_xml(path: str, text: str) -> Document:
     """Parse the text of an XML file, whatever it looks like, in time linear in its length. Never raises.
 
     `problems` is empty exactly when expat, the parser that roslaunch uses through minidom, takes the text (an empty
-    one aside: it has no root and no problem). Values are decoded and normalised as XML says; the entities of a
-    DOCTYPE are not expanded.
+    one aside: it has no root and no problem). Values are decoded and normalised as XML says. The entities of a
+    DOCTYPE are not expanded, so what is wrong inside of their replacement text is not seen.
     """
     lines = LineIndex(text)
     scanned = scan(text, lines)

@@ -36,7 +36,6 @@ _NAME_EQUALS = re.compile(f"{NAME}{_S}*=")
 _UNQUOTED = re.compile(r"""(?:\$\([^()<>"'\n]*\)|[^ \t\r\n<>"'/$]|/(?!>)|\$)+""")
 _TAG_LIKE = re.compile(f"<[/!?]?[{_NAME_START}]|<!--|</")
 _JUNK = re.compile(f"[^{_NAME_START} \t\r\n<>/\"'=]+")
-_LINE_REST = re.compile(r"[^\r\n]*")
 _TEXT_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?")
 _VALUE_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?|[\n\t]")
 _COMMENT_MARK = re.compile("<!--|-->")
@@ -150,9 +149,12 @@ class _Scanner:
         return hit
 
     def _line_end(self, start: int) -> int:
-        """End of the line's content, its trailing blanks left out; at least `start`."""
-        found = _LINE_REST.match(self.text, start)
-        return start + len(found[0].rstrip()) if found else start
+        """End of the content of the line that `start` is in; at least `start`."""
+        line, _ = self.lines.position(start)
+        end = self.lines.line_start(line + 1)
+        while end > start and self.text[end - 1] in "\r\n":
+            end -= 1
+        return end
 
     # Character data
 
@@ -362,7 +364,7 @@ class _Scanner:
         It is not when it opens the next attribute's value, or when a tag starts on a line in between.
         """
         text = self.text
-        line_end = _skip(_LINE_REST, text, start)
+        line_end = self._line_end(start)
         tag = _TAG_LIKE.search(text, start, close if close >= 0 else line_end)
         end = line_end
         if close >= 0:
@@ -416,7 +418,7 @@ class _Scanner:
                 self._problem("a comment cannot hold another one", inner, inner + 4)
         if close < 0:
             self._problem("the comment is not closed with '-->'", less, start)
-            close = end = max(start, self._line_end(start))
+            close = end = start + len(text[start : self._line_end(start)].rstrip(_BLANK))
         elif inner < 0:
             dashes = text.find("--", start, close + 1)
             if dashes >= 0:
@@ -513,7 +515,7 @@ class _Scanner:
         text = self.text
         name = _NAME.match(text, less + 2)
         at = name.end() if name else less + 2
-        line_end = _skip(_LINE_REST, text, at)
+        line_end = self._line_end(at)
         next_tag = text.find("<", at, line_end)
         greater = text.find(">", at, line_end if next_tag < 0 else next_tag)
         end = greater + 1 if greater >= 0 else at
