@@ -59,6 +59,11 @@ def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) ->
         if part.command == "find":
             finds = True
             continue
+        if part.command == "eval" and not is_eval(value.text):
+            message = "$(eval ...) must be the whole value"
+            state.problem("bad-substitution", scope.origin(span), text=part.text, message=message)
+            known = False
+            continue
         result = _one(state, scope, part, span, record=at is None)
         if result is None:
             known = False
@@ -148,15 +153,10 @@ def _dirname(state: State, scope: Scope, part: Substitution, words: list[str]) -
 
 def _unknown_command(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     message = f"'{part.command}' is not a substitution" if part.command else "the substitution is empty"
-    if part.command == "eval":
-        message = "$(eval ...) must be the whole value"
     raise _Failure("bad-substitution", text=part.text, message=message, command=part.command, commands=COMMANDS_ROS1)
 
 
 def _eval(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
-    if not is_eval(part.text):
-        return _unknown_command(state, scope, part, words)
-
     def by_name(name: str) -> object:
         if name not in scope.args:
             if name in scope.declared:

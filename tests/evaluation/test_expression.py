@@ -1,0 +1,63 @@
+import math
+import time
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from preflight_analysis.evaluation.expression import EvaluationError, NotAllowedError, evaluate, evaluate_arithmetic
+
+
+def no_names(name: str) -> object:
+    raise KeyError(name)
+
+
+@pytest.mark.parametrize(
+    "hostile",
+    [
+        "().__class__",
+        "open('/etc/passwd')",
+        "exec('1')",
+        "eval('1')",
+        "(lambda: 1)()",
+        "[x for x in (1,)]",
+        "str.format('{0.a}', 1)",
+        "'{}'.format(1)",
+        "f'{1}'",
+        "getattr(1, 'real')",
+        "''.encode()",
+        "(y := 1)",
+        "9**9**9**9",
+        "'a' * 10**12",
+        "[0] * 10**12",
+        "1 << 10**12",
+        "'%999999999d' % 1",
+        "'%*d' % (10**9, 1)",
+        "factorial(10**9)",
+        "comb(10**9, 10**8)",
+        "('a' * 100000).replace('a', 'b' * 100000)",
+        "(" * 5000 + ")" * 5000,
+        "-" * 100_000 + "1",
+    ],
+)
+def test_hostile_expressions_are_refused_at_once(hostile: str) -> None:
+    begin = time.monotonic()
+    with pytest.raises((EvaluationError, NotAllowedError)):
+        evaluate(hostile, no_names, {})
+    assert time.monotonic() - begin < 2
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [("pi / 2", math.pi / 2), ("2 ** 10", 1024), ("-3 // 2", -2), ("sqrt(2)", math.sqrt(2)), ("1 if 2 > 1 else 0", 1)],
+)
+def test_arithmetic(expression: str, value: float) -> None:
+    assert evaluate_arithmetic(expression) == value
+
+
+@given(st.text(alphabet="()[]{}+-*/%<>=!.,'\" abx019_:andortif", max_size=60))
+@settings(max_examples=300, deadline=None)
+def test_nothing_but_its_own_errors_comes_out(expression: str) -> None:
+    try:
+        evaluate(expression, no_names, {})
+    except (EvaluationError, NotAllowedError):
+        pass

@@ -1,0 +1,49 @@
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+
+
+def test_keys_have_their_places() -> None:
+    text = "a:\n  bc: 1\nd: {e: 2}\n"
+    keys = load_yaml(text).keys
+    assert {path: text[span.start : span.end] for path, span in keys.items()} == {
+        ("a",): "a",
+        ("a", "bc"): "bc",
+        ("d",): "d",
+        ("d", "e"): "e",
+    }
+
+
+def test_aliases_that_multiply_are_refused() -> None:
+    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 12)]
+    with pytest.raises(YamlError, match="unfolds to more than"):
+        load_yaml("\n".join(lines))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a: [1, ",
+        "\ta: 1",
+        "a: *nothing",
+        "&a [*a]",
+        "!!python/object/apply:os.system [ls]",
+        "a: 1\n---\nb: 2",
+        "a: rad(x)",
+    ],
+)
+def test_what_cannot_be_loaded_is_an_error_with_a_message(text: str) -> None:
+    with pytest.raises(YamlError) as error:
+        load_yaml(text)
+    assert error.value.message
+
+
+@given(st.text(alphabet="ab:-[]{}&*!|>#'\"\n\t ,01.?%@`", max_size=80))
+@settings(max_examples=300, deadline=None)
+def test_nothing_but_its_own_error_comes_out(text: str) -> None:
+    try:
+        load_yaml(text)
+    except YamlError:
+        pass
