@@ -1,0 +1,53 @@
+# Everything works on a fresh machine: each target sets up what it needs first.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+DEMO := fixtures/ros1/demo
+
+.PHONY: help setup demo test lint bench corpus vsix test-editors docs clean
+help:
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
+
+$(READY): pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { echo "Python 3.10 or newer is needed" >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"
+	$(BIN)/python -m pip install --quiet --editable . --group dev
+	touch $(READY)
+
+setup: $(READY) ## Debian packages (where allowed) and a virtual environment in .venv
+	@.ci/apt-install
+
+demo: setup ## trace two real nodes in the sandbox and show what is wrong with their launch file
+	$(BIN)/ros-preflight check $(DEMO)/src/preflight_demo/launch/talker_listener.launch
+
+test: setup ## all tests but those in VS Code; Neovim is among them
+	tests/editors/install.sh neovim
+	$(BIN)/python -m pytest -m "not vscode"
+
+lint: $(READY) ## ruff and mypy
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+bench: setup ## editing latency and the time of a trace, as ratios
+	$(BIN)/python bench/editing.py
+	$(BIN)/python bench/trace.py
+
+corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslaunch has them
+	$(BIN)/ros-preflight tree --no-run --batch ../shared/corpus/ros1/jobs.jsonl > out/ros1.jsonl
+	$(BIN)/python ../shared/tools/compare_ros1.py --root $$(realpath ../shared/corpus/ros1) ../shared/corpus/ros1/expected.jsonl out/ros1.jsonl
+
+vsix: ## the VS Code extension, out/ros-preflight.vsix
+	cd vscode-client && npm ci --ignore-scripts && npm run package
+
+test-editors: setup vsix ## the extension in the real VS Code, with screenshots in out/screenshots
+	tests/editors/install.sh vscode
+	$(BIN)/python -m pytest -m vscode
+
+docs: $(READY) ## the rule reference, from the rules
+	$(BIN)/python -m preflight_analysis.rules.reference docs/rules
+
+clean:
+	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist
