@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import yaml
@@ -68,7 +69,25 @@ _Loader.add_implicit_resolver("!degrees", re.compile(r"^deg\([^\)]*\)$"), ["d"])
 
 
 def load_yaml(text: str) -> YamlValue:
-    """The first and only document of `text`; `None` for an empty one. Raises `YamlError`."""
+    """The first and only document of `text`; `None` for an empty one. Raises `YamlError`.
+
+    The result is remembered and shared: nobody may change it.
+    """
+    loaded = _load(text)
+    if isinstance(loaded, YamlError):
+        raise loaded
+    return loaded
+
+
+@lru_cache(maxsize=1024)
+def _load(text: str) -> YamlValue | YamlError:
+    try:
+        return _parse(text)
+    except YamlError as error:
+        return error
+
+
+def _parse(text: str) -> YamlValue:
     try:
         loader = _Loader(text)
         try:

@@ -191,7 +191,7 @@ def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass
     passed: dict[str, ArgValue] = {}
     seen: dict[str, Location] = {}
     if pass_all:
-        passed = {name: ArgValue(value.text, value.origin) for name, value in scope.args.items()}
+        passed = dict(scope.args)
     for child in action.children:
         kind = child.kind.lower()
         if kind == "env":

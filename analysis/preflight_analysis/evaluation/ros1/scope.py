@@ -6,14 +6,14 @@ held by a test against the real one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.names import as_namespace, join
 from preflight_analysis.evaluation.tree import Param, Remap
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class ArgValue:
     """An argument as seen in a scope. `text` None: not known (something it depends on is missing)."""
 
@@ -57,7 +57,7 @@ class Scope:
             [],
             self.private_params or [],
             list(self.env),
-            {name: replace(value) for name, value in self.args.items()},
+            dict(self.args),
             dict(self.declared),
             dict(self.anonymous),
         )
