@@ -105,9 +105,15 @@ def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
         corrected = _correct_remap(context, site, site.remap, other.name)
         if corrected is not None:
             return (corrected,)
-    ends = [end for end in (site, other) if end.remap is None]
-    found = [_insert_remap(context, end, other.name if end is site else site.name, end is ends[0]) for end in ends]
+    # A remap at a publisher that others listen to would only move the gap to them.
+    movable = (near.wanting, *((near.offering,) if near.offering_dangles else ()))
+    ends = [end for end in movable if end.remap is None]
+    found = [_insert_remap(context, end, _partner(near, end).name, end is ends[0]) for end in ends]
     return tuple(fix for fix in found if fix is not None)
+
+
+def _partner(near: NearMiss, end: Connection) -> Connection:
+    return near.offering if end is near.wanting else near.wanting
 
 
 def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMiss, int]]:
@@ -148,14 +154,7 @@ def _correct_remap(context: Context, end: Connection, remap: Remap, new: str) ->
     if "$(" in written or "&" in written or not written:
         return None
     text = _in_style_of(written, end.name, new)
-    edit = Edit(remap.target_location, text)
-    return Fix(f"Remap '{remap_source(document.text, remap)}' to '{text}' instead of '{written}'", (edit,), True)
-
-
-def remap_source(text: str, remap: Remap) -> str:
-    """The `from` of a remap as it is written."""
-    span = remap.source_location.span
-    return text[span.start : span.end]
+    return Fix(f"Replace '{written}' by '{text}'", (Edit(remap.target_location, text),), True)
 
 
 def _in_style_of(written: str, full: str, new: str) -> str:

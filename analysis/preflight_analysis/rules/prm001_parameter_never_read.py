@@ -16,6 +16,7 @@ from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.tracing.interface import Interface
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +74,7 @@ def _collect(graph: Graph) -> _Reads:
     names: set[str] = set()
     searched: set[str] = set()
     unset: dict[str, ParamRead] = {}
-    opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not i.complete}
+    opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not _tells_params(i)}
     filled = frozenset(graph.tree.params) | _above(graph.tree.params)
     for read in graph.param_reads:
         if read.use.access == "list":
@@ -87,6 +88,11 @@ def _collect(graph: Graph) -> _Reads:
         else:
             names.add(read.name)
     return _Reads(frozenset(names), _above(names), frozenset(searched), unset, frozenset(opaque))
+
+
+def _tells_params(interface: Interface) -> bool:
+    """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
+    return interface.complete and (interface.source != "annotation" or bool(interface.params))
 
 
 def _above(names: Iterable[str]) -> frozenset[str]:
@@ -232,9 +238,9 @@ RULE = Rule(
     id="PRM001",
     name="parameter-never-read",
     severity="warning",
-    what="Reports a parameter that no node reads. Where a node reads one of a like name that nothing sets, or the same "
-    "names below another namespace, it is a warning that names both; otherwise a hint, and only for the parameters of a "
-    "node that is known to its event loop. Reading a namespace as a whole reads all parameters in it.",
+    what="Reports a parameter that no node reads. Where a node reads one of a like name that nothing sets, or the "
+    "same names below another namespace, it is a warning that names both; otherwise a hint, and only for parameters of "
+    "a node that is known to its event loop. Reading a namespace as a whole reads all parameters in it.",
     why="The node goes on with its default, and nothing says that the value of the launch file is not used.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
     instead='<param name="publish_objects" value="false"/>',

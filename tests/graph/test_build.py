@@ -1,0 +1,129 @@
+"""Names after namespaces and remaps, as rospy and roscpp resolve them."""
+
+import pytest
+from preflight_analysis.graph.build import build_graph
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.tracing.interface import NOT_RUN
+from preflight_check import analyse, read_fixture
+
+
+def graph_of(text: str) -> Graph:
+    graph = analyse(read_fixture(text)).graph
+    assert graph is not None
+    return graph
+
+
+def ends(graph: Graph) -> dict[str, tuple[list[str], list[str]]]:
+    return {
+        name: ([c.node.name for c in channel.offers], [c.node.name for c in channel.wants])
+        for name, channel in graph.topics.items()
+    }
+
+
+def test_relative_private_and_global_names() -> None:
+    graph = graph_of("""
+        <launch><node pkg="p" type="t" name="n" ns="/a/b"/></launch>
+        //- interfaces
+        {"/a/b/n": {"publishers": {"rel": "x/Y", "~priv": "x/Y", "/glob": "x/Y", "sub//dir/": "x/Y"},
+                    "params": {"~rate": 1, "frame": null}}}
+    """)
+    assert sorted(graph.topics) == ["/a/b/n/priv", "/a/b/rel", "/a/b/sub/dir", "/glob"]
+    assert [read.name for read in graph.param_reads] == ["/a/b/n/rate", "/a/b/frame"]
+
+
+def test_a_remap_is_looked_up_with_the_resolved_name() -> None:
+    graph = graph_of("""
+        <launch>
+          <group ns="robot">
+            <node pkg="p" type="t" name="n">
+              <remap from="scan" to="scan_filtered"/>
+              <remap from="~plan" to="/plan"/>
+              <remap from="/robot/odom" to="wheel/odom"/>
+            </node>
+          </group>
+        </launch>
+        //- interfaces
+        {"/robot/n": {"subscribers": {"scan": "x/Y", "/robot/scan": "x/Z", "odom": "x/O"},
+                      "publishers": {"~plan": "x/P"}}}
+    """)
+    assert sorted(graph.topics) == ["/plan", "/robot/scan_filtered", "/robot/wheel/odom"]
+    (plan,) = graph.topics["/plan"].offers
+    assert plan.remap is not None
+    assert plan.remap.target == "/plan"
+    assert graph.topics["/robot/scan_filtered"].types == ("x/Y", "x/Z")
+
+
+def test_a_remapped_name_is_not_remapped_again() -> None:
+    graph = graph_of("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <remap from="a" to="b"/>
+            <remap from="b" to="c"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"publishers": {"a": "x/Y"}}}
+    """)
+    assert ends(graph) == {"/b": (["/n"], [])}
+
+
+def test_a_remap_of_a_namespace_does_not_move_what_is_below_it() -> None:
+    graph = graph_of("""
+        <launch><node pkg="p" type="t" name="n"><remap from="camera" to="front"/></node></launch>
+        //- interfaces
+        {"/n": {"publishers": {"camera/image": "x/Y"}}}
+    """)
+    assert sorted(graph.topics) == ["/camera/image"]
+
+
+def test_remaps_apply_to_services_and_parameters_too() -> None:
+    graph = graph_of("""
+        <launch><node pkg="p" type="t" name="n"><remap from="reset" to="/reset_all"/></node></launch>
+        //- interfaces
+        {"/n": {"services": {"reset": "std_srvs/Empty"}, "params": {"reset": 1}}}
+    """)
+    assert sorted(graph.services) == ["/reset_all"]
+    assert [read.name for read in graph.param_reads] == ["/reset_all"]
+
+
+def test_actions_move_with_the_remap_of_their_goal_topic() -> None:
+    graph = graph_of("""
+        <launch>
+          <node pkg="p" type="t" name="n"><remap from="dock/goal" to="/base/dock/goal"/></node>
+          <node pkg="p" type="t" name="m"><remap from="dock" to="/base/dock"/></node>
+        </launch>
+        //- interfaces
+        {"/n": {"action_servers": {"dock": "x/Dock"}}, "/m": {"action_clients": {"dock": "x/Dock"}}}
+    """)
+    assert {name: (len(c.offers), len(c.wants)) for name, c in graph.actions.items()} == {
+        "/base/dock": (1, 0),
+        "/dock": (0, 1),
+    }
+
+
+def test_an_end_made_twice_counts_once() -> None:
+    fixture = read_fixture("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"publishers": {"a": "x/Y", "/a": "x/Y"}}}
+    """)
+    graph = analyse(fixture).graph
+    assert graph is not None
+    assert len(graph.topics["/a"].offers) == 1
+
+
+def test_interfaces_and_nodes_must_match() -> None:
+    context = analyse(read_fixture('<launch><node pkg="p" type="t" name="n"/></launch>'))
+    with pytest.raises(ValueError, match=r"zip\(\)"):
+        build_graph(context.tree, [NOT_RUN, NOT_RUN])
+
+
+def test_only_full_knowledge_makes_a_graph_complete() -> None:
+    text = """
+        <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>
+        //- interfaces
+        {"/a": {}, "/b": {"status": "STATUS", "exit_code": 1}}
+    """
+    assert graph_of(text.replace("STATUS", "spinning")).complete
+    for status in ("crashed", "timed-out", "exited", "not-run"):
+        assert not graph_of(text.replace("STATUS", status)).complete

@@ -1,0 +1,240 @@
+"""`check(fixture)`: launch files with the expected findings written below the lines that they speak of.
+
+    check('''
+        <launch>
+          <node pkg="p" type="t" name="$(arg camra)"/>
+                                       ^^^^^^^^^^^^ error[ARG001] argument 'camra' is not declared
+        </launch>
+    ''')
+
+The carets cover what is underlined, to the end of its first line; the text after `severity[RULE]` must be part of the
+message. `//- /path` starts another file, the first one is `/main.launch` and is launched. A `package.xml` makes its
+folder a package; there is always a package `p` in `/p`, and every executable of every package exists. All findings of
+all files are compared with the expectations: nothing may be missing and nothing extra.
+
+Interfaces come from annotations in the launch files or from a section `//- interfaces` with JSON by node name:
+`{"/talker": {"publishers": {"chatter": "std_msgs/String"}, "params": {"~rate": 10}}}`, see `interface_from_json`.
+Without either there is no graph.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import textwrap
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+from typing import Any
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.tree import Executable, LaunchTree
+from preflight_analysis.findings.finding import Edit, Finding
+from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.graph.build import build_graph
+from preflight_analysis.rules.registry import run_rules
+from preflight_analysis.rules.rule import Context
+from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse, Role
+from preflight_analysis.workspace.sources import Sources
+
+_FILE = re.compile(r"//- (\S+)\s*\Z")
+_EXPECTED = re.compile(r"\s*(\^+) (error|warning|info|hint)\[([A-Z]{3}\d{3})\] ?(.*)\Z")
+_ROLES: Mapping[str, Role] = {
+    "publishers": "publisher",
+    "subscribers": "subscriber",
+    "services": "service",
+    "clients": "client",
+    "action_servers": "action_server",
+    "action_clients": "action_client",
+}
+
+
+@dataclass(frozen=True, order=True)
+class Expectation:
+    """A line of carets: where it is, both counted from 0, and what is to be said there."""
+
+    file: str
+    line: int
+    column: int
+    length: int
+    severity: str
+    rule: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Fixture:
+    """A fixture taken apart: the files without the expectations."""
+
+    files: Mapping[str, str]
+    root: str
+    interfaces: Mapping[str, Any] | None
+    expected: tuple[Expectation, ...]
+
+
+class _EveryExecutable:
+    """Whatever a known package is asked for is there."""
+
+    def __init__(self, environment: Environment) -> None:
+        self._environment = environment
+
+    def find(self, package: str, name: str) -> Executable:
+        found = self._environment.packages.get(package)
+        if found is None:
+            return Executable(None)
+        path = f"{found.share}/{name}"
+        return Executable(path, (path,), found.share)
+
+
+def read_fixture(text: str) -> Fixture:
+    """Take a fixture apart."""
+    files: dict[str, list[str]] = {}
+    expected: list[Expectation] = []
+    path = "/main.launch"
+    for line in textwrap.dedent(text).strip("\n").split("\n"):
+        if start := _FILE.match(line):
+            path = start[1]
+            files[path] = []
+        elif found := _EXPECTED.match(line):
+            above = len(files[path]) - 1
+            expected.append(Expectation(path, above, found.start(1), len(found[1]), found[2], found[3], found[4]))
+        else:
+            files.setdefault(path, []).append(line)
+    texts = {name: "\n".join(lines) + "\n" for name, lines in files.items()}
+    interfaces = texts.pop("interfaces", None)
+    return Fixture(texts, next(iter(texts)), json.loads(interfaces) if interfaces else None, tuple(expected))
+
+
+def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run: str | None = None) -> Context:
+    """What the rules get to see of a fixture."""
+    sources = Sources()
+    for path, text in fixture.files.items():
+        sources.open(path, text)
+    environment = _environment(fixture)
+    tree = evaluate(fixture.root, args or {}, sources, _EveryExecutable(environment), environment, "/")
+    documents: dict[str, Document] = {}
+    launch_files = {}
+    for path in (*tree.files, *tree.inputs):
+        if path in documents or path not in fixture.files:
+            continue
+        launch_file = sources.launch_file(path) if path in tree.files else None
+        if launch_file is not None and not isinstance(launch_file, Unreadable):
+            launch_files[path] = launch_file
+            documents[path] = launch_file.document
+        else:
+            text = sources.text(path)
+            if isinstance(text, Document):
+                documents[path] = text
+    context = Context(fixture.root, tree, documents, launch_files, environment, why_not_run=why_not_run)
+    annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
+    if fixture.interfaces is None and not annotated:
+        return context
+    graph = build_graph(tree, _interfaces(tree, fixture.interfaces or {}))
+    return Context(fixture.root, tree, documents, launch_files, environment, graph, why_not_run)
+
+
+def findings_of(text: str, **options: Any) -> list[Finding]:
+    """The findings of a fixture; what it expects is not looked at."""
+    return run_rules(analyse(read_fixture(text), **options))
+
+
+def check(text: str, **options: Any) -> list[Finding]:
+    """Compare the findings of a fixture with what it expects, and return them."""
+    fixture = read_fixture(text)
+    context = analyse(fixture, **options)
+    findings = run_rules(context)
+    actual = {_as_expectation(finding, context): finding for finding in findings}
+    unmet = list(fixture.expected)
+    extra: list[Expectation] = []
+    for got in actual:
+        met = next((want for want in unmet if _meets(got, want)), None)
+        if met is None:
+            extra.append(got)
+        else:
+            unmet.remove(met)
+    complaint = [f"missing: {_shown(each)}" for each in unmet] + [f"not expected: {_shown(each)}" for each in extra]
+    assert not complaint, "\n" + "\n".join(complaint)
+    return findings
+
+
+def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
+    """The files of a fixture after the edits."""
+    files = dict(read_fixture(text).files)
+    for edit in sorted(edits, key=lambda e: e.location.span, reverse=True):
+        old = files[edit.location.file]
+        span = edit.location.span
+        files[edit.location.file] = old[: span.start] + edit.text + old[span.end :]
+    return files
+
+
+def interface_from_json(data: Mapping[str, Any]) -> Interface:
+    """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
+    `{name: default}`, null for none, or `{name: {"access": ...}}`; `status`, `exit_code`, `reason`, `stderr`,
+    `notes`; `md5` `{name: sum}`; `builtin` and `speculative`, lists of names."""
+    endpoints = [
+        Endpoint(
+            role,
+            name,
+            type_,
+            data.get("md5", {}).get(name),
+            builtin=name in data.get("builtin", ()),
+            speculative=name in data.get("speculative", ()),
+        )
+        for key, role in _ROLES.items()
+        for name, type_ in data.get(key, {}).items()
+    ]
+    params = [
+        ParamUse(name, default["access"])
+        if isinstance(default, dict)
+        else ParamUse(name, "get", default, default is not None, default is None)
+        for name, default in data.get("params", {}).items()
+    ]
+    outcome = Outcome(
+        data.get("status", "spinning"),
+        data.get("exit_code"),
+        data.get("signal"),
+        tuple(data.get("stderr", ())),
+        data.get("reason"),
+    )
+    source = "none" if outcome.status == "not-run" else "trace"
+    return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())))
+
+
+def _interfaces(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:
+    unknown = set(given) - {node.name for node in tree.nodes}
+    assert not unknown, f"the fixture has interfaces of nodes that are not there: {unknown}"
+    return [interface_from_json(given[node.name]) if node.name in given else NOT_RUN for node in tree.nodes]
+
+
+def _environment(fixture: Fixture) -> Environment:
+    packages = {"p": Package("p", "/p", "/p/package.xml")}
+    for path in fixture.files:
+        folder = PurePosixPath(path)
+        if folder.name == "package.xml":
+            packages[folder.parent.name] = Package(folder.parent.name, str(folder.parent), path)
+    return Environment(1, "noetic", {}, ("/",), packages, {}, (), (), None)
+
+
+def _as_expectation(finding: Finding, context: Context) -> Expectation:
+    location = finding.location
+    lines = context.documents[location.file].lines
+    line, column = lines.position(location.span.start)
+    end_line, end_column = lines.position(location.span.end)
+    if end_line != line:
+        text = context.documents[location.file].text
+        end_column = len(text[lines.line_start(line) : lines.line_span(line).end].rstrip("\r\n"))
+    length = max(1, end_column - column)
+    return Expectation(location.file, line, column, length, finding.severity, finding.rule, finding.message)
+
+
+def _meets(got: Expectation, want: Expectation) -> bool:
+    same_place = (got.file, got.line, got.column, got.length) == (want.file, want.line, want.column, want.length)
+    return same_place and (got.severity, got.rule) == (want.severity, want.rule) and want.message in got.message
+
+
+def _shown(each: Expectation) -> str:
+    place = f"{each.file}:{each.line + 1}:{each.column + 1}+{each.length}"
+    return f"{place} {each.severity}[{each.rule}] {each.message}"

@@ -1,0 +1,236 @@
+"""LCH: what is wrong in the launch file's own language."""
+
+import pytest
+from preflight_check import apply, check, findings_of
+
+SILENT = """
+    <launch>
+      <arg name="camera" default="front"/>
+      <group ns="$(arg camera)" if="true">
+        <node pkg="p" type="t" name="n" respawn="true" output="screen">
+          <remap from="a" to="b"/>
+          <param name="rate" value="10"/>
+          <rosparam>{frame: map}</rosparam>
+        </node>
+      </group>
+      <include file="/inc.launch"><arg name="rate" value="1"/></include>
+    </launch>
+    //- /inc.launch
+    <launch>
+      <arg name="rate"/>
+      <machine name="base" address="localhost"/>
+      <node pkg="p" type="t" name="m" machine="base" args="$(arg rate) $(optenv NOT_SET x)"/>
+    </launch>
+"""
+
+
+def test_nothing_is_said_of_a_file_that_is_all_right() -> None:
+    assert check(SILENT) == []
+
+
+def test_malformed_xml_is_shown_at_its_cause() -> None:
+    (finding,) = findings_of('<launch>\n  <node pkg="p" type="t" name="n">\n</launch>')
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH001", "error", True)
+
+
+def test_malformed_xml_in_an_included_file_is_shown_there_once() -> None:
+    findings = findings_of("""
+        <launch>
+          <include file="/inc.launch"/>
+          <group ns="b"><include file="/inc.launch"/></group>
+        </launch>
+        //- /inc.launch
+        <launch><node pkg="p" type="t" name="n"</launch>
+    """)
+    assert [(f.rule, f.location.file) for f in findings if f.rule == "LCH001"] == [("LCH001", "/inc.launch")]
+
+
+@pytest.mark.parametrize("path", ["/nowhere/at_all.launch", "/"])
+def test_a_root_that_cannot_be_read(path: str) -> None:
+    findings = findings_of(f'<launch><include file="{path}"/></launch>')
+    assert [f.rule for f in findings] == ["LCH013" if "nowhere" in path else "LCH014"]
+
+
+def test_a_binary_file() -> None:
+    (finding,) = findings_of("//- /main.launch\n\0\1\2")
+    assert finding.rule == "LCH002"
+    assert "/main.launch" in finding.message
+
+
+def test_no_launch_element() -> None:
+    check("""
+        <robot>
+         ^^^^^ error[LCH003] the outermost element is <robot>, not <launch>
+        </robot>
+    """)
+
+
+def test_an_unknown_element_and_the_nearest_one() -> None:
+    (finding, other) = check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <parm name="rate" value="10"/>
+             ^^^^ warning[LCH004] <parm> is not known in <node> and is skipped; did you mean 'param'?
+          </node>
+          <robots/>
+           ^^^^^^ warning[LCH004] <robots> is not known in <launch> and is skipped
+        </launch>
+    """)
+    assert other.fixes == ()
+    assert finding.fixes[0].preferred
+
+
+def test_the_fix_of_an_unknown_element_mends_the_start_tag_of_a_self_closing_one() -> None:
+    text = '<launch><nod pkg="p" type="t" name="n"/></launch>'
+    (finding,) = findings_of(text)
+    assert apply(text, finding.fixes[0].edits) == {
+        "/main.launch": '<launch><node pkg="p" type="t" name="n"/></launch>\n'
+    }
+
+
+def test_an_unknown_attribute() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n" respwan="true"/>
+                                          ^^^^^^^ warning[LCH005] no attribute 'respwan'; did you mean 'respawn'?
+        </launch>
+    """)
+
+
+def test_missing_and_conflicting_attributes() -> None:
+    check("""
+        <launch>
+          <node pkg="p" name="n"/>
+           ^^^^ error[LCH006] <node> needs 'type'
+          <arg name="a" default="1" value="2"/>
+           ^^^ error[LCH007] <arg> cannot have 'value' and 'default' together
+        </launch>
+    """)
+
+
+def test_a_bad_value_and_the_nearest_choice() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n" output="scren"/>
+                                                  ^^^^^ error[LCH008] did you mean 'screen'?
+          <node pkg="p" type="t" name="m" if="maybe"/>
+                                              ^^^^^ error[LCH008] if='maybe' of <node> is not
+        </launch>
+    """)
+
+
+def test_an_invalid_name() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a/b"/>
+                                       ^^^ error[LCH009] 'a/b' is not allowed
+        </launch>
+    """)
+
+
+def test_an_element_that_an_include_drops() -> None:
+    check("""
+        <launch>
+          <include file="/inc.launch"><remap from="a" to="b"/></include>
+                                       ^^^^^ warning[LCH010] <remap> has no effect in <include>
+        </launch>
+        //- /inc.launch
+        <launch/>
+    """)
+
+
+def test_a_substitution_that_cannot_be_made() -> None:
+    check("""
+        <launch>
+          <param name="a" value="$(args rate)"/>
+                                 ^^^^^^^^^^^^ error[LCH011]
+          <param name="b" value="$(eval 1 / 0)"/>
+                                 ^^^^^^^^^^^^^ error[LCH011] $(eval 1 / 0) fails
+        </launch>
+    """)
+
+
+def test_an_environment_variable_that_is_not_set() -> None:
+    (finding,) = check("""
+        <launch>
+          <param name="a" value="$(env NOT_SET_ANYWHERE)"/>
+                                 ^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH012] 'NOT_SET_ANYWHERE' is not set
+        </launch>
+    """)
+    assert finding.stops_launch
+
+
+def test_an_included_file_that_is_not_there() -> None:
+    check("""
+        <launch>
+          <include file="$(find p)/launch/base.launch"/>
+                         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[LCH013] included file 'p/launch/base.launch' does not exist
+        </launch>
+    """)
+
+
+def test_a_file_that_includes_itself() -> None:
+    findings = findings_of("""
+        <launch><include file="/inc.launch"/></launch>
+        //- /inc.launch
+        <launch><include file="/main.launch"/></launch>
+    """)
+    (finding,) = findings
+    assert (finding.rule, finding.severity) == ("LCH015", "error")
+    assert "/main.launch -> /inc.launch -> /main.launch" in finding.message
+
+
+def test_two_nodes_of_one_name() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          <group ns="a"><node pkg="p" type="t" name="n"/></group>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+    """)
+    (finding,) = findings
+    assert finding.rule == "LCH016"
+    assert "'/n'" in finding.message
+    assert finding.related[0].location.span < finding.location.span
+
+
+def test_a_machine_that_is_not_declared() -> None:
+    (finding,) = findings_of("""
+        <launch>
+          <machine name="base" address="localhost"/>
+          <node pkg="p" type="t" name="n" machine="bse"/>
+        </launch>
+    """)
+    assert finding.rule == "LCH017"
+    assert finding.message == "machine 'bse' is not declared; did you mean 'base'?"
+
+
+def test_what_is_not_evaluated_is_said_and_stops_nothing() -> None:
+    (finding,) = check("""
+        <launch>
+          <param name="a" value="$(eval [x for x in 'ab'])"/>
+                                 ^^^^^^^^^^^^^^^^^^^^^^^^^ info[LCH018] is not evaluated
+        </launch>
+    """)
+    assert not finding.stops_launch
+
+
+def test_an_annotation_that_cannot_be_read() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <!-- <topics><topic name="a" type="x/Y" class="both"/></topics> -->
+                                                           ^^^^ warning[LCH020] allowed: pub, sub
+          </node>
+        </launch>
+    """)
+
+
+def test_an_annotation_that_can_be_read_is_no_unknown_element() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <topics><topic name="/tf" type="tf2_msgs/TFMessage" class="sub"/></topics>
+          </node>
+        </launch>
+    """)
