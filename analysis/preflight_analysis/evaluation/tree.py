@@ -63,6 +63,8 @@ class Executable:
     candidates: tuple[str, ...] = ()
     package_path: str | None = None
     """None when the package itself was not found."""
+    not_executable: tuple[str, ...] = ()
+    """Files of that name that may not be executed: what is missing is a `chmod +x`."""
 
 
 @dataclass(frozen=True, slots=True)

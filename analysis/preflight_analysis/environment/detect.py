@@ -1,0 +1,310 @@
+"""Find the user's ROS environment without running anything: from variables, the workspace and what is installed.
+
+What is not sourced is found all the same, in the order that sourcing it would give: the workspace before the
+installed distribution. A machine without ROS gets an environment too, in which launch files can be evaluated and
+nothing can be run; its `problems` say so.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.packages import MANIFEST, Found, find_packages
+
+BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated", "devel_isolated", "install_isolated"})
+"""Folders of a workspace that its build makes: what is in them was copied from the source folder."""
+
+_ROS1_DISTROS = ("kinetic", "lunar", "melodic", "noetic")
+_PYTHON_LIBRARY = re.compile(r"^(.*)/lib/python(3(?:\.\d+)?|2\.7)/(?:dist|site)-packages/?$")
+_DEBIAN_MARKS = ("rospy", "roslib", "roslaunch", "roscpp", "std_msgs", "genmsg")
+
+
+@dataclass(frozen=True, slots=True)
+class _Python:
+    """`interpreter` is None when rospy is there and nothing that can run it is."""
+
+    interpreter: str | None
+    problem: str | None = None
+
+
+def detect_environment(
+    workspace: str | None,
+    variables: Mapping[str, str],
+    package_path: Sequence[str] | None = None,
+    *,
+    root: str = "/",
+) -> Environment:
+    """What launch files and nodes of a workspace (a folder, or None) see, given a process's environment variables.
+
+    `package_path`, if given, is where packages are looked for, and nowhere else. Otherwise it is ROS_ROOT and
+    ROS_PACKAGE_PATH, the workspace, and the installed ROS, which comes last wherever ROS_PACKAGE_PATH has it.
+    `root` is the folder that holds `opt` and `usr`. Never raises, whatever the folders and files look like.
+    """
+    workspace = os.path.abspath(workspace) if workspace else None
+    distro, prefix = _distribution(variables, root)
+    debian = os.path.join(root, "usr")
+    has_debian = any(os.path.isfile(os.path.join(debian, "share", name, MANIFEST)) for name in _DEBIAN_MARKS)
+    catkin = _catkin_workspace(workspace)
+    listed = [*_split(variables.get("ROS_ROOT")), *_split(variables.get("ROS_PACKAGE_PATH"))]
+
+    if package_path is not None:
+        path = _unique(package_path)
+    else:
+        installed = [os.path.join(prefix, "share")] if prefix else []
+        installed += [os.path.join(debian, "share")] if has_debian else []
+        below = os.path.join(root, "opt", "ros") + os.sep
+        last = {*installed, *(entry for entry in listed if os.path.abspath(entry).startswith(below))}
+        path = _unique(
+            [
+                *(entry for entry in listed if os.path.abspath(entry) not in last),
+                *_source_folders(workspace, catkin),
+                *(entry for entry in listed if os.path.abspath(entry) in last),
+                *installed,
+            ]
+        )
+
+    devel, system = _spaces(variables, catkin, prefix, root)
+    if has_debian:
+        system.append(debian)
+    found = find_packages(path, skip=BUILT)
+    given = _with_overlays(variables, path, devel, prefix, distro, debian)
+    python = _python(given, debian)
+    problems = [
+        *_path_problems(listed if package_path is None else package_path),
+        *found.problems,
+        *_workspace_problems(catkin or workspace, devel, found),
+        *_installation_problems(variables, python),
+    ]
+    return Environment(
+        generation=1,
+        distro=distro or (_debian_distribution(debian) if has_debian else None),
+        variables=given,
+        package_path=tuple(path),
+        packages=found.packages,
+        shadowed=found.shadowed,
+        devel_spaces=tuple(devel),
+        system_prefixes=tuple(system),
+        python=python.interpreter if python else None,
+        workspace=workspace,
+        problems=tuple(problems),
+    )
+
+
+def _split(value: str | None) -> list[str]:
+    return [entry for entry in (value or "").split(os.pathsep) if entry.strip()]
+
+
+def _unique(folders: Iterable[str]) -> list[str]:
+    """Absolute, and each only where it stands first."""
+    return list(dict.fromkeys(os.path.abspath(folder) for folder in folders))
+
+
+# What is installed
+
+
+def _distribution(variables: Mapping[str, str], root: str) -> tuple[str | None, str | None]:
+    """Name and prefix of the ROS 1 distribution: the one that is sourced, else the newest that is there."""
+    opt = os.path.join(root, "opt", "ros")
+    named = variables.get("ROS_DISTRO")
+    if named and variables.get("ROS_VERSION") != "2":
+        prefix = os.path.join(opt, named)
+        return named, prefix if os.path.isdir(prefix) else None
+    for name in reversed(_ROS1_DISTROS):
+        if os.path.isfile(os.path.join(opt, name, "share", "catkin", MANIFEST)):
+            return name, os.path.join(opt, name)
+    return None, None
+
+
+def _debian_distribution(debian: str) -> str | None:
+    """Debian's packages have no distribution of their own; their roslaunch or rospy is that of one."""
+    for package in find_packages(
+        [os.path.join(debian, "share", name) for name in ("roslaunch", "rospy")]
+    ).packages.values():
+        version = _version(package)
+        for start, name in (("1.12.", "kinetic"), ("1.13.", "lunar"), ("1.14.", "melodic")):
+            if version.startswith(start):
+                return name
+    return "noetic"
+
+
+def _version(package: Package) -> str:
+    try:
+        with open(package.manifest, encoding="utf-8", errors="replace") as manifest:
+            found = re.search(r"<version>\s*([\d.]+)\s*</version>", manifest.read(65536))
+    except OSError:
+        return ""
+    return found[1] if found else ""
+
+
+# The workspace
+
+
+def _catkin_workspace(workspace: str | None) -> str | None:
+    """The catkin workspace that the folder is, or is in: opening one package of it is usual."""
+    folder = workspace
+    while folder:
+        marks = (".catkin_workspace", ".catkin_tools", "devel/.catkin", "install/.catkin", "src/CMakeLists.txt")
+        # A package has src/CMakeLists.txt too, if rarely.
+        if any(os.path.exists(os.path.join(folder, m)) for m in marks) and not os.path.isfile(
+            os.path.join(folder, MANIFEST)
+        ):
+            return folder
+        parent = os.path.dirname(folder)
+        folder = parent if parent != folder else None
+    return None
+
+
+def _source_folders(workspace: str | None, catkin: str | None) -> list[str]:
+    folders = []
+    for folder in dict.fromkeys((workspace, catkin)):
+        if folder is None:
+            continue
+        source = os.path.join(folder, "src")
+        # The `src` of a package holds its code.
+        is_package = any(os.path.isfile(os.path.join(folder, name)) for name in (MANIFEST, "manifest.xml"))
+        folders.append(source if os.path.isdir(source) and not is_package else folder)
+        installed = os.path.join(folder, "install")
+        if not os.path.isdir(source) and os.path.isfile(os.path.join(installed, ".catkin")):
+            folders.append(os.path.join(installed, "share"))
+    return folders
+
+
+def _spaces(
+    variables: Mapping[str, str], catkin: str | None, prefix: str | None, root: str
+) -> tuple[list[str], list[str]]:
+    """Devel and install spaces, and prefixes of the system: those of the workspace come first if none is sourced."""
+    sourced = [
+        os.path.abspath(entry)
+        for entry in _split(variables.get("CMAKE_PREFIX_PATH"))
+        if os.path.isfile(os.path.join(entry, ".catkin"))
+    ]
+    opt = os.path.join(root, "opt", "ros") + os.sep
+    devel = [entry for entry in sourced if not entry.startswith(opt)]
+    system = [entry for entry in sourced if entry.startswith(opt)]
+    own = [os.path.join(catkin, name) for name in ("devel", "install", "install_isolated")] if catkin else []
+    if catkin:
+        own[1:1] = sorted(_subfolders(os.path.join(catkin, "devel_isolated")))
+    own = [space for space in own if os.path.isfile(os.path.join(space, ".catkin"))]
+    if not any(space in devel for space in own):
+        devel = [*own, *devel]
+    if prefix:
+        system.append(prefix)
+    return _unique(devel), _unique(system)
+
+
+def _subfolders(folder: str) -> list[str]:
+    try:
+        with os.scandir(folder) as entries:
+            return [entry.path for entry in entries if entry.is_dir()]
+    except OSError:
+        return []
+
+
+# What sourcing the set-up script would set
+
+
+def _with_overlays(
+    variables: Mapping[str, str],
+    path: Sequence[str],
+    devel: Sequence[str],
+    prefix: str | None,
+    distro: str | None,
+    debian: str,
+) -> dict[str, str]:
+    given = dict(variables)
+    # Debian's rospkg adds its own folder by itself.
+    own = [folder for folder in path if folder != os.path.join(debian, "share")]
+    if own or "ROS_PACKAGE_PATH" in variables:
+        given["ROS_PACKAGE_PATH"] = os.pathsep.join(own)
+    spaces = [*devel, *([prefix] if prefix else [])]
+    _add(given, "CMAKE_PREFIX_PATH", devel, [prefix] if prefix else [])
+    for variable, below in (
+        ("PYTHONPATH", ("lib/python3/dist-packages", "lib/python2.7/dist-packages")),
+        ("LD_LIBRARY_PATH", ("lib",)),
+        ("PATH", ("bin",)),
+    ):
+        folders = {s: [p for b in below if os.path.isdir(p := os.path.join(s, b))] for s in spaces}
+        _add(given, variable, [p for s in devel for p in folders[s]], folders[prefix] if prefix else [])
+    if prefix and distro:
+        given.setdefault("ROS_DISTRO", distro)
+        given.setdefault("ROS_VERSION", "1")
+        given.setdefault("ROS_PYTHON_VERSION", "3" if distro == "noetic" else "2")
+        given.setdefault("ROS_ETC_DIR", os.path.join(prefix, "etc", "ros"))
+        given.setdefault("ROS_ROOT", os.path.join(prefix, "share", "ros"))
+    return given
+
+
+def _add(given: dict[str, str], variable: str, before: Iterable[str], after: Iterable[str]) -> None:
+    """Put folders that a variable lacks around those it has."""
+    present = _split(given.get(variable))
+    missing_before = [folder for folder in before if folder not in present]
+    missing_after = [folder for folder in after if folder not in (*present, *missing_before)]
+    if missing_before or missing_after:
+        given[variable] = os.pathsep.join([*missing_before, *present, *missing_after])
+
+
+def _python(given: Mapping[str, str], debian: str) -> _Python | None:
+    """The interpreter of the first rospy that Python would import, None when there is no rospy."""
+    system = os.path.join(debian, "bin", "python3")
+    too_old = None
+    for folder in (*_split(given.get("PYTHONPATH")), os.path.join(debian, "lib", "python3", "dist-packages")):
+        if not os.path.isfile(os.path.join(folder, "rospy", "__init__.py")):
+            continue
+        library = _PYTHON_LIBRARY.match(os.path.abspath(folder))
+        if library and library[2] == "2.7":
+            too_old = too_old or _Python(
+                None,
+                f"rospy in {folder} is for Python 2.7: nodes are not run, because tracing them needs Python 3.8 or "
+                "newer (ROS Noetic).",
+            )
+            continue
+        beside = os.path.join(library[1], "bin", f"python{library[2]}") if library else system
+        for interpreter in (beside, system):
+            if os.access(interpreter, os.X_OK):
+                return _Python(interpreter)
+        return _Python(None, f"rospy is in {folder}, and the Python interpreter for it, {system}, is not there.")
+    return too_old
+
+
+# What is missing
+
+
+def _path_problems(path: Iterable[str]) -> list[str]:
+    return [f"The package path names {folder}, which is not a folder." for folder in path if not os.path.isdir(folder)]
+
+
+def _workspace_problems(workspace: str | None, devel: Sequence[str], found: Found) -> list[str]:
+    if workspace is None or any(space.startswith(workspace + os.sep) for space in devel):
+        return []
+    generated = sorted(
+        package.name
+        for package in found.packages.values()
+        if package.share.startswith(workspace + os.sep)
+        and any(os.path.isdir(os.path.join(package.share, kind)) for kind in ("msg", "srv", "action"))
+    )
+    if not generated:
+        return []
+    return [
+        f"The workspace {workspace} is not built, so the messages of {', '.join(generated)} are not there and nodes "
+        "that import them crash: run `catkin_make` or `catkin build` in it."
+    ]
+
+
+def _installation_problems(variables: Mapping[str, str], python: _Python | None) -> list[str]:
+    problems = []
+    if variables.get("ROS_VERSION") == "2":
+        name = variables.get("ROS_DISTRO", "")
+        problems.append(f"ROS 2 {name.capitalize()} is sourced here; launch files of ROS 1 are analysed without it.")
+    if python is None:
+        problems.append(
+            "rospy was not found, so launch files are checked and no node is run. Install it: on Debian "
+            "`apt install python3-rospy`, on Ubuntu 20.04 `apt install ros-noetic-ros-base` and "
+            "`source /opt/ros/noetic/setup.bash`."
+        )
+    elif python.problem:
+        problems.append(python.problem)
+    return problems

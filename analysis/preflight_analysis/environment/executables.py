@@ -1,0 +1,115 @@
+"""The files that `pkg` and `type` of a node lead to, as `roslib.packages.find_node` finds them for roslaunch.
+
+First the devel and install spaces and the system's prefix, of which only the first one counts that has anything of
+the package: `lib/<pkg>`, `libexec/<pkg>`, `share/<pkg>`, and the source folder where the space was made from one.
+Then the folder that `$(find)` gives. All of them are walked down to the last subfolder, and the first file of the
+name that its owner may read and execute is run.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.packages import crawl
+from preflight_analysis.environment.walk import walk
+from preflight_analysis.evaluation.tree import Executable
+
+_RUNNABLE = stat.S_IRUSR | stat.S_IXUSR
+
+
+class ExecutableIndex:
+    """Finds executables of one environment and remembers each folder that it walked; a new one sees what changed."""
+
+    def __init__(self, environment: Environment) -> None:
+        self._environment = environment
+        self._files: dict[str, dict[str, list[str]]] = {}
+        self._sources: dict[str, dict[str, str]] = {}
+
+    def find(self, package: str, name: str) -> Executable:
+        """What a node of this `pkg` and `type` runs.
+
+        `name` is the plain name of a file: as for roslaunch, nothing is found for one with a slash in it.
+        """
+        found = self._environment.packages.get(package)
+        if found is None:
+            return Executable(None)
+        runnable: list[str] = []
+        others: list[str] = []
+        for folder in self._folders(package, found.share):
+            for path in self._walked(folder).get(name, ()):
+                mode = _mode(path)
+                if mode is not None:
+                    (runnable if mode & _RUNNABLE == _RUNNABLE else others).append(path)
+        candidates = tuple(dict.fromkeys(runnable))
+        return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
+
+    def names(self, package: str) -> tuple[str, ...]:
+        """All that a node of this package could name as its type, sorted. Empty for an unknown package."""
+        found = self._environment.packages.get(package)
+        if found is None:
+            return ()
+        names: set[str] = set()
+        for folder in self._folders(package, found.share):
+            for name, paths in self._walked(folder).items():
+                if name not in names and any(_is_runnable(path) for path in paths):
+                    names.add(name)
+        return tuple(sorted(names))
+
+    def _folders(self, package: str, share: str) -> Iterator[str]:
+        spaces = (*self._environment.devel_spaces, *self._environment.system_prefixes)
+        for space in spaces:
+            found = [f for f in self._in_space(space, package) if os.path.exists(f)]
+            if found:
+                yield from found
+                break
+        yield share
+
+    def _in_space(self, space: str, package: str) -> Iterator[str]:
+        yield from (os.path.join(space, kind, package) for kind in ("lib", "libexec", "share"))
+        if space not in self._sources:
+            sources: dict[str, str] = {}
+            for folder in source_spaces(space):
+                for package_there in crawl(folder, metapackages=True):
+                    sources.setdefault(package_there.name, package_there.share)
+            self._sources[space] = sources
+        if package in self._sources[space]:
+            yield self._sources[space][package]
+
+    def _walked(self, folder: str) -> dict[str, list[str]]:
+        if folder not in self._files:
+            by_name: dict[str, list[str]] = {}
+            for place, _, files in walk(folder):
+                for name in files:
+                    by_name.setdefault(name, []).append(os.path.join(place, name))
+            self._files[folder] = by_name
+        return self._files[folder]
+
+
+def source_spaces(space: str) -> list[str]:
+    """The source folders that a devel space was made from, as its `.catkin` file lists them."""
+    try:
+        with open(os.path.join(space, ".catkin"), encoding="utf-8", errors="surrogateescape") as marker:
+            listed = marker.read(65536)
+    except OSError:
+        return []
+    by_place = {
+        os.path.realpath(folder): folder for folder in reversed(listed.split(";")) if folder and "\0" not in folder
+    }
+    return list(reversed(by_place.values()))
+
+
+def _mode(path: str) -> int | None:
+    """The mode of a regular file, None for what is none (a dangling link, a socket)."""
+    try:
+        mode = os.stat(path).st_mode
+    except OSError:
+        return None
+    return mode if stat.S_ISREG(mode) else None
+
+
+def _is_runnable(path: str) -> bool:
+    mode = _mode(path)
+    return mode is not None and mode & _RUNNABLE == _RUNNABLE

@@ -1,0 +1,120 @@
+"""Packages as rospkg finds them, for `$(find)`, and as catkin does, for the source folders of a devel space."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass
+
+from lxml import etree
+
+from preflight_analysis.documents.reading import Unreadable, read_text
+from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.walk import walk
+
+MANIFEST = "package.xml"
+LEGACY_MANIFEST = "manifest.xml"
+_BLANKS = " \n\r\t"
+_FLAT = "/usr/share/"
+"""Debian's rospkg and catkin look no deeper than the folders right below this one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a package path leads to: for each name the first package, the others of that name, and bad manifests."""
+
+    packages: dict[str, Package]
+    shadowed: dict[str, tuple[Package, ...]]
+    problems: tuple[str, ...]
+
+
+def find_packages(package_path: Iterable[str], skip: Collection[str] = ()) -> Found:
+    """Crawl the folders of a package path, in its order: the first package of a name wins, as for rospkg.
+
+    `skip` names folders that are not entered where they stand right below a folder of the path. A metapackage is
+    none for rospkg: `$(find)` does not know it.
+    """
+    packages: dict[str, Package] = {}
+    shadowed: dict[str, list[Package]] = {}
+    places: set[str] = set()
+    problems: list[str] = []
+    for folder in package_path:
+        for package in crawl(folder, skip, problems):
+            place = os.path.realpath(package.share)
+            if place in places:
+                continue
+            places.add(place)
+            if packages.setdefault(package.name, package) is not package:
+                shadowed.setdefault(package.name, []).append(package)
+    return Found(packages, {name: tuple(others) for name, others in shadowed.items()}, tuple(dict.fromkeys(problems)))
+
+
+def crawl(
+    top: str, skip: Collection[str] = (), problems: list[str] | None = None, metapackages: bool = False
+) -> Iterator[Package]:
+    """The packages below one folder in the order of the walk; what is wrong with their manifests goes to `problems`."""
+    problems = [] if problems is None else problems
+    for folder, folders, files in walk(top, skip):
+        if "CATKIN_IGNORE" in files:
+            folders.clear()
+        elif MANIFEST in files:
+            folders.clear()
+            package = _read_manifest(folder, os.path.join(folder, MANIFEST), metapackages, problems)
+            if package is not None:
+                yield package
+        elif LEGACY_MANIFEST in files:
+            folders.clear()
+            yield _read_legacy_manifest(folder, os.path.join(folder, LEGACY_MANIFEST))
+        elif "rospack_nosubdirs" in files or folder.startswith(_FLAT):
+            folders.clear()
+
+
+def _read_manifest(folder: str, path: str, metapackages: bool, problems: list[str]) -> Package | None:
+    root = _parse(path, problems)
+    if root is None:
+        return None
+    name = (root.findtext("name") or "").strip(_BLANKS)
+    if not name:
+        problems.append(f"{path} names no package: roslaunch finds no package at all until it does.")
+        return None
+    if not metapackages and root.find("./export/metapackage") is not None:
+        return None
+    dependencies = {
+        (element.text or "").strip(_BLANKS)
+        for element in root
+        if isinstance(element.tag, str) and (element.tag == "depend" or element.tag.endswith("_depend"))
+    }
+    return Package(name, folder, path, frozenset(dependencies - {""}))
+
+
+def _read_legacy_manifest(folder: str, path: str) -> Package:
+    """The package is named by its folder, whatever the manifest holds."""
+    root = _parse(path, [])
+    depends = () if root is None else root.findall("depend")
+    dependencies = frozenset(str(element.get("package")) for element in depends if element.get("package"))
+    return Package(os.path.basename(folder), folder, path, dependencies)
+
+
+def _parse(path: str, problems: list[str]) -> etree._Element | None:
+    text = read_text(path)
+    if isinstance(text, Unreadable):
+        problems.append(f"{path} {text.reason}: its package is not known.")
+        return None
+    parser = etree.XMLParser(
+        encoding="utf-8",
+        recover=True,
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        remove_comments=True,
+        remove_pis=True,
+    )
+    try:
+        root = etree.fromstring(text.text.encode("utf-8", "surrogatepass"), parser)
+    except etree.XMLSyntaxError:
+        root = None
+    errors = [e for e in parser.error_log if e.level >= etree.ErrorLevels.ERROR]
+    if errors or root is None:
+        where = f" (line {errors[0].line}: {errors[0].message.rstrip('.')})" if errors else ""
+        problems.append(f"{path} is not well-formed XML{where}: roslaunch finds no package at all until it is.")
+    return root
