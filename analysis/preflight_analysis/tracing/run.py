@@ -24,6 +24,8 @@ WALL_SECONDS = 5.0
 """From exec to the end, at most."""
 QUIET_SECONDS = 0.3
 """A loop with sleeps counts as the event loop after so long without a new endpoint or parameter call."""
+LOOPED_SECONDS = 0.1
+"""The same once a whole turn of the loop has been seen."""
 SETTLED_SECONDS = 0.75
 """The same for a node that is up and asleep in a way that no hook knows."""
 OUTER_SECONDS = WALL_SECONDS + 5.0
@@ -74,7 +76,7 @@ def execute(
         "cwd": recipe.cwd,
         "folders": [recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home()],
         "params": encode_params(params),
-        "limits": {"wall": WALL_SECONDS, "quiet": QUIET_SECONDS, "settled": SETTLED_SECONDS},
+        "limits": {"wall": WALL_SECONDS, "quiet": QUIET_SECONDS, "looped": LOOPED_SECONDS, "settled": SETTLED_SECONDS},
         "rlimits": RLIMITS | {"NPROC": _PROCESSES if _own_process_count() else _PROCESSES_SHARED},
     }
     start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"

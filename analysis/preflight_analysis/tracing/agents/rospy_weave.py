@@ -195,41 +195,47 @@ def _other_threads() -> int:
     return own
 
 
-def _state(flush: Callable[[], None], state: str) -> Callable[[Advised], Advised]:
-    """The main thread is in its event loop (`spin`), or in what looks like one (`idle`)."""
+def _spin(flush: Callable[[], None]) -> Callable[[Advised], Advised]:
+    """The main thread enters its event loop."""
 
     def tell(_arguments: dict[str, Any]) -> None:
-        if state in _told_states or not _in_main_thread() or _caller()[2]:
+        if _in_main_thread():
+            flush()
+            channel.send("state", state="spin", threads=_other_threads())
+
+    return _before(tell)
+
+
+def _turn(flush: Callable[[], None], loops: bool) -> Callable[[Advised], Advised]:
+    """A call that stands in a loop of the main thread: always (`loops`), or if it comes twice from the same place.
+
+    A single `rospy.sleep` may be a pause before more endpoints are made.
+    """
+
+    def tell(arguments: dict[str, Any]) -> None:
+        if "looped" in _told_states or not _in_main_thread():
             return
-        _told_states.add(state)
-        flush()
-        channel.send("state", state=state, threads=_other_threads())
+        file, line, internal = _caller()
+        if internal:
+            return
+        again = (file, line) in _turns
+        _turns.add((file, line))
+        state = "looped" if again else "idle"
+        if state == "idle" and not loops:
+            flush()
+            duration = arguments["duration"]
+            seconds = duration.to_sec() if hasattr(duration, "to_sec") else float(duration)
+            channel.send("state", state="sleep", seconds=seconds)
+        elif state not in _told_states:
+            _told_states.add(state)
+            flush()
+            channel.send("state", state=state, threads=_other_threads())
 
     return _before(tell)
 
 
 _told_states: set[str] = set()
-_sleeps: set[tuple[Any, ...]] = set()
-
-
-def _sleep(flush: Callable[[], None]) -> Callable[[Advised], Advised]:
-    """A second sleep at the same place is a loop; a single one may be a pause before more endpoints are made."""
-
-    def tell(arguments: dict[str, Any]) -> None:
-        file, line, internal = _caller()
-        if "idle" in _told_states or internal or not _in_main_thread():
-            return
-        flush()
-        if (file, line) in _sleeps:
-            _told_states.add("idle")
-            channel.send("state", state="idle", threads=_other_threads())
-            return
-        _sleeps.add((file, line))
-        duration = arguments["duration"]
-        seconds = duration.to_sec() if hasattr(duration, "to_sec") else float(duration)
-        channel.send("state", state="sleep", seconds=seconds)
-
-    return _before(tell)
+_turns: set[tuple[Optional[str], Optional[int]]] = set()
 
 
 def _wait(flush: Callable[[], None], kind: str, argument: str) -> Callable[[Advised], Advised]:
@@ -306,13 +312,13 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
             function(client, name, _parameter(access, client._unspecified, root.names.resolve_name), rospy)
 
     function(client, "init_node", _after(lambda _arguments: channel.send("state", state="init")), rospy)
-    function(client, "spin", _state(flush, "spin"), rospy)
+    function(client, "spin", _spin(flush), rospy)
     function(client, "wait_for_message", _wait(flush, "message", "topic"), rospy)
     function(services, "wait_for_service", _wait(flush, "service", "service"), rospy)
-    aspectlib.weave(root.timer.Rate, _state(flush, "idle"), methods=["sleep"], subclasses=False)
+    aspectlib.weave(root.timer.Rate, _turn(flush, loops=True), methods=["sleep"], subclasses=False)
     # Only the names that nodes use: rospy's own modules call these on every turn.
-    function(rospy, "sleep", _sleep(flush))
-    function(rospy, "is_shutdown", _state(flush, "idle"))
+    function(rospy, "sleep", _turn(flush, loops=False))
+    function(rospy, "is_shutdown", _turn(flush, loops=True))
     for name, what in (
         ("get_name", ("name",)),
         ("get_caller_id", ("name",)),

@@ -42,6 +42,7 @@ class Run:
         self.started = self.active = time.monotonic()
         self.spins = False
         self.idle = False
+        self.looped = False
         self.initialised = False
         self.pause_until = 0.0
         self.waits: list[tuple[str, str]] = []
@@ -95,19 +96,17 @@ class Run:
 
     def _state(self, event: dict[str, Any]) -> None:
         state, now = event.get("state"), time.monotonic()
-        if state == "spin":
-            if event.get("threads"):
-                self.idle = True
-                self.active = now
-            else:
-                self.spins = True
-        elif state == "idle":
+        alone = not event.get("threads")
+        if state == "spin" and alone:
+            self.spins = True
+        elif state in ("spin", "idle", "looped"):
             self.idle = True
-            self.active = now
+            self.looped = self.looped or (state == "looped" and alone)
+            self.pause_until = 0.0
         elif state == "init":
             self.initialised = True
             self.active = now
-        elif state == "sleep" and isinstance(event.get("seconds"), (int, float)):
+        elif state == "sleep" and not self.idle and isinstance(event.get("seconds"), (int, float)):
             self.pause_until = now + min(float(event["seconds"]), 60.0)
         elif state in ("wait", "resume"):
             wait = (str(event.get("kind"))[:20], str(event.get("name"))[:300])
@@ -137,7 +136,7 @@ class Run:
         if self.waits or now < self.pause_until or self._polls():
             return None
         quiet = now - max(self.active, self.pause_until)
-        if self.idle and quiet > self.job["limits"]["quiet"]:
+        if self.idle and quiet > self.job["limits"]["looped" if self.looped else "quiet"]:
             return "spinning"
         # An event loop that no hook knows: up and running, asleep, and nothing new for a good while.
         if self.initialised and quiet > self.job["limits"]["settled"]:

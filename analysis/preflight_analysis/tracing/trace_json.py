@@ -1,0 +1,64 @@
+"""The JSON of `ros-preflight trace`: interfaces as the nodes gave them, before namespaces and remaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.tree_json import json_value
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+
+SCHEMA = "ros-preflight/trace/1"
+
+
+def trace_json(nodes: Iterable[tuple[LaunchNode, Interface]]) -> dict[str, Any]:
+    """One entry a node. Lines of sources are counted from 1, `seconds` is the wall time of the run."""
+    return {"schema": SCHEMA, "nodes": [_node(node, interface) for node, interface in nodes]}
+
+
+def _node(node: LaunchNode, interface: Interface) -> dict[str, Any]:
+    outcome = interface.outcome
+    return {
+        "name": node.name,
+        "package": node.package,
+        "executable": node.executable,
+        "path": node.resolved.path,
+        "interface_source": interface.source,
+        "cached": interface.cached,
+        "outcome": {
+            "status": outcome.status,
+            "exit_code": outcome.exit_code,
+            "signal": outcome.signal,
+            "reason": outcome.reason,
+            "seconds": outcome.seconds,
+            "stderr_tail": list(outcome.stderr_tail),
+        },
+        "endpoints": [_endpoint(endpoint) for endpoint in interface.endpoints],
+        "params": [_param(use) for use in interface.params],
+        "notes": list(interface.notes),
+    }
+
+
+def _endpoint(endpoint: Endpoint) -> dict[str, Any]:
+    return {
+        "role": endpoint.role,
+        "name": endpoint.name,
+        "type": endpoint.type,
+        "md5": endpoint.md5,
+        "qos": json_value(endpoint.qos),
+        "builtin": endpoint.builtin,
+        "speculative": endpoint.speculative,
+        **_made_at(endpoint),
+    }
+
+
+def _param(use: ParamUse) -> dict[str, Any]:
+    data = {"name": use.name, "access": use.access, "mandatory": use.mandatory, "builtin": use.builtin}
+    if use.has_default:
+        data["default"] = json_value(use.default)
+    return {**data, **_made_at(use)}
+
+
+def _made_at(what: Endpoint | ParamUse) -> dict[str, Any]:
+    return {"source": {"file": what.source_file, "line": what.source_line} if what.source_file else None}

@@ -1,0 +1,98 @@
+"""Launches a file with the real roslaunch and prints what the real master shows of it, as JSON.
+
+Run by the system's Python, which has ROS: `observe_launch.py FILE PORT`. Not a test module.
+"""
+
+import json
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import time
+
+import rosgraph
+import rosservice
+from roslaunch.config import load_config_default
+from roslaunch.node_args import create_local_process_args
+
+STABLE_SECONDS = 1.5
+LIMIT_SECONDS = 40
+
+
+def described(path, port):
+    """The nodes as roslaunch is going to start them, and its parameters."""
+    config = load_config_default([path], port)
+    config.assign_machines()
+    nodes = []
+    for node in config.nodes:
+        argv = create_local_process_args(node, config.machines[""] if "" in config.machines else node.machine)
+        given = len(shlex.split(node.args))
+        nodes.append(
+            {
+                "name": rosgraph.names.ns_join(node.namespace, node.name),
+                "package": node.package,
+                "executable": argv[0],
+                "args": argv[1 : 1 + given],
+                "remaps": [list(pair) for pair in node.remap_args],
+                "env": [list(pair) for pair in node.env_args],
+                "cwd": node.cwd,
+            }
+        )
+    return {"nodes": nodes, "params": {name: param.value for name, param in config.params.items()}}
+
+
+def state(master):
+    """The master's whole state, in an order that can be compared."""
+    return [sorted((name, sorted(nodes)) for name, nodes in side) for side in master.getSystemState()]
+
+
+def shown(master, wanted):
+    """For each node what `rosnode info` would print, once the graph has stopped changing and all nodes are in it."""
+    began = since = time.time()
+    last = None
+    while time.time() - since < STABLE_SECONDS:
+        if time.time() - began > LIMIT_SECONDS:
+            raise SystemExit("the graph did not become stable, or lacks a node: %s" % last)
+        time.sleep(0.1)
+        try:
+            now = state(master)
+        except (OSError, rosgraph.MasterException):
+            now = None
+        present = {node for side in now or () for _, nodes in side for node in nodes}
+        if now is None or now != last or not wanted <= present:
+            last, since = now, time.time()
+    types = dict(master.getTopicTypes())
+    publishers, subscribers, services = last
+    return {
+        node: {
+            "publishers": sorted([name, types[name]] for name, nodes in publishers if node in nodes),
+            "subscribers": sorted([name, types.get(name)] for name, nodes in subscribers if node in nodes),
+            "services": sorted([name, rosservice.get_service_type(name)] for name, nodes in services if node in nodes),
+        }
+        for node in wanted
+    }
+
+
+def main():
+    path, port = sys.argv[1], int(sys.argv[2])
+    os.environ["ROS_MASTER_URI"] = "http://127.0.0.1:%d/" % port
+    result = described(path, port)
+    launch = subprocess.Popen(
+        ["/usr/bin/python3", "/usr/bin/roslaunch", "-p", str(port), path],
+        stdout=sys.stderr,
+        start_new_session=True,
+    )
+    try:
+        master = rosgraph.Master("/observer")
+        result["shown"] = shown(master, {node["name"] for node in result["nodes"]})
+    finally:
+        launch.send_signal(signal.SIGINT)
+        try:
+            launch.wait(20)
+        except subprocess.TimeoutExpired:
+            os.killpg(launch.pid, signal.SIGKILL)
+    print(json.dumps(result))
+
+
+main()

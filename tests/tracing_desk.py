@@ -1,0 +1,61 @@
+"""Helpers for the tests of tracing: an environment, nodes written on the spot, runs."""
+
+from __future__ import annotations
+
+import os
+import textwrap
+import threading
+from pathlib import Path
+from typing import Any
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
+
+ROS1_FIXTURES = Path(__file__).parent.parent / "fixtures" / "ros1"
+SYSTEM_PYTHON = "/usr/bin/python3"
+
+
+def environment(*package_path: Path, variables: dict[str, str] | None = None) -> Environment:
+    """Debian's ROS 1 with these folders on the package path."""
+    paths = tuple(str(p) for p in package_path) or (str(ROS1_FIXTURES),)
+    given = {"PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": os.pathsep.join(paths), "ROS_DISTRO": "noetic"}
+    return Environment(1, "noetic", given | (variables or {}), paths, {}, {}, (), ("/usr",), SYSTEM_PYTHON)
+
+
+def write_node(folder: Path, body: str, name: str = "node.py") -> Path:
+    """An executable Python script."""
+    path = folder / name
+    path.write_text("#!/usr/bin/env python3\n" + textwrap.dedent(body))
+    path.chmod(0o755)
+    return path
+
+
+def request(executable: Path, node: str = "/node", **more: Any) -> TraceRequest:
+    """A request for a node of package `pkg`."""
+    return TraceRequest(node, "pkg", str(executable), **more)
+
+
+def trace(executable: Path, node: str = "/node", *, variables: dict[str, str] | None = None, **more: Any) -> Interface:
+    """Run a node that lies in a folder of the package path, without cache."""
+    tracer = Tracer(environment(executable.parent, variables=variables), None)
+    return tracer.trace(request(executable, node, **more), threading.Event())
+
+
+def own(interface: Interface) -> set[tuple[str, str, str | None]]:
+    """Role, name and type of what the node made itself."""
+    return {(e.role, e.name, e.type) for e in interface.endpoints if not e.builtin}
+
+
+def processes_with(marker: str) -> list[str]:
+    """Command lines of running processes that contain `marker`."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            line = path.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if marker in line:
+            found.append(line)
+    return found
