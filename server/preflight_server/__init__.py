@@ -1,0 +1,1 @@
+"""ros-preflight for editors and terminals: conversions around `preflight_analysis`, no analysis of its own."""

@@ -1,0 +1,114 @@
+"""The JSON of `ros-preflight tree`: a contract that other programs read (schema `ros-preflight/tree/1`)."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, ParamValue
+from preflight_analysis.findings.finding import Finding
+
+SCHEMA = "ros-preflight/tree/1"
+
+
+def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Iterable[Finding]) -> dict[str, Any]:
+    """The contract's object. `errors` are the findings that would stop the launcher; the other ones are of `check`.
+
+    Lines and columns are counted from 1, columns in code points. A float that JSON has no number for is a string.
+    """
+    return {
+        "schema": SCHEMA,
+        "file": tree.file,
+        "generation": tree.generation,
+        "args": {
+            name: {"value": arg.value, "default": arg.default, "required": arg.required}
+            for name, arg in tree.args.items()
+        },
+        "nodes": [_node(node, tree, documents) for node in tree.nodes],
+        "params": {name: json_value(param.value) for name, param in tree.params.items()},
+        "clear_params": list(tree.clear_params),
+        "includes": [include.path for include in tree.includes if include.path is not None],
+        "machines": {
+            name: {
+                "address": machine.address,
+                "env_loader": machine.env_loader,
+                "user": machine.user,
+                "timeout": machine.timeout,
+            }
+            for name, machine in tree.machines.items()
+        },
+        "unknown": [{"what": unknown.what, "reason": unknown.reason} for unknown in tree.unknowns],
+        "errors": [
+            {"rule": f.rule, "message": f.message, **place_json(f.location, documents)}
+            for f in findings
+            if f.stops_launch
+        ],
+    }
+
+
+def place_json(location: Location, documents: Mapping[str, Document]) -> dict[str, Any]:
+    """`file`, `line` and `column`; the start of a file that is not an analysed document."""
+    document = documents.get(location.file)
+    line, column = document.lines.position(location.span.start) if document else (0, 0)
+    return {"file": location.file, "line": line + 1, "column": column + 1}
+
+
+def json_value(value: ParamValue) -> Any:
+    """A parameter's value as JSON can say it: text for dates and for what is no finite number, `{"command": ...}` for
+    a command that was not run, `{"binary_sha1": ...}` for bytes."""
+    if isinstance(value, CommandValue):
+        return {"command": value.command}
+    if isinstance(value, bytes):
+        return {"binary_sha1": hashlib.sha1(value, usedforsecurity=False).hexdigest()}
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    if isinstance(value, Mapping):
+        return {str(key): json_value(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [json_value(each) for each in value]
+    return value if value is None or isinstance(value, (bool, int, float, str)) else str(value)
+
+
+def dumps(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
+    """JSON text with sorted keys; characters stay what they are, save halves of surrogate pairs."""
+    text = json.dumps(data, sort_keys=True, indent=indent, ensure_ascii=False, allow_nan=False)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return json.dumps(data, sort_keys=True, indent=indent, allow_nan=False)
+    return text
+
+
+def _node(node: LaunchNode, tree: LaunchTree, documents: Mapping[str, Document]) -> dict[str, Any]:
+    private = node.name + "/"
+    params = {name: param for name, param in tree.params.items() if name.startswith(private)}
+    launch_files = set(tree.files)
+    param_files = (p.name_location.file for p in params.values() if p.name_location is not None)
+    return {
+        "name": node.name,
+        "namespace": node.namespace,
+        "package": node.package,
+        "executable": node.executable,
+        "kind": node.kind,
+        "container": None,
+        "plugin": None,
+        "args": node.args,
+        "remaps": [[remap.source, remap.target] for remap in node.remaps],
+        "env": [list(pair) for pair in node.env],
+        "params": {name.removeprefix(private): json_value(param.value) for name, param in params.items()},
+        "param_files": list(dict.fromkeys(file for file in param_files if file not in launch_files)),
+        "machine": node.machine,
+        "respawn": node.respawn,
+        "respawn_delay": node.respawn_delay,
+        "required": node.required,
+        "output": node.output,
+        "cwd": node.cwd,
+        "launch_prefix": node.launch_prefix,
+        "clear_params": node.clear_params,
+        "origin": [place_json(step, documents) for step in node.origin],
+    }

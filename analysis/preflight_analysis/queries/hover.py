@@ -1,0 +1,250 @@
+"""What a reader wants to know of the thing under the cursor, as Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Origin, Span
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, ParamValue, Use
+from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.launch.model import Action
+from preflight_analysis.queries.places import (
+    action_at,
+    include_of,
+    link,
+    nodes_of,
+    params_of,
+    place,
+    remaps_of,
+    use_at,
+)
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.workspace.workspace import Analysis
+
+_SHOWN_CONTEXTS = 3
+"""A tag of a file that is included often makes many nodes; the first few say enough."""
+_SHOWN_PARAMS = 40
+
+_SOURCES = {
+    "trace": "from a run in the sandbox",
+    "annotation": "from the annotation in the launch file",
+    "settings": "from the settings file",
+    "source": "from its source code",
+    "similar": "from a run of the same executable elsewhere",
+}
+_OUTCOMES = {
+    "spinning": "reached its event loop",
+    "exited": "ended by itself",
+    "crashed": "crashed",
+    "timed-out": "did not reach its event loop in time",
+    "not-run": "was not run",
+}
+_SIDES = (
+    ("Publishes", "topics", "offers"),
+    ("Subscribes to", "topics", "wants"),
+    ("Offers services", "services", "offers"),
+    ("Calls services", "services", "wants"),
+    ("Offers actions", "actions", "offers"),
+    ("Calls actions", "actions", "wants"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Hover:
+    """A text in Markdown and what it speaks of."""
+
+    markdown: str
+    span: Span
+
+
+def hover(analysis: Analysis, file: str, offset: int) -> Hover | None:
+    """What is known of the thing at `offset`; None where there is nothing to say."""
+    use = use_at(analysis.tree, file, offset)
+    launch_file = analysis.launch_files.get(file)
+    action = action_at(launch_file, offset) if launch_file else None
+    if use is not None and use.kind not in ("value", "executable", "include"):
+        return Hover(_use(analysis, use), use.location.span)
+    blocks = list(_action(analysis, file, action)) if action is not None else []
+    if blocks and action is not None:
+        return Hover("\n\n---\n\n".join(blocks), action.head_span)
+    if use is not None:
+        return Hover(_use(analysis, use), use.location.span)
+    return None
+
+
+def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
+    """One block of text for each thing that the tag makes."""
+    if action.kind in ("node", "test"):
+        nodes = list(nodes_of(analysis, file, action))
+        for index, node in nodes[:_SHOWN_CONTEXTS]:
+            yield _node(analysis, index, node)
+        if len(nodes) > _SHOWN_CONTEXTS:
+            yield f"… and {len(nodes) - _SHOWN_CONTEXTS} more nodes of this tag"
+    elif action.kind == "include":
+        include = include_of(analysis.tree, file, action)
+        if include is not None:
+            lines = [f"Includes {link(include.path, None)}" if include.path else "Includes a file that is not known"]
+            lines += [f"- `{name}` = {_value(value)}" for name, value in include.args.items()]
+            if include.path:
+                lines.insert(1, f"\n`{include.path}`\n")
+            yield "\n".join(lines)
+    elif action.kind in ("param", "rosparam"):
+        params = list(params_of(analysis.tree, file, action))
+        lines = [f"- `{p.name}` = {_value(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
+        if len(params) > _SHOWN_PARAMS:
+            lines.append(f"- … and {len(params) - _SHOWN_PARAMS} more")
+        if lines:
+            yield "\n".join(["Sets", *lines])
+    elif action.kind == "remap":
+        yield from _remap(analysis, file, action)
+
+
+def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
+    reached = list(remaps_of(analysis.tree, file, action))
+    named = (((names.resolve(r.source, n.name), names.resolve(r.target, n.name)), n.name) for n, r in reached)
+    for (source, target), nodes in _grouped(named):
+        lines = [f"`{source}` → `{target}` for {', '.join(f'`{n}`' for n in nodes)}"]
+        if analysis.graph is not None:
+            lines += _ends(analysis.graph, target)
+        yield "\n".join(lines)
+
+
+def _grouped(pairs: Iterable[tuple[tuple[str, str], str]]) -> Iterator[tuple[tuple[str, str], list[str]]]:
+    groups: dict[tuple[str, str], list[str]] = {}
+    for key, member in pairs:
+        groups.setdefault(key, []).append(member)
+    yield from groups.items()
+
+
+def _ends(graph: Graph, name: str) -> Iterator[str]:
+    for kind, channels in (("topic", graph.topics), ("service", graph.services), ("action", graph.actions)):
+        channel = channels.get(name)
+        if channel is not None:
+            verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
+            for verb, ends in zip(verbs, (channel.offers, channel.wants), strict=True):
+                nodes = ", ".join(sorted({f"`{c.node.name}`" for c in ends})) or "nobody"
+                yield f"- {kind} `{name}` {verb} {nodes}"
+
+
+def _use(analysis: Analysis, use: Use) -> str:
+    value = "not known" if use.value is None else f"`{use.value}`"
+    if use.kind == "arg":
+        text = f"argument `{use.name}` = {value}"
+    elif use.kind == "find":
+        text = f"package `{use.name}`: {value}"
+    elif use.kind == "env":
+        text = f"environment variable `{use.name}` = {value}"
+    else:
+        text = f"`{use.name}` = {value}" if use.name else value
+    chain = _chain(analysis, use.origin)
+    return f"{text}\n\n{chain}" if chain else text
+
+
+def _chain(analysis: Analysis, origin: Origin) -> str:
+    """Where a value comes from, the place itself first, then the includes outwards."""
+    if not origin:
+        return ""
+    *includes, last = origin
+    steps = [f"given at {place(analysis, last)}"]
+    steps += [f"included at {place(analysis, step)}" for step in reversed(includes)]
+    return ", ".join(steps)
+
+
+def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
+    lines = [f"**{node.name}** `{node.package}/{node.executable}`"]
+    if node.resolved.path:
+        lines[0] += f" — {link(node.resolved.path, None)}"
+    if len(node.origin) > 1:
+        lines += ["", _chain(analysis, node.origin)]
+    graph = analysis.graph
+    interface = graph.interfaces[index] if graph is not None else None
+    lines += ["", _outcome(analysis, interface)]
+    if interface is not None and graph is not None and interface.known:
+        for title, channels, side in _SIDES:
+            ends = [
+                c
+                for channel in getattr(graph, channels).values()
+                for c in getattr(channel, side)
+                if c.node is node and not c.endpoint.builtin
+            ]
+            if ends:
+                lines += ["", title, *(_connection(c, interface) for c in sorted(ends, key=lambda c: c.name))]
+        reads = [p for p in interface.params if not p.builtin]
+        if reads:
+            lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]
+        lines += [f"\n{note}" for note in interface.notes]
+    for unknown in node.unknowns:
+        lines += ["", f"Not known: {unknown.what} ({unknown.reason})"]
+    return "\n".join(lines)
+
+
+def _outcome(analysis: Analysis, interface: Interface | None) -> str:
+    if interface is None or interface.source == "none":
+        reason = interface.outcome.reason if interface is not None else None
+        reason = reason or analysis.why_not_run
+        return f"Its interface is not known{f': {reason}' if reason else ' yet'}"
+    source = _SOURCES.get(interface.source, interface.source)
+    if interface.source != "trace":
+        return f"Interface {source}"
+    outcome = interface.outcome
+    ending = f" with exit code {outcome.exit_code}" if outcome.exit_code else ""
+    ending += f" ({outcome.signal})" if outcome.signal else ""
+    how = f"{_OUTCOMES[outcome.status].capitalize()}{ending}"
+    cached = ", kept from an earlier run" if interface.cached else ""
+    lines = [f"Interface {source}{cached}. {how} after {outcome.seconds:.2f} s."]
+    if outcome.status != "spinning" and outcome.reason:
+        lines.append(outcome.reason)
+    if outcome.status == "crashed" and outcome.stderr_tail:
+        lines.append("```text\n" + "\n".join(outcome.stderr_tail) + "\n```")
+    return "\n\n".join(lines)
+
+
+def _made_at(what: Endpoint | ParamUse) -> str:
+    return f" — {link(what.source_file, what.source_line)}" if what.source_file else ""
+
+
+def _connection(connection: Connection, interface: Interface) -> str:
+    endpoint = connection.endpoint
+    text = f"- `{connection.name}`"
+    if endpoint.type:
+        text += f" `{endpoint.type}`"
+    if connection.remap is not None:
+        text += f", called `{endpoint.name}` by the node and remapped"
+    if endpoint.qos.get("latch"):
+        text += ", latched"
+    if endpoint.speculative:
+        text += ", after a made-up answer"
+    return text + _made_at(endpoint)
+
+
+def _read(analysis: Analysis, graph: Graph, node: LaunchNode, use: ParamUse) -> str:
+    full = next((r.name for r in graph.param_reads if r.node is node and r.use == use), use.name)
+    param = analysis.tree.params.get(full)
+    if param is not None:
+        text = f"- `{full}` = {_value(param.value)}"
+    elif use.access in ("set", "delete"):
+        text = f"- `{full}` is {use.access} by the node"
+    else:
+        text = f"- `{full}` is not set"
+    if use.has_default:
+        text += f", default {_value(use.default)}"
+    elif use.mandatory:
+        text += ", no default"
+    return text + _made_at(use)
+
+
+def _value(value: ParamValue) -> str:
+    if isinstance(value, CommandValue):
+        return f"what `{value.command}` prints"
+    if isinstance(value, bytes):
+        return f"{len(value)} bytes"
+    if value is None:
+        return "not known"
+    text = " ".join(str(value).split())
+    return f"`{text[:200]}…`" if len(text) > 200 else f"`{text}`"
+
+
+def _type(value: ParamValue) -> str:
+    return "output of a command" if isinstance(value, CommandValue) else type(value).__name__

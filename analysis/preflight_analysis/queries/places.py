@@ -1,0 +1,83 @@
+"""What stands at an offset: the tag, the use of a name, the nodes and parameters that came of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import Include, LaunchNode, LaunchTree, Param, Remap, Use
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.workspace.workspace import Analysis
+
+
+def action_at(launch_file: LaunchFile, offset: int) -> Action | None:
+    """The innermost tag around `offset`; between two tags that touch, the one that begins there."""
+    action = launch_file.root
+    if action is None or not action.span.contains(offset):
+        return None
+    while True:
+        inside = [c for c in action.children if c.span.contains(offset)]
+        if not inside:
+            return action
+        action = inside[-1]
+
+
+def use_at(tree: LaunchTree, file: str, offset: int) -> Use | None:
+    """The innermost use of a name at `offset`, in the first context in which its value is known."""
+    found = [u for u in tree.uses if u.location.file == file and u.location.span.contains(offset)]
+    if not found:
+        return None
+    return min(found, key=lambda u: (u.location.span.end - u.location.span.start, u.kind == "value", u.value is None))
+
+
+def nodes_of(analysis: Analysis, file: str, action: Action) -> Iterator[tuple[int, LaunchNode]]:
+    """The nodes that a tag makes, with their index in the tree: several where its file is included several times."""
+    for index, node in enumerate(analysis.tree.nodes):
+        if node.location.file == file and node.action.span == action.span:
+            yield index, node
+
+
+def include_of(tree: LaunchTree, file: str, action: Action) -> Include | None:
+    """The include that was taken at a tag."""
+    return next((i for i in tree.includes if _within(i.origin[-1], file, action.span)), None)
+
+
+def params_of(tree: LaunchTree, file: str, action: Action) -> Iterator[Param]:
+    """The parameters that a tag sets, overridden ones left out."""
+    for param in tree.params.values():
+        if param.origin and any(_within(step, file, action.span) for step in param.origin):
+            yield param
+
+
+def remaps_of(tree: LaunchTree, file: str, action: Action) -> Iterator[tuple[LaunchNode, Remap]]:
+    """The nodes that a `<remap>` tag reaches."""
+    for node in tree.nodes:
+        for remap in node.remaps:
+            if remap.origin and _within(remap.origin[-1], file, action.span):
+                yield node, remap
+
+
+def _within(location: Location, file: str, span: Span) -> bool:
+    return location.file == file and span.start <= location.span.start and location.span.end <= span.end
+
+
+def line_of(analysis: Analysis, location: Location) -> int | None:
+    """The line of a location, counted from 1; None in a file that is not an analysed document."""
+    document = analysis.documents.get(location.file)
+    return document.lines.position(location.span.start)[0] + 1 if document else None
+
+
+def link(file: str, line: int | None) -> str:
+    """A place as a Markdown link that says file and line."""
+    path = Path(file)
+    if not path.is_absolute():
+        return f"`{file}`" if line is None else f"`{file}:{line}`"
+    if line is None:
+        return f"[{path.name}]({path.as_uri()})"
+    return f"[{path.name}:{line}]({path.as_uri()}#L{line})"
+
+
+def place(analysis: Analysis, location: Location) -> str:
+    """A location as a Markdown link."""
+    return link(location.file, line_of(analysis, location))

@@ -1,0 +1,71 @@
+"""The outline of a launch file: its tags as they nest, with the names that a reader looks for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.launch.model import Action, LaunchFile
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """One tag. `kind` is the tag's own name; `selection` lies within `span`: an editor puts the cursor there."""
+
+    name: str
+    detail: str
+    kind: str
+    span: Span
+    selection: Span
+    children: tuple[Symbol, ...] = ()
+
+
+_NAMED_BY = {
+    "node": ("name", "type"),
+    "test": ("test-name", "name", "type"),
+    "include": ("file",),
+    "group": ("ns",),
+    "arg": ("name",),
+    "param": ("name",),
+    "rosparam": ("param", "file", "ns"),
+    "remap": ("from",),
+    "env": ("name",),
+    "machine": ("name",),
+}
+
+
+def symbols(launch_file: LaunchFile) -> tuple[Symbol, ...]:
+    """The outline of the file; empty when it has no `<launch>`. Tags that roslaunch does not know are left out."""
+    root = launch_file.root
+    return tuple(_symbol(child) for child in root.children if child.kind in _NAMED_BY) if root else ()
+
+
+def _symbol(action: Action) -> Symbol:
+    children = tuple(_symbol(child) for child in action.children if child.kind in _NAMED_BY)
+    named = next((a for n in _NAMED_BY[action.kind] if (a := action.attribute(n)) and a.value.text.strip()), None)
+    selection = named.value.span if named else action.kind_span
+    if not (action.span.start <= selection.start and selection.end <= action.span.end):
+        selection = action.span
+    return Symbol(
+        " ".join(named.value.text.split()) if named else action.kind,
+        _detail(action),
+        action.kind,
+        action.span,
+        selection,
+        children,
+    )
+
+
+def _detail(action: Action) -> str:
+    """What else is worth a glance, as written in the file."""
+    given = {a.name: " ".join(a.value.text.split()) for a in action.attributes}
+    if action.kind in ("node", "test"):
+        detail = "/".join(given[n] for n in ("pkg", "type") if n in given)
+    elif action.kind == "remap":
+        detail = f"→ {given['to']}" if "to" in given else ""
+    elif action.kind in ("param", "arg", "env"):
+        detail = next((given[n] for n in ("value", "default", "textfile", "binfile", "command") if n in given), "")
+    else:
+        detail = ""
+    conditions = [f"{n} {given[n]}" for n in ("if", "unless") if n in given]
+    return ", ".join(part for part in (detail, *conditions) if part)

@@ -1,0 +1,18 @@
+"""Why the interface of a node is not there, in words for the user."""
+
+from __future__ import annotations
+
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.tracing.interface import Interface, Outcome
+
+PENDING = "its run has not ended yet"
+
+
+def not_run(node: LaunchNode, reason: str | None = None) -> Interface:
+    """An empty interface that says why: what the launch file leaves unknown, no executable, or else `reason`."""
+    if node.unknowns:
+        first = node.unknowns[0]
+        reason = f"{first.what} is not known ({first.reason})"
+    elif node.resolved.path is None:
+        reason = f"there is no executable {node.executable!r} in package {node.package!r}"
+    return Interface("none", Outcome("not-run", reason=reason))

@@ -1,0 +1,1 @@
+"""The command `ros-preflight`: one module per verb."""

@@ -1,0 +1,107 @@
+"""`tree --batch`: many launch files in one process, one line of JSON each, in the order of the jobs."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.tree_json import tree_json
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+from preflight_server.cli.errors import CLEAN, CannotDoError
+from preflight_server.cli.options import launch_args
+from preflight_server.cli.output import print_json
+
+BASE_ENV: Mapping[str, str] = {
+    "HOME": "/home/robot",
+    "USER": "robot",
+    "LOGNAME": "robot",
+    "HOSTNAME": "bench",
+    "PATH": "/usr/bin:/bin",
+    "LANG": "C.UTF-8",
+    "ROS_DISTRO": "noetic",
+    "ROS_VERSION": "1",
+    "ROS_PYTHON_VERSION": "3",
+    "ROS_MASTER_URI": "http://localhost:11311",
+    "ROS_ETC_DIR": "/etc/ros",
+    "ROS_HOSTNAME": "localhost",
+    "ROS_IP": "127.0.0.1",
+    "PYTHONDONTWRITEBYTECODE": "1",
+}
+"""What every job starts from, whatever this process was started with: the answers are the same on every machine."""
+
+_ROOT = "$ROOT"
+_CWD = "/"
+"""Relative include paths are relative to where roslaunch is called; a batch is called from nowhere in particular."""
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One line of the jobs file, its paths absolute."""
+
+    file: str
+    args: Mapping[str, str]
+    env: Mapping[str, str]
+    package_path: tuple[str, ...]
+
+
+def answer_all(jobs: Path) -> int:
+    """Answer all jobs. Raises `CannotDoError` at the first line that is no job."""
+    environment_of = lru_cache(maxsize=4)(_environment)
+    for job in _read(jobs):
+        environment = environment_of(job.package_path, tuple(sorted(job.env.items())))
+        analysis = Workspace(environment, Sources(), _CWD).static(job.file, job.args)
+        print_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
+    return CLEAN
+
+
+def _environment(package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]) -> Environment:
+    variables = {**BASE_ENV, "ROS_PACKAGE_PATH": os.pathsep.join(package_path), **dict(env)}
+    return detect_environment(None, variables, package_path)
+
+
+def _read(jobs: Path) -> Iterator[Job]:
+    root = str(jobs.absolute().parent)
+    try:
+        with jobs.open(encoding="utf-8") as lines:
+            for number, line in enumerate(lines, 1):
+                if line.strip():
+                    yield _job(line, root, f"{jobs}:{number}")
+    except (OSError, UnicodeDecodeError) as error:
+        raise CannotDoError(f"{jobs} cannot be read: {error}") from error
+
+
+def _job(line: str, root: str, where: str) -> Job:
+    try:
+        data: Any = json.loads(line)
+        file, args = data["file"], data.get("args") or []
+        env, package_path = data.get("env") or {}, data.get("package_path") or []
+        ok = (
+            isinstance(file, str)
+            and isinstance(env, dict)
+            and isinstance(args, list)
+            and isinstance(package_path, list)
+        )
+        ok = ok and all(isinstance(each, str) for each in (*args, *env, *env.values(), *package_path))
+    except (ValueError, KeyError, AttributeError, TypeError) as error:
+        raise CannotDoError(f"{where}: no job: {error!r}") from error
+    if not ok:
+        raise CannotDoError(f"{where}: no job: file is text, args and package_path are lists of text, env maps to text")
+
+    def filled(text: str) -> str:
+        return text.replace(_ROOT, root)
+
+    return Job(
+        os.path.normpath(os.path.join(root, filled(file))),
+        launch_args([filled(each) for each in args]),
+        {name: filled(value) for name, value in env.items()},
+        tuple(os.path.normpath(os.path.join(root, filled(folder))) for folder in package_path),
+    )

@@ -1,0 +1,56 @@
+"""`ros-preflight graph`: who talks to whom after the launch."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping
+
+from preflight_analysis.graph.graph_json import graph_json
+from preflight_analysis.graph.model import Channel, Graph
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import FAILED
+from preflight_server.cli.output import print_json, print_text, say
+from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
+
+HELP = "who talks to whom after the launch"
+DESCRIPTION = """Shows topics, services and actions under their final names, with the nodes at both ends. The nodes are
+run in a sandbox to see what they do: calling this command is your consent; --no-run executes nothing."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_common(parser)
+    options.add_file(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the graph."""
+    analysis = run_nodes(open_project(args), args.no_run)
+    if analysis.graph is None:
+        say("there is no graph")
+        return FAILED
+    if args.format == "json":
+        print_json(graph_json(analysis.graph))
+    else:
+        print_text("".join(f"{line}\n" for line in _lines(analysis.graph)))
+        say_errors(analysis)
+    return exit_code(analysis, args.fail_on)
+
+
+def _lines(graph: Graph) -> Iterator[str]:
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
+        reason = f": {interface.outcome.reason}" if interface.outcome.reason else ""
+        yield f"node {node.name}  {interface.source}, {interface.outcome.status}{reason}"
+    for kind, channels in (("topic", graph.topics), ("service", graph.services), ("action", graph.actions)):
+        yield from _channels(kind, channels)
+
+
+def _channels(kind: str, channels: Mapping[str, Channel]) -> Iterator[str]:
+    for name, channel in channels.items():
+        if all(c.endpoint.builtin for c in (*channel.offers, *channel.wants)):
+            continue
+        offers, wants = (
+            ", ".join(sorted({c.node.name for c in ends})) or "nobody" for ends in (channel.offers, channel.wants)
+        )
+        yield f"{kind} {name}  {' | '.join(channel.types) or 'type not known'}  {offers} -> {wants}"

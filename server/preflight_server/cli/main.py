@@ -1,0 +1,67 @@
+"""The command's entry point: picks the verb, and turns what goes wrong into a message and an exit code."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import logging
+import os
+import sys
+from collections.abc import Sequence
+
+from preflight_analysis import __version__
+
+from preflight_server.cli.errors import FAILED, CannotDoError
+from preflight_server.cli.output import say
+
+_VERBS = ("check", "tree", "graph", "trace", "rules", "doctor", "lsp")
+_EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; the return value is the exit code."""
+    logging.basicConfig(level=logging.WARNING, format="ros-preflight: %(message)s")
+    args = _parse(sys.argv[1:] if argv is None else argv)
+    try:
+        code: int = args.run(args)
+        sys.stdout.flush()
+    except CannotDoError as error:
+        say(f"ros-preflight: {error}")
+        return FAILED
+    except BrokenPipeError:
+        # Whoever read has read enough; Python would complain again at exit, when it flushes.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return FAILED
+    except KeyboardInterrupt:
+        say("ros-preflight: interrupted")
+        return FAILED
+    return code
+
+
+def _parse(argv: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="ros-preflight",
+        description="Tells what is wrong with a ROS launch configuration before a robot moves.",
+        epilog=_EPILOG,
+    )
+    parser.add_argument("--version", action="version", version=f"ros-preflight {__version__}")
+    verbs = parser.add_subparsers(metavar="VERB", required=True)
+    for verb in _VERBS:
+        module = importlib.import_module(f"preflight_server.cli.{verb}")
+        sub = verbs.add_parser(verb, help=module.HELP, description=module.DESCRIPTION, epilog=_EPILOG)
+        module.add_arguments(sub)
+        sub.set_defaults(run=module.run, verb=verb)
+    args, rest = parser.parse_known_args(argv)
+    if args.verb == "lsp":
+        return args  # editors add arguments of their own, such as --clientProcessId
+    # argparse gives up on positional arguments that follow an option.
+    late = [each for each in rest if ":=" in each and not each.startswith("-")]
+    if len(late) < len(rest) or (late and not hasattr(args, "launch_args")):
+        parser.error(f"not understood: {' '.join(each for each in rest if each not in late) or ' '.join(late)}")
+    if late:
+        args.launch_args = [*args.launch_args, *late]
+    return args
+
+
+if __name__ == "__main__":
+    sys.exit(main())

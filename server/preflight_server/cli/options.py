@@ -1,0 +1,79 @@
+"""Options that verbs share."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
+
+from preflight_server.cli.errors import CannotDoError
+
+NEVER = "never"
+_ASSIGNMENT = ":="
+
+
+def add_format(parser: argparse.ArgumentParser) -> None:
+    """`--format`."""
+    parser.add_argument(
+        "--format", choices=("text", "json"), default="text", help="json goes to standard output, with sorted keys"
+    )
+
+
+def add_common(parser: argparse.ArgumentParser) -> None:
+    """The options of every verb that looks at a workspace."""
+    add_format(parser)
+    parser.add_argument("--no-run", action="store_true", help="execute nothing")
+    parser.add_argument(
+        "--package-path",
+        metavar="A:B",
+        help="look for packages in these folders, in this order, and nowhere else",
+    )
+    parser.add_argument(
+        "--fail-on",
+        choices=(*reversed(SEVERITIES), NEVER),
+        default="error",
+        help="exit with 1 if there is a finding of this severity or worse (default: %(default)s)",
+    )
+
+
+def add_file(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
+    """The launch file and its arguments."""
+    parser.add_argument("file", metavar="FILE", nargs="?" if optional else None, help="a launch file")
+    parser.add_argument("launch_args", metavar="name:=value", nargs="*", help="arguments of the launch file")
+
+
+def launch_file(args: argparse.Namespace) -> str:
+    """The absolute path of FILE. Raises `CannotDoError` if nothing is there."""
+    path: str = os.path.abspath(args.file)
+    if not os.path.exists(path):
+        raise CannotDoError(f"{args.file} does not exist")
+    if os.path.isdir(path):
+        raise CannotDoError(f"{args.file} is a folder; name a launch file")
+    return path
+
+
+def launch_args(given: list[str]) -> dict[str, str]:
+    """`name:=value` to a mapping; of two values for one name the last counts, as for roslaunch."""
+    values = {}
+    for each in given:
+        name, assigned, value = each.partition(_ASSIGNMENT)
+        if not assigned or not name:
+            raise CannotDoError(f"{each!r} is not of the form name:=value")
+        values[name] = value
+    return values
+
+
+def package_path(args: argparse.Namespace) -> tuple[str, ...] | None:
+    """`--package-path` as absolute folders; None where it was not given."""
+    if args.package_path is None:
+        return None
+    return tuple(os.path.abspath(folder) for folder in args.package_path.split(os.pathsep) if folder)
+
+
+def fails(findings: list[Finding] | tuple[Finding, ...], fail_on: str) -> bool:
+    """Whether one of the findings is at or above `--fail-on`."""
+    if fail_on == NEVER:
+        return False
+    order: dict[Severity, int] = {severity: rank for rank, severity in enumerate(SEVERITIES)}
+    return any(order[finding.severity] >= SEVERITIES.index(fail_on) for finding in findings)

@@ -1,0 +1,28 @@
+"""What goes to standard output."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+from preflight_analysis.evaluation.tree_json import dumps
+
+
+def print_json(data: Mapping[str, Any], *, indent: int | None = 2) -> None:
+    """A JSON document and a newline."""
+    print_text(dumps(data, indent=indent) + "\n")
+
+
+def print_text(text: str) -> None:
+    """Text as it is, whatever the terminal's encoding can show of it."""
+    stream = sys.stdout
+    try:
+        stream.write(text)
+    except UnicodeEncodeError:
+        stream.write(text.encode(stream.encoding, "replace").decode(stream.encoding))
+
+
+def say(text: str) -> None:
+    """A line on standard error."""
+    print(text, file=sys.stderr)

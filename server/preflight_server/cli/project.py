@@ -1,0 +1,98 @@
+"""From the command line to an analysed launch file."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+from dataclasses import dataclass
+
+from preflight_analysis.environment.detect import detect
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.findings.report import place
+from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.not_run import not_run
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+from preflight_server.cli import options
+from preflight_server.cli.output import say
+
+NO_RUN = "--no-run was given"
+
+
+@dataclass(frozen=True, slots=True)
+class Project:
+    """A launch file in its environment, statically analysed."""
+
+    workspace: Workspace
+    analysis: Analysis
+
+    @property
+    def environment(self) -> Environment:
+        """What the nodes would run with."""
+        return self.workspace.environment
+
+
+def open_project(args: argparse.Namespace) -> Project:
+    """Analyse FILE with its arguments; nothing is run. Raises `CannotDoError` for a file that is not there."""
+    path = options.launch_file(args)
+    values = options.launch_args(args.launch_args)
+    environment = detect(path, package_path=options.package_path(args))
+    workspace = Workspace(environment, Sources())
+    return Project(workspace, workspace.static(path, values))
+
+
+def run_nodes(project: Project, no_run: bool, only: str | None = None) -> Analysis:
+    """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox unless `no_run`.
+
+    Interrupting it stops the runs.
+    """
+    analysis = project.analysis
+    nodes = analysis.tree.nodes
+    why = _why_not(no_run)
+    if why is not None:
+        return project.workspace.with_interfaces(analysis, [not_run(node, why) for node in nodes], why)
+    requests = project.workspace.requests(analysis)
+    chosen = [i for i, r in enumerate(requests) if r is not None and only in (None, nodes[i].name)]
+    found: dict[int, Interface] = {}
+    cancel = threading.Event()
+
+    def done(index: int, interface: Interface) -> None:
+        found[chosen[index]] = interface
+
+    try:
+        trace_all(
+            Tracer(project.environment, TraceCache()),
+            [request for i in chosen if (request := requests[i]) is not None],
+            on_done=done,
+            cancel=cancel,
+        )
+    except KeyboardInterrupt:
+        cancel.set()
+        raise
+    interfaces = [found.get(i) or not_run(node, "it was not asked for") for i, node in enumerate(nodes)]
+    return project.workspace.with_interfaces(analysis, interfaces, None)
+
+
+def _why_not(no_run: bool) -> str | None:
+    if no_run:
+        return NO_RUN
+    status = sandbox.probe()
+    return None if status.works else status.reason or "no sandbox works on this machine"
+
+
+def say_errors(analysis: Analysis) -> None:
+    """What would stop the launcher, on standard error."""
+    for finding in analysis.findings:
+        if finding.stops_launch:
+            where = place(finding.location, analysis.documents)
+            say(f"{where}: {finding.severity} {finding.rule}: {finding.message}")
+
+
+def exit_code(analysis: Analysis, fail_on: str) -> int:
+    """1 if the launcher would stop, for verbs that show something else than findings."""
+    return int(options.fails([f for f in analysis.findings if f.stops_launch], fail_on))

@@ -1,0 +1,63 @@
+"""`ros-preflight rules`: the rules, or what one of them is about."""
+
+from __future__ import annotations
+
+import argparse
+
+from preflight_analysis.rules.registry import all_rules
+from preflight_analysis.rules.rule import Rule
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CLEAN, CannotDoError
+from preflight_server.cli.output import print_json, print_text
+
+HELP = "list the rules, or explain one"
+DESCRIPTION = (
+    "Lists the rules, or explains one: what it looks for, why that matters, an example and what to write instead."
+)
+SCHEMA = "ros-preflight/rules/1"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_format(parser)
+    parser.add_argument(
+        "--no-run", action="store_true", help="accepted as by the other verbs; nothing is ever run here"
+    )
+    parser.add_argument("rule", metavar="RULE", nargs="?", help="an id or a name, such as TOP001")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print one rule or all."""
+    rules = all_rules()
+    if args.rule is not None:
+        asked = args.rule.lower()
+        rules = tuple(rule for rule in rules if asked in (rule.id.lower(), rule.name))
+        if not rules:
+            raise CannotDoError(f"there is no rule {args.rule}; `ros-preflight rules` lists them")
+    if args.format == "json":
+        print_json({"schema": SCHEMA, "rules": [_json(rule) for rule in rules]})
+    elif args.rule is not None:
+        print_text(_page(rules[0]))
+    else:
+        print_text("".join(f"{rule.id}  {rule.severity:<7}  {rule.name}\n" for rule in rules))
+    return CLEAN
+
+
+def _json(rule: Rule) -> dict[str, str]:
+    return {
+        "id": rule.id,
+        "name": rule.name,
+        "severity": rule.severity,
+        "what": rule.what,
+        "why": rule.why,
+        "example": rule.example,
+        "instead": rule.instead,
+    }
+
+
+def _page(rule: Rule) -> str:
+    return (
+        f"{rule.id} {rule.name} ({rule.severity})\n\n{rule.what}\n\nWhy: {rule.why}\n\n"
+        f"Example:\n\n{rule.example}\n\nInstead: {rule.instead}\n"
+    )

@@ -1,0 +1,72 @@
+"""`ros-preflight trace`: what the nodes of a launch file do, as seen in the sandbox."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.trace_json import trace_json
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.output import print_json, print_text
+from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
+
+HELP = "run the nodes of a launch file in the sandbox and show what they do"
+DESCRIPTION = """Runs the nodes of a launch file in a sandbox until they reach their event loop, and shows what they
+made until then under the names that they gave it, before namespaces and remaps."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_common(parser)
+    options.add_file(parser)
+    parser.add_argument("--node", metavar="/NAME", help="only this node")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the interfaces."""
+    project = open_project(args)
+    nodes = project.analysis.tree.nodes
+    only = None
+    if args.node is not None:
+        only = "/" + args.node.lstrip("/")
+        if only not in {node.name for node in nodes}:
+            names = ", ".join(node.name for node in nodes) or "none"
+            raise CannotDoError(f"the launch file has no node {only}; it has: {names}")
+    analysis = run_nodes(project, args.no_run, only)
+    interfaces = analysis.graph.interfaces if analysis.graph else ()
+    shown = [(n, i) for n, i in zip(nodes, interfaces, strict=True) if only in (None, n.name)]
+    if args.format == "json":
+        print_json(trace_json(shown))
+    else:
+        print_text("".join(f"{line}\n" for node, interface in shown for line in _lines(node, interface)))
+        say_errors(analysis)
+    return exit_code(analysis, args.fail_on)
+
+
+def _lines(node: LaunchNode, interface: Interface) -> Iterator[str]:
+    outcome = interface.outcome
+    how = f"{outcome.status} after {outcome.seconds:.2f} s" if interface.source == "trace" else outcome.status
+    cached = ", cached" if interface.cached else ""
+    yield f"{node.name}  {node.package}/{node.executable}  ({interface.source}{cached}; {how})"
+    if outcome.reason:
+        yield f"  {outcome.reason}"
+    if outcome.status == "crashed":
+        yield from (f"  | {line}" for line in outcome.stderr_tail)
+    for endpoint in interface.endpoints:
+        if not endpoint.builtin:
+            made_up = "  (after a made-up answer)" if endpoint.speculative else ""
+            made_at = _at(endpoint.source_file, endpoint.source_line)
+            yield f"  {endpoint.role} {endpoint.name}  {endpoint.type or 'type not known'}{made_at}{made_up}"
+    for use in interface.params:
+        if not use.builtin:
+            default = f"  default {use.default!r}" if use.has_default else ""
+            yield f"  {use.access} param {use.name}{default}{_at(use.source_file, use.source_line)}"
+    yield from (f"  note: {note}" for note in interface.notes)
+
+
+def _at(file: str | None, line: int | None) -> str:
+    return f"  {file}:{line}" if file else ""

@@ -1,0 +1,1 @@
+"""The language server: position to query to conversion. No analysis lives here."""

@@ -1,0 +1,132 @@
+"""The analysis' plain data to LSP types. Nothing else in the server builds diagnostics, edits or locations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from lsprotocol import types
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.documents.span import LineIndex, Location, Span
+from preflight_analysis.findings.finding import Edit, Finding, Severity
+from preflight_analysis.queries.symbols import Symbol
+
+from preflight_server.lsp.positions import Positions
+from preflight_server.lsp.text_store import TextStore, to_uri
+
+SOURCE = "ros-preflight"
+
+SEVERITIES: Mapping[Severity, types.DiagnosticSeverity] = {
+    "error": types.DiagnosticSeverity.Error,
+    "warning": types.DiagnosticSeverity.Warning,
+    "info": types.DiagnosticSeverity.Information,
+    "hint": types.DiagnosticSeverity.Hint,
+}
+SYMBOL_KINDS: Mapping[str, types.SymbolKind] = {
+    "launch": types.SymbolKind.Module,
+    "group": types.SymbolKind.Namespace,
+    "include": types.SymbolKind.File,
+    "node": types.SymbolKind.Class,
+    "test": types.SymbolKind.Class,
+    "machine": types.SymbolKind.Object,
+    "arg": types.SymbolKind.Variable,
+    "param": types.SymbolKind.Property,
+    "rosparam": types.SymbolKind.Struct,
+    "remap": types.SymbolKind.Event,
+    "env": types.SymbolKind.Constant,
+}
+
+
+class Converter:
+    """Converts what speaks of files by path. `documents` are the texts the spans were computed on.
+
+    A text that is neither there nor open is read from disk (YAML files, node sources), so use it off the event loop.
+    """
+
+    def __init__(self, texts: TextStore, documents: Mapping[str, Document], *, related: bool = True) -> None:
+        self._texts = texts
+        self._documents = documents
+        self._related = related
+        self._positions: dict[str, Positions] = {}
+
+    def uri(self, path: str) -> str:
+        """The URI as the editor spelled it, if the file is open there."""
+        document = self._texts.by_path(path)
+        return document.uri if document else to_uri(path)
+
+    def positions(self, path: str) -> Positions:
+        """Conversion for the text of a file."""
+        found = self._positions.get(path)
+        if found is None:
+            text, lines = self._text(path)
+            found = self._positions[path] = Positions(text, lines, self._texts.encoding)
+        return found
+
+    def _text(self, path: str) -> tuple[str, LineIndex]:
+        if (parsed := self._documents.get(path)) is not None:
+            return parsed.text, parsed.lines
+        if (opened := self._texts.by_path(path)) is not None:
+            return opened.text, opened.lines
+        read = read_text(path)
+        text = read.text if isinstance(read, Text) else ""
+        return text, LineIndex(text)
+
+    def range(self, location: Location) -> types.Range:
+        """The range of a location in its own file."""
+        return self.positions(location.file).range(location.span)
+
+    def location(self, location: Location) -> types.Location:
+        """A place to show or go to."""
+        return types.Location(self.uri(location.file), self.range(location))
+
+    def link(self, target: Location, origin: Location) -> types.LocationLink:
+        """A place to go to, with the text that is underlined on the way."""
+        there = self.range(target)
+        return types.LocationLink(self.uri(target.file), there, there, self.range(origin))
+
+    def diagnostic(self, finding: Finding) -> types.Diagnostic:
+        """A finding in its own file. How sure we are is said where we are not."""
+        sure = "" if finding.confidence == "certain" else f" ({finding.confidence})"
+        related = None
+        if self._related and finding.related:
+            related = [
+                types.DiagnosticRelatedInformation(self.location(r.location), r.message) for r in finding.related
+            ]
+        return types.Diagnostic(
+            range=self.range(finding.location),
+            message=finding.message + sure,
+            severity=SEVERITIES[finding.severity],
+            code=finding.rule,
+            source=SOURCE,
+            related_information=related,
+            data={"name": finding.name, "confidence": finding.confidence},
+        )
+
+    def diagnostics(self, findings: Iterable[Finding]) -> list[types.Diagnostic]:
+        """The findings of one file."""
+        return [self.diagnostic(f) for f in findings]
+
+    def workspace_edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
+        """Edits of any number of files, as every client understands them."""
+        changes: dict[str, list[types.TextEdit]] = {}
+        for edit in edits:
+            text_edit = types.TextEdit(self.range(edit.location), edit.text)
+            changes.setdefault(self.uri(edit.location.file), []).append(text_edit)
+        return types.WorkspaceEdit(changes=dict(changes))
+
+    def symbol(self, symbol: Symbol, path: str) -> types.DocumentSymbol:
+        """A symbol and those below it."""
+        positions = self.positions(path)
+        return types.DocumentSymbol(
+            name=symbol.name,
+            detail=symbol.detail or None,
+            kind=SYMBOL_KINDS.get(symbol.kind, types.SymbolKind.Object),
+            range=positions.range(symbol.span),
+            selection_range=positions.range(symbol.selection),
+            children=[self.symbol(child, path) for child in symbol.children],
+        )
+
+    def span(self, path: str, range_: types.Range) -> Span:
+        """The editor's range in offsets."""
+        positions = self.positions(path)
+        return Span(positions.offset(range_.start), positions.offset(range_.end))

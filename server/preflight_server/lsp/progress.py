@@ -1,0 +1,62 @@
+"""Work-done progress of one batch of runs, in the client's own progress display."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import uuid
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+_log = logging.getLogger(__name__)
+
+
+class Progress:
+    """Shows itself as soon as the client has accepted the token; a client that never answers sees nothing."""
+
+    def __init__(self, server: PreflightServer, title: str) -> None:
+        self.token = str(uuid.uuid4())  # pygls never frees tokens, and clients may refuse one that they know
+        self._server = server
+        self._title = title
+        self._message: str | None = None
+        self._percentage = 0
+        self._shown = False
+        self._ended = False
+        window = server.client_capabilities.window
+        if window is not None and window.work_done_progress:
+            server.spawn(self._begin())
+
+    async def _begin(self) -> None:
+        try:
+            await self._server.window_work_done_progress_create_async(types.WorkDoneProgressCreateParams(self.token))
+        except (Exception, asyncio.CancelledError) as error:
+            _log.info("no progress is shown: %s", error)
+            return
+        if not self._ended:
+            self._shown = True
+            self._send(
+                types.WorkDoneProgressBegin(
+                    self._title, cancellable=True, message=self._message, percentage=self._percentage
+                )
+            )
+
+    def report(self, message: str, percentage: int) -> None:
+        """What is going on, and how much of 100 is done."""
+        self._message, self._percentage = message, percentage
+        if self._shown and not self._ended:
+            self._send(types.WorkDoneProgressReport(message=message, percentage=percentage, cancellable=True))
+
+    def end(self, message: str) -> None:
+        """Nothing more comes."""
+        if self._shown and not self._ended:
+            self._send(types.WorkDoneProgressEnd(message=message))
+        self._ended = True
+
+    def _send(
+        self, value: types.WorkDoneProgressBegin | types.WorkDoneProgressReport | types.WorkDoneProgressEnd
+    ) -> None:
+        self._server.protocol.notify(types.PROGRESS, types.ProgressParams(self.token, value))

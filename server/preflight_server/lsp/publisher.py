@@ -1,0 +1,94 @@
+"""What the client was told, file by file, and what it has to be told next.
+
+A client gets the diagnostics of a file in one way only, since editors show both and would show them twice: files that
+are open are left to a client that pulls (`textDocument/diagnostic`) and lets itself be asked to pull again
+(`workspace/diagnostic/refresh`); everything else, included files that are not open for instance, is published.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+
+from preflight_server.lsp.protocol import pulls_diagnostics
+from preflight_server.lsp.text_store import to_uri
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    uri: str
+    version: int | None
+    diagnostics: Sequence[types.Diagnostic]
+
+
+class Publisher:
+    """Diagnostics by path. Call it on the event loop only."""
+
+    def __init__(self, server: PreflightServer) -> None:
+        self._server = server
+        self._current: dict[str, list[types.Diagnostic]] = {}
+        self._published: dict[str, _Told] = {}
+        self._pulled: dict[str, list[types.Diagnostic]] = {}
+
+    @property
+    def pulls(self) -> bool:
+        """Whether the client fetches the diagnostics of open files itself."""
+        return pulls_diagnostics(self._server.client_capabilities)
+
+    def update(self, diagnostics: Mapping[str, list[types.Diagnostic]], edited: str | None) -> None:
+        """`diagnostics` are those of all files that have any, or that must be told that they have none. `edited` is
+        the file whose edit led to them: its editor asks for them by itself."""
+        self._current = dict(diagnostics)
+        stale = False
+        for path in {*diagnostics, *self._published}:
+            document = self._server.texts.by_path(path)
+            if document is not None and self.pulls:
+                self._publish(path, document.uri, None, [], must=False)
+                stale |= path != edited and self._pulled.get(path, []) != diagnostics.get(path, [])
+            else:
+                uri, version = (document.uri, document.version) if document else (to_uri(path), None)
+                self._publish(path, uri, version, diagnostics.get(path, []), must=document is not None)
+        if stale:
+            self.refresh()
+
+    def pull(self, path: str) -> list[types.Diagnostic]:
+        """The diagnostics of an open file, for a client that asks."""
+        found = self._pulled[path] = self._current.get(path, [])
+        return found
+
+    def refresh(self) -> None:
+        """Ask a client that pulls to do so again."""
+        if self.pulls:
+            self._server.spawn(self._refresh())
+
+    async def _refresh(self) -> None:
+        try:
+            await self._server.workspace_diagnostic_refresh_async(None)
+        except Exception as error:
+            _log.info("the client did not refresh: %s", error)
+
+    def _publish(self, path: str, uri: str, version: int | None, found: list[types.Diagnostic], must: bool) -> None:
+        told, new = self._published.get(path), _Told(uri, version, found)
+        if told == new or (told is None and not found and not must):
+            return
+        if told is not None and told.uri != uri and told.diagnostics:
+            self._send(_Told(told.uri, None, []))
+        if found or must:
+            self._published[path] = new
+        else:
+            self._published.pop(path, None)
+        self._send(new)
+
+    def _send(self, told: _Told) -> None:
+        self._server.text_document_publish_diagnostics(
+            types.PublishDiagnosticsParams(told.uri, told.diagnostics, told.version)
+        )

@@ -1,0 +1,258 @@
+"""Runs of nodes in the sandbox: when they may start, which are needed, and what is known from earlier ones.
+
+What a node did last is kept while it is run again, so that its findings do not come and go with each keystroke.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import threading
+from collections import Counter
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.not_run import PENDING, not_run
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+from preflight_server.lsp.progress import Progress
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
+
+_log = logging.getLogger(__name__)
+
+NodeKey = tuple[str, int]
+"""A node's full name and, since names may clash, how many of that name come before it."""
+
+SWITCHED_OFF = "running nodes is switched off in the settings (rosPreflight.runNodes)"
+NOT_TRUSTED = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
+CANCELLED = "the runs were cancelled; save the file to start them again"
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What a node was last seen to do, and for which request; None where that may be out of date."""
+
+    request: TraceRequest | None
+    interface: Interface
+
+
+@dataclass(frozen=True, slots=True)
+class _Batch:
+    root: str
+    requests: Mapping[NodeKey, TraceRequest]
+    progress: Progress
+    cancel: threading.Event
+
+
+def node_keys(tree: LaunchTree) -> list[NodeKey]:
+    """The keys of the nodes of a tree, in order."""
+    seen: Counter[str] = Counter()
+    keys = []
+    for node in tree.nodes:
+        keys.append((node.name, seen[node.name]))
+        seen[node.name] += 1
+    return keys
+
+
+def with_known(
+    workspace: Workspace, static: Analysis, known: Mapping[NodeKey, Interface], why_not_run: str | None
+) -> Analysis:
+    """The analysis with what is known of its nodes. While the first runs are under way it says nothing of the graph."""
+    keys = node_keys(static.tree)
+    nodes = zip(keys, static.tree.nodes, strict=True)
+    interfaces = [known.get(key) or not_run(node, PENDING) for key, node in nodes]
+    if why_not_run is None and not known and any(r is not None for r in workspace.requests(static)):
+        return static
+    if all(key in known for key in keys):
+        why_not_run = None
+    return workspace.with_interfaces(static, interfaces, why_not_run)
+
+
+def tell(loop: asyncio.AbstractEventLoop, told: Callable[[int, Interface], None], index: int, what: Interface) -> None:
+    """Call `told` on the loop; on a loop that has ended in the meantime nobody waits for it."""
+    with contextlib.suppress(RuntimeError):
+        loop.call_soon_threadsafe(told, index, what)
+
+
+class Runs:
+    """The runs of one session. Everything but the runs themselves happens on the event loop."""
+
+    def __init__(self, server: PreflightServer, session: Session, *, trusted: bool) -> None:
+        self._server = server
+        self._session = session
+        self._trusted = trusted
+        self._no_sandbox: str | None = None
+        self._probed = False
+        self._cancelled = False
+        self._closing = False
+        self._tracer: Tracer | None = None
+        self._known: dict[str, dict[NodeKey, Known]] = {}
+        self._batch: _Batch | None = None
+        self._not_before = 0.0
+        self._wanted = False
+        self._loop: asyncio.Task[None] | None = None
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="runs")
+
+    @property
+    def why_not_run(self) -> str | None:
+        """Why nodes are not run, for the user; None when they are."""
+        if not self._session.settings.run_nodes:
+            return SWITCHED_OFF
+        if not self._trusted:
+            return NOT_TRUSTED
+        return self._no_sandbox or (CANCELLED if self._cancelled else None)
+
+    def known(self, root: str) -> dict[NodeKey, Interface]:
+        """What is known of the nodes of a root."""
+        return {key: known.interface for key, known in self._known.get(root, {}).items()}
+
+    def set_trusted(self, trusted: bool) -> None:
+        """The user's decision; without trust what runs is stopped."""
+        self._trusted = trusted
+        self._cancelled = False
+        if not trusted:
+            self._known.clear()
+            self._stop()
+
+    def set_environment(self, environment: Environment) -> None:
+        """What nodes are run with."""
+        self._tracer = Tracer(environment, TraceCache())
+
+    def forget_requests(self) -> None:
+        """Files changed: look every interface up again, but keep it until then."""
+        self._cancelled = False
+        for nodes in self._known.values():
+            nodes.update({key: replace(known, request=None) for key, known in nodes.items()})
+
+    def hold(self, seconds: float) -> None:
+        """Start no run before `seconds` have passed."""
+        self._not_before = asyncio.get_running_loop().time() + seconds
+
+    def wake(self) -> None:
+        """See whether something has to be run."""
+        if self._closing:
+            return
+        self._wanted = True
+        if self._loop is None or self._loop.done():
+            self._loop = self._server.spawn(self._rounds())
+        elif self._batch is not None:
+            self._server.spawn(self._reconsider(self._batch))
+
+    def cancel(self, token: int | str) -> None:
+        """The user cancelled a batch."""
+        if self._batch is not None and self._batch.progress.token == token:
+            self._cancelled = True
+            self._batch.cancel.set()
+
+    def close(self) -> None:
+        """Stop what runs and wait for its end."""
+        self._closing = True
+        self._stop()
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+    def _stop(self) -> None:
+        if self._batch is not None:
+            self._batch.cancel.set()
+
+    async def _rounds(self) -> None:
+        while self._wanted and not self._closing:
+            while (pause := self._not_before - asyncio.get_running_loop().time()) > 0:  # noqa: ASYNC110
+                await asyncio.sleep(pause)
+            await self._session.settled()
+            self._wanted = False
+            await self._probe()
+            if self.why_not_run is None:
+                for analysis in self._session.roots():
+                    if not self._wanted and self.why_not_run is None:
+                        await self._round(analysis)
+
+    async def _probe(self) -> None:
+        """Find out, once, whether a sandbox works here."""
+        if self._probed or self.why_not_run is not None:
+            return
+        status = await self._session.in_pool(sandbox.probe)
+        self._no_sandbox = None if status.works else status.reason or "no sandbox works on this machine"
+        self._probed = True
+        if self._no_sandbox is not None:
+            for analysis in self._session.roots():
+                self._session.interfaces_changed(analysis.root)
+
+    async def _round(self, analysis: Analysis) -> None:
+        """Look up, then run, what is not known of the nodes of one root."""
+        tracer = self._tracer
+        if tracer is None or any(document.problems for document in analysis.documents.values()):
+            return  # a file in the middle of being typed is not worth a run
+        workspace = await self._session.workspace()
+        requests = await self._requests(workspace, analysis)
+        known = self._known.setdefault(analysis.root, {})
+        for key in set(known) - set(requests):
+            del known[key]
+        missing = {k: r for k, r in requests.items() if k not in known or known[k].request != r}
+        hits = await self._session.in_pool(lambda: {k: tracer.lookup(r) for k, r in missing.items()})
+        found = {k: hit for k, hit in hits.items() if hit is not None}
+        changed = any(k not in known or known[k].interface != hit for k, hit in found.items())
+        known.update({k: Known(missing[k], hit) for k, hit in found.items()})
+        if changed:
+            self._session.interfaces_changed(analysis.root)
+        remaining = {k: r for k, r in missing.items() if k not in found}
+        if remaining and not self._closing:
+            await self._run(tracer, analysis.root, remaining)
+
+    async def _requests(self, workspace: Workspace, analysis: Analysis) -> dict[NodeKey, TraceRequest]:
+        requests = await self._session.in_pool(lambda: workspace.requests(analysis))
+        return {k: r for k, r in zip(node_keys(analysis.tree), requests, strict=True) if r is not None}
+
+    async def _run(self, tracer: Tracer, root: str, requests: Mapping[NodeKey, TraceRequest]) -> None:
+        loop = asyncio.get_running_loop()
+        progress = Progress(self._server, "Running nodes in the sandbox")
+        batch = self._batch = _Batch(root, requests, progress, threading.Event())
+        keys = list(requests)
+        known = self._known.setdefault(root, {})
+        done = 0
+
+        def one_done(index: int, interface: Interface) -> None:
+            nonlocal done
+            done += 1
+            key = keys[index]
+            if interface.known or not batch.cancel.is_set():
+                known[key] = Known(requests[key], interface)
+            progress.report(f"{done} of {len(keys)}: {key[0]}", 100 * done // len(keys))
+
+        def work() -> None:
+            trace_all(
+                tracer,
+                list(requests.values()),
+                on_done=lambda index, interface: tell(loop, one_done, index, interface),
+                cancel=batch.cancel,
+            )
+
+        try:
+            await loop.run_in_executor(self._pool, work)
+        finally:
+            self._batch = None
+            progress.end("cancelled" if batch.cancel.is_set() else f"{len(keys)} nodes")
+        self._session.interfaces_changed(root)
+
+    async def _reconsider(self, batch: _Batch) -> None:
+        """Stop a batch of which a part is no longer what the launch file asks for; what is done is kept."""
+        analysis = next((a for a in self._session.roots() if a.root == batch.root), None)
+        if analysis is None:
+            batch.cancel.set()
+            return
+        requests = await self._requests(await self._session.workspace(), analysis)
+        if any(requests.get(key) != request for key, request in batch.requests.items()):
+            batch.cancel.set()

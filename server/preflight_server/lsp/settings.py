@@ -1,0 +1,39 @@
+"""The settings that the server itself reads: section `rosPreflight` of the editor, or the initialisation options."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """`package_path`: look for packages there and nowhere else, None to find them as ROS does. `run_nodes`: whether
+    nodes may be run in the sandbox once the workspace is trusted."""
+
+    package_path: tuple[str, ...] | None = None
+    run_nodes: bool = True
+
+    @classmethod
+    def read(cls, given: Mapping[str, Any]) -> Settings:
+        """From `packagePath` (list of folders) and `runNodes` (boolean); a value of another type is left out."""
+        path, run = given.get("packagePath"), given.get("runNodes", True)
+        if path is not None and not (isinstance(path, list) and all(isinstance(p, str) for p in path)):
+            _log.warning("rosPreflight.packagePath must be a list of folders; it is ignored")
+            path = None
+        if not isinstance(run, bool):
+            _log.warning("rosPreflight.runNodes must be true or false; nothing is run")
+            run = False
+        return cls(tuple(path) if path else None, run)
+
+
+def as_mapping(value: Any) -> Mapping[str, Any]:
+    """JSON of a client as a mapping: pygls gives named tuples for what LSP leaves open. Empty for anything else."""
+    if isinstance(value, Mapping):
+        return value
+    fields = value._asdict() if hasattr(value, "_asdict") else {}
+    return fields if isinstance(fields, Mapping) else {}

@@ -1,0 +1,315 @@
+"""An editor in miniature: a client of the real server process, with capabilities of its own choice."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+from collections.abc import AsyncIterator, Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from editor_desk import Desk
+from lsprotocol import types
+from pygls.protocol import default_converter
+from pytest_lsp import LanguageClient
+from pytest_lsp.client import DEFAULT_CLIENT_FEATURES, register_lsp_features
+
+ENCODINGS = ("utf-8", "utf-16", "utf-32")
+T = TypeVar("T")
+
+
+def capabilities(
+    *, encoding: str | None = "utf-16", pull: bool = False, refresh: bool = True, dynamic: bool = True
+) -> types.ClientCapabilities:
+    """What an editor of today can do; `pull` and `refresh` are the two halves of pulled diagnostics."""
+    return types.ClientCapabilities(
+        general=types.GeneralClientCapabilities(position_encodings=[encoding] if encoding else None),
+        window=types.WindowClientCapabilities(work_done_progress=True),
+        workspace=types.WorkspaceClientCapabilities(
+            apply_edit=True,
+            configuration=True,
+            did_change_configuration=types.DidChangeConfigurationClientCapabilities(dynamic_registration=dynamic),
+            did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=dynamic),
+            diagnostics=types.DiagnosticWorkspaceClientCapabilities(refresh_support=refresh),
+        ),
+        text_document=types.TextDocumentClientCapabilities(
+            synchronization=types.TextDocumentSyncClientCapabilities(did_save=True),
+            publish_diagnostics=types.PublishDiagnosticsClientCapabilities(
+                related_information=True, version_support=True
+            ),
+            diagnostic=types.DiagnosticClientCapabilities() if pull else None,
+            hover=types.HoverClientCapabilities(content_format=[types.MarkupKind.Markdown]),
+            definition=types.DefinitionClientCapabilities(link_support=True),
+            document_symbol=types.DocumentSymbolClientCapabilities(hierarchical_document_symbol_support=True),
+            code_action=types.CodeActionClientCapabilities(
+                is_preferred_support=True,
+                code_action_literal_support=types.ClientCodeActionLiteralOptions(
+                    types.ClientCodeActionKindOptions([types.CodeActionKind.QuickFix, types.CodeActionKind.Refactor])
+                ),
+            ),
+        ),
+    )
+
+
+class Editor:
+    """Open documents and what the server said of them."""
+
+    def __init__(self) -> None:
+        self.client = LanguageClient(converter_factory=default_converter)
+        self.published: dict[str, types.PublishDiagnosticsParams] = {}
+        self.history: list[types.PublishDiagnosticsParams] = []
+        self.registered: list[str] = []
+        self.refreshes = 0
+        self.progress: dict[types.ProgressToken, list[Any]] = {}
+        self.on_progress: Callable[[types.ProgressToken, Any], None] = lambda token, value: None
+        self.texts: dict[Path, str] = {}
+        self.versions: dict[Path, int] = {}
+        self.encoding = ""
+        self.result: types.InitializeResult | None = None
+        self._news = asyncio.Event()
+        features = dict(DEFAULT_CLIENT_FEATURES)
+        features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._published()
+        features[types.CLIENT_REGISTER_CAPABILITY] = self._registered()
+        features[types.WORKSPACE_DIAGNOSTIC_REFRESH] = self._refreshed()
+        features[types.PROGRESS] = self._progressed()
+        features[types.WINDOW_WORK_DONE_PROGRESS_CREATE] = self._created()
+        register_lsp_features(self.client, features)
+
+    # pygls takes no bound methods as handlers.
+    def _published(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: types.PublishDiagnosticsParams) -> None:
+            self.published[params.uri] = params
+            self.history.append(params)
+            self._news.set()
+
+        return handler
+
+    def _registered(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: types.RegistrationParams) -> None:
+            self.registered += [registration.method for registration in params.registrations]
+            self._news.set()
+
+        return handler
+
+    def _refreshed(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: None) -> None:
+            self.refreshes += 1
+            self._news.set()
+
+        return handler
+
+    def _created(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: types.WorkDoneProgressCreateParams) -> None:
+            assert params.token not in self.progress, "a progress token was used twice"
+            self.progress[params.token] = []
+
+        return handler
+
+    def _progressed(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: types.ProgressParams) -> None:
+            self.progress[params.token].append(params.value)
+            self.on_progress(params.token, params.value)
+            self._news.set()
+
+        return handler
+
+    @property
+    def pid(self) -> int:
+        process = self.client._server
+        assert process is not None
+        return process.pid
+
+    async def until(self, what: Callable[[], T | None], seconds: float = 20) -> T:
+        """Wait until `what()` is something true; it is asked again at each message of the server."""
+        deadline = asyncio.get_running_loop().time() + seconds
+        while not (found := what()):
+            left = deadline - asyncio.get_running_loop().time()
+            if left <= 0:
+                raise AssertionError(f"waited {seconds} s; last published: {self.summary()}")
+            self._news.clear()
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._news.wait(), min(left, 0.2))
+        return found
+
+    def summary(self) -> dict[str, list[str]]:
+        return {uri: [f"{d.code} {d.message}" for d in p.diagnostics] for uri, p in self.published.items()}
+
+    def diagnostics(self, path: Path) -> list[types.Diagnostic] | None:
+        """The published diagnostics of a file; None while they are of another version than the editor's."""
+        found = self.published.get(path.as_uri())
+        if found is None or (path in self.versions and found.version != self.versions[path]):
+            return None
+        return list(found.diagnostics)
+
+    def rules(self, path: Path) -> list[str] | None:
+        found = self.diagnostics(path)
+        return None if found is None else sorted(str(d.code) for d in found)
+
+    async def having(self, path: Path, rule: str, seconds: float = 20) -> types.Diagnostic:
+        """The diagnostic of that rule, as soon as it is there."""
+        return await self.until(
+            lambda: next((d for d in self.diagnostics(path) or () if d.code == rule), None), seconds
+        )
+
+    async def without(self, path: Path, rule: str, seconds: float = 20) -> None:
+        """Wait until the rule is silent on the file's present version."""
+        await self.until(lambda: (found := self.rules(path)) is not None and rule not in found, seconds)
+
+    def open(self, path: Path, text: str | None = None, language: str = "roslaunch") -> str:
+        text = path.read_text() if text is None else text
+        self.texts[path], self.versions[path] = text, 1
+        item = types.TextDocumentItem(path.as_uri(), language, 1, text)
+        self.client.text_document_did_open(types.DidOpenTextDocumentParams(item))
+        return text
+
+    def change(self, path: Path, text: str) -> None:
+        """The whole text anew."""
+        self._changed(path, text, types.TextDocumentContentChangeWholeDocument(text))
+
+    def replace(self, path: Path, start: int, end: int, new: str) -> None:
+        """Replace the code points from `start` to `end`, sent as an incremental change."""
+        old = self.texts[path]
+        range_ = types.Range(position(old, start, self.encoding), position(old, end, self.encoding))
+        self._changed(path, old[:start] + new + old[end:], types.TextDocumentContentChangePartial(range_, new))
+
+    def _changed(self, path: Path, text: str, change: types.TextDocumentContentChangeEvent) -> None:
+        self.texts[path] = text
+        self.versions[path] += 1
+        item = types.VersionedTextDocumentIdentifier(self.versions[path], path.as_uri())
+        self.client.text_document_did_change(types.DidChangeTextDocumentParams(item, [change]))
+
+    def save(self, path: Path) -> None:
+        path.write_text(self.texts[path])
+        self.client.text_document_did_save(types.DidSaveTextDocumentParams(self.id(path)))
+
+    def close(self, path: Path) -> None:
+        del self.texts[path], self.versions[path]
+        self.client.text_document_did_close(types.DidCloseTextDocumentParams(self.id(path)))
+
+    def watched(self, *paths: Path, kind: types.FileChangeType = types.FileChangeType.Changed) -> None:
+        events = [types.FileEvent(path.as_uri(), kind) for path in paths]
+        self.client.workspace_did_change_watched_files(types.DidChangeWatchedFilesParams(events))
+
+    def trust(self, trusted: bool = True) -> None:
+        self.client.protocol.notify("rosPreflight/workspaceTrust", {"trusted": trusted})
+
+    def id(self, path: Path) -> types.TextDocumentIdentifier:
+        return types.TextDocumentIdentifier(path.as_uri())
+
+    def at(self, path: Path, needle: str, after: int = 0) -> types.Position:
+        """The position of the `needle`'s first character plus `after`."""
+        return position(self.texts[path], self.texts[path].index(needle) + after, self.encoding)
+
+    def covered(self, path: Path, range_: types.Range) -> str:
+        """The text that a range of the server's covers."""
+        text = self.texts[path]
+        return text[offset(text, range_.start, self.encoding) : offset(text, range_.end, self.encoding)]
+
+    async def hover(self, path: Path, where: types.Position) -> types.Hover | None:
+        return await self.client.text_document_hover_async(types.HoverParams(self.id(path), where))
+
+    async def definition(self, path: Path, where: types.Position) -> list[types.LocationLink]:
+        found = await self.client.text_document_definition_async(types.DefinitionParams(self.id(path), where))
+        assert found is None or isinstance(found, Sequence)
+        return [each for each in found or () if isinstance(each, types.LocationLink)]
+
+    async def symbols(self, path: Path) -> list[types.DocumentSymbol]:
+        params = types.DocumentSymbolParams(self.id(path))
+        found = await self.client.text_document_document_symbol_async(params)
+        return [each for each in found or () if isinstance(each, types.DocumentSymbol)]
+
+    async def actions(self, path: Path, range_: types.Range, only: Sequence[str] = ()) -> list[types.CodeAction]:
+        here = [d for d in self.diagnostics(path) or () if d.range == range_]
+        context = types.CodeActionContext(here, only=list(only) or None)
+        params = types.CodeActionParams(self.id(path), range_, context)
+        found = await self.client.text_document_code_action_async(params)
+        return [each for each in found or () if isinstance(each, types.CodeAction)]
+
+    async def pull(self, path: Path) -> list[types.Diagnostic]:
+        params = types.DocumentDiagnosticParams(self.id(path))
+        report = await self.client.text_document_diagnostic_async(params)
+        assert isinstance(report, types.RelatedFullDocumentDiagnosticReport)
+        return list(report.items)
+
+    def apply(self, edit: types.WorkspaceEdit | None) -> None:
+        """Apply an edit as an editor does: from the back, and tell the server."""
+        assert edit is not None and edit.changes
+        for uri, edits in edit.changes.items():
+            path = next(p for p in self.texts if p.as_uri() == uri)
+            for each in sorted(edits, key=lambda e: (e.range.start.line, e.range.start.character), reverse=True):
+                text = self.texts[path]
+                start = offset(text, each.range.start, self.encoding)
+                end = offset(text, each.range.end, self.encoding)
+                self.replace(path, start, end, each.new_text)
+
+
+@contextlib.asynccontextmanager
+async def editing(
+    desk: Desk,
+    *,
+    trusted: bool = False,
+    client: types.ClientCapabilities | None = None,
+    settings: dict[str, Any] | None = None,
+    environment: dict[str, str] | None = None,
+    folder: Path | None = None,
+) -> AsyncIterator[Editor]:
+    """The server, started as editors start it, on the desk's workspace; shut down as editors do it at the end."""
+    editor = Editor()
+    client = client or capabilities()
+    offered = (client.general.position_encodings if client.general else None) or ["utf-16"]
+    editor.encoding = str(getattr(offered[0], "value", offered[0]))
+    if settings is not None:
+        editor.client.set_configuration({"rosPreflight": settings})
+    await editor.client.start_io("ros-preflight", "lsp", "--stdio", env={**desk.environment, **(environment or {})})
+    folder = folder or desk.workspace
+    try:
+        editor.result = await editor.client.initialize_session(
+            types.InitializeParams(
+                capabilities=client,
+                process_id=os.getpid(),
+                root_uri=folder.as_uri(),
+                workspace_folders=[types.WorkspaceFolder(folder.as_uri(), folder.name)],
+                initialization_options={"workspaceTrusted": trusted, **(settings or {})},
+            )
+        )
+        yield editor
+        await asyncio.wait_for(editor.client.shutdown_session(), 15)
+    finally:
+        server = editor.client._server
+        if server is not None and server.returncode is None:
+            server.kill()
+        await editor.client.stop()
+
+
+# The editor's side of positions, written independently of the server's: on encoded bytes.
+
+
+def position(text: str, at: int, encoding: str) -> types.Position:
+    lines = _lines(text[:at])
+    # A cursor between \r and \n is not reachable in an editor; the callers never ask for it.
+    return types.Position(len(lines) - 1, _length(lines[-1], encoding))
+
+
+def offset(text: str, where: types.Position, encoding: str) -> int:
+    lines = _lines(text)
+    start = 0
+    for line in lines[: where.line]:
+        start += len(line)
+    line = lines[where.line]
+    return start + next(n for n in range(len(line) + 1) if _length(line[:n], encoding) == where.character)
+
+
+def _lines(text: str) -> list[str]:
+    lines, line = [], ""
+    for index, char in enumerate(text):
+        line += char
+        if char == "\n" or (char == "\r" and text[index + 1 : index + 2] != "\n"):
+            lines.append(line)
+            line = ""
+    return [*lines, line]
+
+
+def _length(text: str, encoding: str) -> int:
+    codec, unit = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}[encoding]
+    return len(text.encode(codec)) // unit
