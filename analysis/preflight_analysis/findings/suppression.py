@@ -50,10 +50,12 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
                 malformed.append(Malformed(Location(document.path, content.slice_span(*mark.span()))))
             first, _ = document.lines.position(comment.span.start)
             last, _ = document.lines.position(comment.span.end)
+            # Behind something else on its line a comment speaks of that, not of the next line.
+            alone = not document.text[document.lines.line_start(first) : comment.span.start].strip()
             for each in ids:
                 start = mark.start("ids") + each.start()
                 span = content.slice_span(start, start + len(each.group()))
-                found.append(Suppression(each.group(), Location(document.path, span), first, last + 1))
+                found.append(Suppression(each.group(), Location(document.path, span), first, last + alone))
     return tuple(found), tuple(malformed)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
@@ -15,12 +16,19 @@ from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
 
 
+class ExecutableNames(Protocol):
+    """What an `environment.executables.ExecutableIndex` offers to rules."""
+
+    def names(self, package: str) -> tuple[str, ...]:
+        """All that a node of this package could name as its type, sorted; empty for an unknown package."""
+
+
 @dataclass(frozen=True, slots=True)
 class Context:
     """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
 
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
-    None when they were.
+    None when they were. `executables` lists those of a package; without it the disk is walked where one is missing.
     """
 
     root: str
@@ -30,6 +38,7 @@ class Context:
     environment: Environment
     graph: Graph | None = None
     why_not_run: str | None = None
+    executables: ExecutableNames | None = None
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]

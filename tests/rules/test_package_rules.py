@@ -1,0 +1,94 @@
+"""PKG: packages and executables."""
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from preflight_check import apply, check, findings_of
+
+
+def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
+    text = """
+        <launch>
+          <node pkg="rospy_tutorial" type="talker" name="n"/>
+                     ^^^^^^^^^^^^^^ error[PKG001] did you mean 'rospy_tutorials'?
+          <param name="a" value="$(find rospy_tutorial)/x"/>
+                                 ^^^^^^^^^^^^^^^^^^^^^^ error[PKG001] is not among the 2 packages
+        </launch>
+        //- /rospy_tutorials/package.xml
+        <package/>
+    """
+    node, find = check(text)
+    assert not node.stops_launch
+    assert find.stops_launch
+    assert 'pkg="rospy_tutorials"' in apply(text, node.fixes[0].edits)["/main.launch"]
+    assert "$(find rospy_tutorials)/x" in apply(text, find.fixes[0].edits)["/main.launch"]
+
+
+def test_a_package_in_a_tag_that_is_not_taken_is_not_looked_for() -> None:
+    check("""
+        <launch>
+          <node pkg="nowhere" type="t" name="n" if="false"/>
+          <node pkg="p" type="t" name="m"/>
+        </launch>
+    """)
+
+
+def test_a_package_whose_name_is_unknown_is_not_judged() -> None:
+    findings = findings_of("""
+        <launch>
+          <arg name="pkg"/>
+          <node pkg="$(arg pkg)" type="t" name="n"/>
+        </launch>
+    """)
+    assert [finding.rule for finding in findings] == ["ARG003"]
+
+
+@pytest.fixture
+def launch(tmp_path: Path) -> Path:
+    nodes = tmp_path / "demo" / "nodes"
+    nodes.mkdir(parents=True)
+    (tmp_path / "demo" / "package.xml").write_text("<package><name>demo</name></package>")
+    for name in ("talker.py", "listener"):
+        (nodes / name).write_text("#!/bin/sh\n")
+        (nodes / name).chmod(0o755)
+    (nodes / "plain.py").write_text("#!/bin/sh\n")
+    (nodes / "plain.py").chmod(0o644)
+    return tmp_path / "demo" / "demo.launch"
+
+
+def judge(launch: Path, executable: str) -> list[Finding]:
+    launch.write_text(f'<launch><node pkg="demo" type="{executable}" name="n"/></launch>')
+    share = str(launch.parent)
+    packages = {"demo": Package("demo", share, f"{share}/package.xml")}
+    environment = Environment(1, "noetic", {}, (str(launch.parent.parent),), packages, {}, (), (), None)
+    return list(Workspace(environment, Sources(), share).static(str(launch)).findings)
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"), [("talkr.py", "talker.py"), ("talker", "talker.py"), ("Listener", "listener")]
+)
+def test_an_executable_that_is_not_there_and_the_nearest_one(launch: Path, written: str, meant: str) -> None:
+    (finding,) = judge(launch, written)
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("PKG002", "error", False)
+    assert f"has no executable '{written}'" in finding.message
+    assert finding.message.endswith(f"did you mean '{meant}'?")
+    assert [edit.text for edit in finding.fixes[0].edits] == [meant]
+
+
+def test_an_executable_without_a_near_name(launch: Path) -> None:
+    (finding,) = judge(launch, "completely_different")
+    assert "did you mean" not in finding.message
+    assert finding.fixes == ()
+
+
+def test_a_file_without_the_permission_to_be_executed(launch: Path) -> None:
+    (finding,) = judge(launch, "plain.py")
+    assert "is not executable; chmod +x" in finding.message
+
+
+def test_an_executable_that_is_there(launch: Path) -> None:
+    assert judge(launch, "listener") == []

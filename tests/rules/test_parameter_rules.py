@@ -1,0 +1,190 @@
+"""PRM: parameters that nobody reads, and files of parameters."""
+
+from pathlib import Path
+
+from preflight_check import apply, check, findings_of
+
+
+def test_a_typo_is_a_warning_that_names_what_the_node_reads() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="fake">
+            <param name="publish_obejcts" value="false"/>
+                         ^^^^^^^^^^^^^^^ warning[PRM001] did you mean '/fake/publish_objects', which it reads
+            <param name="publish_points" value="true"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/fake": {"params": {"~publish_objects": true, "~publish_points": true, "~rate": 10}}}
+    """
+    (finding,) = check(text)
+    assert "(default True)" in finding.message
+    assert '<param name="publish_objects" value="false"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_key_of_a_parameter_file_is_underlined_there() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="tank">
+            <rosparam command="load" file="/tank.yaml"/>
+          </node>
+        </launch>
+        //- /tank.yaml
+        limits:
+          max_presure: 4
+          ^^^^^^^^^^^ warning[PRM001] did you mean '/tank/limits/max_pressure'
+        //- interfaces
+        {"/tank": {"params": {"~limits/max_pressure": 6}}}
+    """
+    (finding,) = check(text)
+    assert apply(text, finding.fixes[0].edits)["/tank.yaml"] == "limits:\n  max_pressure: 4\n"
+
+
+def test_like_words_need_a_fitting_type() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="sys">
+            <param name="conn/system_time_rate" value="VALUE"/>
+                         ^^^^^^^^^^^^^^^^^^^^^ SEVERITY[PRM001]
+          </node>
+        </launch>
+        //- interfaces
+        {"/sys": {"params": {"~conn_system_time": 0.5}}}
+    """
+    check(text.replace("VALUE", "1.0").replace("SEVERITY", "warning"))
+    check(text.replace("VALUE", "text").replace("SEVERITY", "hint"))
+
+
+def test_a_name_that_is_set_is_not_what_was_meant() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="1"/>
+            <param name="rate2" value="1"/>
+                         ^^^^^ hint[PRM001] /n does not read parameter '/n/rate2'
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~rate": 1}}}
+    """)
+
+
+def test_reading_a_namespace_reads_all_in_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="pid/p" value="1"/>
+            <rosparam param="gains">{i: 1, d: {x: 2}}</rosparam>
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~pid": null, "~gains": null}}}
+    """)
+
+
+def test_other_nodes_may_read_a_private_parameter_and_has_counts() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="a" value="1"/><param name="b" value="1"/></node>
+          <node pkg="p" type="t" name="m"/>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~b": {"access": "has"}}}, "/m": {"params": {"/n/a": 1}}}
+    """)
+
+
+def test_a_node_that_is_not_known_to_its_end_is_not_judged() -> None:
+    for status in ("crashed", "timed-out", "exited"):
+        findings = findings_of(
+            """
+            <launch><node pkg="p" type="t" name="n"><param name="a" value="1"/></node></launch>
+            //- interfaces
+            {"/n": {"status": "STATUS"}}
+            """.replace("STATUS", status)
+        )
+        assert not [f for f in findings if f.rule == "PRM001"]
+
+
+def test_a_node_that_lists_or_searches_parameters_is_not_judged() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="a" value="1"/></node>
+          <node pkg="p" type="t" name="m"><param name="a" value="1"/></node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"": {"access": "list"}}}, "/m": {"params": {"a": {"access": "search"}}}}
+    """)
+
+
+def test_an_annotation_without_parameters_does_not_speak_of_them() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="a" value="1"/>
+            <!-- <topics><topic name="/tf" type="tf2_msgs/TFMessage" class="pub"/></topics> -->
+          </node>
+        </launch>
+    """)
+
+
+def test_a_namespace_that_no_node_has_any_more() -> None:
+    text = """
+        <launch>
+          <param name="/lane_navi/acceleration" value="2.0"/>
+                       ^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM001] reads '/lane_rule/acceleration', which is not set
+          <group ns="lane_navi">
+            <param name="zeros_behind" value="5"/>
+                         ^^^^^^^^^^^^ warning[PRM001] no node reads parameter '/lane_navi/zeros_behind'
+          </group>
+          <node pkg="p" type="t" name="lane_rule"/>
+        </launch>
+        //- interfaces
+        {"/lane_rule": {"params": {"/lane_rule/acceleration": 1.0, "/lane_rule/zeros_behind": 3}}}
+    """
+    absolute, relative = check(text)
+    assert 'name="/lane_rule/acceleration"' in apply(text, absolute.fixes[0].edits)["/main.launch"]
+    assert relative.fixes == ()
+
+
+def test_a_common_leaf_name_alone_is_no_evidence() -> None:
+    check("""
+        <launch>
+          <param name="/camera_driver/frame_id" value="front"/>
+          <node pkg="p" type="t" name="laser"/>
+        </launch>
+        //- interfaces
+        {"/laser": {"params": {"~frame_id": "laser"}}}
+    """)
+
+
+def test_a_typo_in_a_global_parameter() -> None:
+    check("""
+        <launch>
+          <param name="/map_fram" value="map"/>
+                       ^^^^^^^^^ warning[PRM001] /n reads '/map_frame', which is not set
+          <param name="/use_sim_time" value="false"/>
+          <param name="/unrelated" value="1"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"/map_frame": "odom"}}}
+    """)
+
+
+def test_a_parameter_file_that_is_not_there(tmp_path: Path) -> None:
+    (tmp_path / "teleop.yaml").write_text("a: 1\n")
+    (finding,) = findings_of(f'<launch><rosparam command="load" file="{tmp_path}/telop.yaml"/></launch>')
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("PRM002", "error", True)
+    assert finding.message.endswith(f"telop.yaml' does not exist; did you mean '{tmp_path}/teleop.yaml'?")
+    assert [edit.text for edit in finding.fixes[0].edits] == ["teleop.yaml"]
+
+
+def test_a_parameter_file_that_is_a_folder(tmp_path: Path) -> None:
+    (finding,) = findings_of(f'<launch><param name="a" textfile="{tmp_path}"/></launch>')
+    assert finding.rule == "PRM003"
+
+
+def test_parameters_that_are_not_yaml() -> None:
+    findings = findings_of("<launch><rosparam>{a: [1}</rosparam></launch>")
+    assert [finding.rule for finding in findings] == ["PRM004"]
+    assert check("<launch><rosparam>{a: [1]}</rosparam></launch>") == []

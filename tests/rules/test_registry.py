@@ -1,0 +1,93 @@
+"""The rules as a set: found, complete, independent of each other."""
+
+import logging
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import preflight_analysis.rules as package
+import pytest
+from preflight_analysis.evaluation.problems import KINDS
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules import reference
+from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_check import analyse, read_fixture
+
+ROOT = Path(__file__).parents[2]
+BROKEN = """
+    <launch>
+      <nod/>
+      <param name="a" value="$(arg b)"/>
+    </launch>
+"""
+
+
+def test_every_kind_of_problem_has_exactly_one_rule() -> None:
+    owners = Counter(kind for rule in all_rules() for kind in rule.problems)
+    assert {kind: owners[kind] for kind in KINDS} == dict.fromkeys(KINDS, 1)
+    assert set(owners) <= set(KINDS)
+
+
+def test_rules_are_sorted_and_named_as_their_files() -> None:
+    rules = all_rules()
+    assert [rule.id for rule in rules] == sorted({rule.id for rule in rules})
+    files = {path.name[:6].upper() for path in Path(package.__path__[0]).glob("[a-z][a-z][a-z][0-9][0-9][0-9]_*.py")}
+    assert files == {rule.id for rule in rules}
+    assert len({rule.name for rule in rules}) == len(rules)
+    for rule in rules:
+        assert re.fullmatch(r"(LCH|ARG|PKG|PRM|TOP|SRV|ACT|QOS|GRF|TRC)\d{3}", rule.id)
+        assert re.fullmatch(r"[a-z]+(-[a-z]+)*", rule.name)
+        assert all((rule.what, rule.why, rule.example, rule.instead))
+    assert rule_by_id("TOP001") in rules
+    assert rule_by_id("TOP999") is None
+
+
+def test_every_rule_is_seen_to_speak_in_these_tests() -> None:
+    texts = "\n".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*_rules.py"))
+    texts += (ROOT / "tests/findings/test_suppression.py").read_text(encoding="utf-8")
+    assert [rule.id for rule in all_rules() if rule.id not in texts] == []
+
+
+def _raise(rule: Rule, context: Context) -> Iterator[Finding]:
+    raise RuntimeError("a bug")
+    yield  # a generator, as checks are
+
+
+def test_a_rule_that_raises_costs_that_rule_only(caplog: pytest.LogCaptureFixture) -> None:
+    context = analyse(read_fixture(BROKEN))
+    rules = [replace(rule, check=_raise) if rule.id == "LCH004" else rule for rule in all_rules()]
+    with caplog.at_level(logging.ERROR):
+        assert [finding.rule for finding in run_rules(context, rules)] == ["ARG001"]
+    assert "LCH004" in caplog.text
+    assert "a bug" in caplog.text
+
+
+def test_findings_are_sorted_unique_and_marked_with_their_root() -> None:
+    context = analyse(
+        read_fixture("""
+            <launch><include file="/inc.launch"/><nod/><include file="/inc.launch"/><param/></launch>
+            //- /inc.launch
+            <launch><nod/></launch>
+        """)
+    )
+    findings = run_rules(context)
+    places = [(finding.location.file, finding.location.span.start) for finding in findings]
+    assert places == sorted(set(places))
+    assert [place[0] for place in places].count("/inc.launch") == 1
+    assert {finding.roots for finding in findings} == {("/main.launch",)}
+
+
+def test_the_reference_in_docs_is_up_to_date() -> None:
+    folder = ROOT / "docs" / "rules"
+    there = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.md")}
+    assert there == reference.pages(), f"run: {reference.COMMAND}"
+
+
+def test_the_reference_is_written_and_stale_pages_go(tmp_path: Path) -> None:
+    (tmp_path / "OLD001.md").write_text("gone")
+    assert reference.main([str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == set(reference.pages())
+    assert reference.main([]) == 2

@@ -1,0 +1,283 @@
+"""TOP: who publishes, who subscribes, with which type."""
+
+from preflight_check import apply, check, findings_of
+
+
+def test_a_near_miss_through_a_remap_is_shown_at_the_remap() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          <node pkg="p" type="t" name="listener">
+            <remap from="chatter" to="chater"/>
+                                      ^^^^^^ warning[TOP001] '/chatter', published by /talker (same type
+          </node>
+        </launch>
+        //- interfaces
+        {"/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "likely"
+    assert "none of the 2 nodes of this launch publishes '/chater', to which /listener subscribes" in finding.message
+    assert [related.message for related in finding.related] == ["/talker publishes /chatter"]
+    (fix,) = finding.fixes
+    assert fix.preferred
+    assert '<remap from="chatter" to="chatter"/>' in apply(text, fix.edits)["/main.launch"]
+
+
+def test_a_near_miss_through_the_publishers_remap_is_shown_there() -> None:
+    text = """
+        <launch>
+          <group ns="robot">
+            <node pkg="p" type="t" name="talker">
+              <remap from="out" to="/robot/chater"/>
+                                    ^^^^^^^^^^^^^ warning[TOP001] /robot/listener subscribes to '/robot/chatter'
+            </node>
+            <node pkg="p" type="t" name="listener"/>
+          </group>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"out": "std_msgs/String"}},
+         "/robot/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert 'to="/robot/chatter"' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_relative_remap_stays_relative_and_works_in_an_included_file() -> None:
+    text = """
+        <launch>
+          <group ns="robot"><include file="/inc.launch"/></group>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          <node pkg="p" type="t" name="listener">
+            <remap from="in" to="sub/chater"/>
+                                 ^^^^^^^^^^ warning[TOP001] '/robot/sub/chatter'
+          </node>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"sub/chatter": "std_msgs/String"}},
+         "/robot/listener": {"subscribers": {"in": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert 'to="sub/chatter"' in apply(text, finding.fixes[0].edits)["/inc.launch"]
+    assert finding.related[-1].message == "included here"
+
+
+def test_names_from_source_code_get_a_remap() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="lane_select"/>
+          <node pkg="p" type="t" name="velocity_set"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] did you mean '/base_waypoints'
+        </launch>
+        //- interfaces
+        {"/lane_select": {"publishers": {"base_waypoints": "nav_msgs/Path"}},
+         "/velocity_set": {"subscribers": {"base_waypoint": "nav_msgs/Path"}}}
+    """
+    (finding,) = check(text)
+    here, there = (apply(text, fix.edits)["/main.launch"] for fix in finding.fixes)
+    assert (
+        '<node pkg="p" type="t" name="velocity_set">\n'
+        '    <remap from="base_waypoint" to="base_waypoints"/>\n'
+        "  </node>" in here
+    )
+    assert '<remap from="base_waypoints" to="base_waypoint"/>' in there
+
+
+def test_the_fix_mends_the_finding() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="a" ns="x"/>
+          <node pkg="p" type="t" name="b" ns="x"/>
+        </launch>
+        //- interfaces
+        {"/x/a": {"publishers": {"scan_raw": "sensor_msgs/LaserScan"}},
+         "/x/b": {"subscribers": {"~scan_row": "sensor_msgs/LaserScan"}}}
+    """
+    (finding,) = [f for f in findings_of(text.replace("~", "")) if f.rule == "TOP001"]
+    mended = apply(text.replace("~", ""), finding.fixes[0].edits)["/main.launch"]
+    assert findings_of(mended + "\n//- interfaces\n" + text.partition("interfaces\n")[2].replace("~", "")) == []
+
+
+def test_a_publisher_with_other_subscribers_is_not_offered_to_be_moved() -> None:
+    (finding,) = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"scan_raw": "sensor_msgs/LaserScan"}},
+         "/b": {"subscribers": {"scan_raw": "sensor_msgs/LaserScan"}},
+         "/c": {"subscribers": {"scan_row": "sensor_msgs/LaserScan"}}}
+    """)
+    assert [fix.title for fix in finding.fixes] == ["Remap 'scan_row' to 'scan_raw' in /c"]
+
+
+def test_like_words_of_a_specific_type_are_enough_where_both_ends_dangle() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="laser"/>
+          <node pkg="p" type="t" name="amcl"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] did you mean '/narrow_scan', published by /laser
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"narrow_scan": "sensor_msgs/LaserScan"}},
+         "/amcl": {"subscribers": {"scan": "sensor_msgs/LaserScan"}}}
+    """)
+
+
+def test_like_words_of_a_topic_that_is_in_use_are_not() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="laser"/>
+          <node pkg="p" type="t" name="amcl"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP001] none of the 3 nodes of this launch publishes '/scan'
+          <node pkg="p" type="t" name="docking"/>
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"narrow_scan": "sensor_msgs/LaserScan"}},
+         "/docking": {"subscribers": {"narrow_scan": "sensor_msgs/LaserScan"}},
+         "/amcl": {"subscribers": {"scan": "sensor_msgs/LaserScan"}}}
+    """)
+
+
+def test_a_like_name_of_another_type_is_no_near_miss() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] subscribes to '/chatter', published by /talker
+          <node pkg="p" type="t" name="listener"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP001] publishes '/chater' (std_msgs/Int32), to which /listener
+        </launch>
+        //- interfaces
+        {"/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chater": "std_msgs/Int32"}}}
+    """)
+
+
+def test_numbered_names_are_no_typos_of_each_other() -> None:
+    findings = findings_of("""
+        <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>
+        //- interfaces
+        {"/a": {"publishers": {"camera1/image": "sensor_msgs/Image"}},
+         "/b": {"subscribers": {"camera2/image": "sensor_msgs/Image"}}}
+    """)
+    assert {finding.severity for finding in findings} == {"hint"}
+
+
+def test_what_a_node_takes_in_and_gives_out_are_no_near_miss() -> None:
+    findings = findings_of("""
+        <launch><node pkg="p" type="t" name="filter"/></launch>
+        //- interfaces
+        {"/filter": {"publishers": {"imu/data": "sensor_msgs/Imu"}, "subscribers": {"imu/data_raw": "sensor_msgs/Imu"}}}
+    """)
+    assert {finding.severity for finding in findings} == {"hint"}
+
+
+def test_the_only_topic_of_the_type_is_named_in_the_hint() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch><node pkg="p" type="t" name="truth"/><node pkg="p" type="t" name="controller"/></launch>
+            //- interfaces
+            {"/truth": {"publishers": {"/ground_truth/state": "nav_msgs/Odometry"}},
+             "/controller": {"subscribers": {"/pose_estimate": "nav_msgs/Odometry"}}}
+        """)
+        if f.rule == "TOP001"
+    ]
+    assert finding.severity == "hint"
+    assert "'/ground_truth/state' of /truth has this type and no subscriber" in finding.message
+
+
+def test_in_an_incomplete_graph_a_near_miss_is_less_sure_and_says_why() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch>
+              <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+            </launch>
+            //- interfaces
+            {"/a": {"publishers": {"scan_raw": "sensor_msgs/LaserScan"}},
+             "/b": {"subscribers": {"scan_row": "sensor_msgs/LaserScan"}}}
+        """)
+        if f.rule == "TOP001"
+    ]
+    assert (finding.severity, finding.confidence) == ("warning", "possible")
+    assert "(1 of them not fully known)" in finding.message
+
+
+def test_what_lives_outside_of_most_launches_may_dangle() -> None:
+    check("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"publishers": {"/tf": "tf2_msgs/TFMessage", "/rosout": "rosgraph_msgs/Log",
+                               "/diagnostics": "diagnostic_msgs/DiagnosticArray",
+                               "image/compressed": "sensor_msgs/CompressedImage",
+                               "dock/result": "x/DockActionResult"},
+                "subscribers": {"/clock": "rosgraph_msgs/Clock", "initialpose": "x/Pose", "/mine": "x/Y",
+                                "dock/goal": "x/DockActionGoal"},
+                "builtin": ["/mine"]}}
+    """)
+
+
+def test_a_connected_graph_is_quiet_and_unused_topics_share_a_hint() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] subscribes to '/battery', '/joint_states' and '/odom'
+          <node pkg="p" type="t" name="teleop"/>
+        </launch>
+        //- interfaces
+        {"/base": {"subscribers": {"cmd_vel": "x/T"},
+                   "publishers": {"odom": "x/O", "battery": "x/B", "joint_states": "x/J"}},
+         "/teleop": {"publishers": {"cmd_vel": "x/T"}}}
+    """)
+
+
+def test_without_interfaces_nothing_is_said_of_topics() -> None:
+    check('<launch><node pkg="p" type="t" name="n"/></launch>')
+
+
+def test_types_that_differ() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b">
+            <remap from="in" to="pose"/>
+                                 ^^^^ error[TOP003] /a publishes it as x/Pose, /b subscribes to it as x/PoseStamped
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"pose": "x/Pose"}}, "/b": {"subscribers": {"in": "x/PoseStamped"}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "certain"
+    assert finding.related[0].message == "/a publishes /pose"
+
+
+def test_one_type_of_two_definitions() -> None:
+    (finding,) = findings_of("""
+        <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>
+        //- interfaces
+        {"/a": {"publishers": {"pose": "x/Pose"}, "md5": {"pose": "11"}},
+         "/b": {"subscribers": {"pose": "x/Pose"}, "md5": {"pose": "22"}}}
+    """)
+    assert finding.rule == "TOP003"
+    assert "MD5 sums 11 and 22" in finding.message
+
+
+def test_any_type_fits_and_so_does_an_unknown_one() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+          <node pkg="p" type="t" name="c">
+            <!-- <topics><topic name="pose" class="sub"/></topics> -->
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"pose": "x/Pose"}, "md5": {"pose": "11"}},
+         "/b": {"subscribers": {"pose": "*"}, "md5": {"pose": "*"}}}
+    """)

@@ -1,0 +1,93 @@
+"""TRC: how the nodes' runs ended, or why there were none."""
+
+from preflight_check import check, findings_of
+
+
+def test_a_crash_says_why() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 1; FileNotFoundError: no such file: '/m.json'
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr":
+                ["Traceback (most recent call last):", "FileNotFoundError: no such file: '/m.json'", "[shutdown]", ""]}}
+    """)
+
+
+def test_a_crash_after_a_made_up_answer_may_be_our_doing() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] killed by SIGSEGV
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "signal": "SIGSEGV", "publishers": {"/tf": "x/Y"}, "speculative": ["/tf"]}}
+    """)
+
+
+def test_an_early_end_and_a_slow_start() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="done"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC002] /done ended by itself when it was run, without error
+          <node pkg="p" type="t" name="slow"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC003] before it reached its event loop: still waiting
+          <node pkg="p" type="t" name="failed"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 3
+        </launch>
+        //- interfaces
+        {"/done": {"status": "exited", "exit_code": 0}, "/slow": {"status": "timed-out", "reason": "still waiting"},
+         "/failed": {"status": "exited", "exit_code": 3}}
+    """)
+
+
+def test_why_nothing_was_run_is_said_once() -> None:
+    text = """
+        <launch>
+        ^^^^^^^^ info[TRC004] the 2 nodes of this launch were not run: the workspace is not trusted
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+        </launch>
+    """
+    check(text, why_not_run="the workspace is not trusted")
+    check("<launch/>", why_not_run="the workspace is not trusted")
+
+
+def test_nodes_that_were_not_run_are_told_together() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC004] not run: /b, /c; a value is unknown
+          <node pkg="p" type="t" name="c"/>
+          <node pkg="p" type="t" name="d">
+            <!-- <topics><topic name="/tf" type="tf2_msgs/TFMessage" class="pub"/></topics> -->
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {}, "/b": {"status": "not-run", "reason": "a value is unknown"},
+         "/c": {"status": "not-run", "reason": "a value is unknown"}}
+    """)
+
+
+def test_notes_of_a_run() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC005] /n: tried to write /home/me/x
+        </launch>
+        //- interfaces
+        {"/n": {"notes": ["tried to write /home/me/x"]}}
+    """)
+
+
+def test_a_node_that_spins_is_not_mentioned() -> None:
+    assert (
+        findings_of("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {}}
+    """)
+        == []
+    )
