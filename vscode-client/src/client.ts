@@ -13,6 +13,16 @@ import type { ServerCommand } from "./findServer";
 /** Tells a running server that the user has come to trust the workspace. */
 export const workspaceTrust = new NotificationType<{ trusted: boolean }>("rosPreflight/workspaceTrust");
 
+/** What the server must know before it may run anything. */
+function initializationOptions(): Record<string, unknown> {
+  const settings = workspace.getConfiguration("rosPreflight");
+  return {
+    workspaceTrusted: workspace.isTrusted,
+    runNodes: settings.get("runNodes"),
+    packagePath: settings.get("packagePath"),
+  };
+}
+
 /** Makes a client for one life of the server; `closed` is called when its connection ends without having been asked to. */
 export function createClient(server: ServerCommand, log: LogOutputChannel, closed: () => void): LanguageClient {
   return new LanguageClient(
@@ -29,7 +39,7 @@ export function createClient(server: ServerCommand, log: LogOutputChannel, close
       outputChannel: log,
       traceOutputChannel: log,
       revealOutputChannelOn: RevealOutputChannelOn.Never,
-      initializationOptions: () => ({ workspaceTrusted: workspace.isTrusted }),
+      initializationOptions,
       initializationFailedHandler: () => false, // start() rejects with the reason
       errorHandler: {
         error: () => ({ action: ErrorAction.Continue, handled: true }),
