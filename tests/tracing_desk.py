@@ -5,11 +5,15 @@ from __future__ import annotations
 import os
 import textwrap
 import threading
+import time
 from pathlib import Path
 from typing import Any
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.observation import Dependencies
+from preflight_analysis.tracing.recipe import make
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
@@ -59,3 +63,13 @@ def processes_with(marker: str) -> list[str]:
         if marker in line:
             found.append(line)
     return found
+
+
+def hammer_cache(folder: str, script: str, package: str, interface: Interface, rounds: int) -> None:
+    """Store and load one entry again and again; for several processes at once (spawned ones import this module)."""
+    cache = TraceCache(Path(folder))
+    asked = request(Path(script))
+    recipe = make(environment(Path(package)), asked)
+    for _ in range(rounds):
+        assert cache.store(recipe, asked, interface, Dependencies(), started=time.time())
+        assert cache.load(recipe, asked) is not None

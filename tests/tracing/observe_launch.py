@@ -23,10 +23,9 @@ LIMIT_SECONDS = 40
 def described(path, port):
     """The nodes as roslaunch is going to start them, and its parameters."""
     config = load_config_default([path], port)
-    config.assign_machines()
     nodes = []
     for node in config.nodes:
-        argv = create_local_process_args(node, config.machines[""] if "" in config.machines else node.machine)
+        argv = create_local_process_args(node, None)
         given = len(shlex.split(node.args))
         nodes.append(
             {

@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tracing_desk import ROS1_FIXTURES, SYSTEM_PYTHON, environment
-
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
+from tracing_desk import ROS1_FIXTURES, SYSTEM_PYTHON, environment
 
 TUTORIALS = [
     "talker_listener",

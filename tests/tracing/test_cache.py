@@ -1,0 +1,272 @@
+"""A cached trace is valid while everything it depended on is unchanged, and only then."""
+
+from __future__ import annotations
+
+import dataclasses
+import multiprocessing
+import os
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
+from preflight_analysis.tracing.observation import Dependencies, ParamDependency
+from preflight_analysis.tracing.recipe import make
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
+from tracing_desk import environment, hammer_cache, own, request, write_node
+
+NODE = """
+import os, rospy, settings
+from std_msgs.msg import String
+rospy.init_node("n")
+rospy.Publisher(settings.topic, String, queue_size=rospy.get_param("~size", 1))
+open(os.path.join(os.path.dirname(__file__), "data.yaml")).close()
+rospy.spin()
+"""
+
+
+class Desk:
+    """A node with a module and a data file beside it, a tracer with a cache."""
+
+    def __init__(self, folder: Path) -> None:
+        self.package = folder / "pkg"
+        self.package.mkdir()
+        self.settings = self.package / "settings.py"
+        self.settings.write_text("topic = 'news'\n")
+        self.data = self.package / "data.yaml"
+        self.data.write_text("a: 1\n")
+        self.script = write_node(self.package, NODE)
+        self.cache = TraceCache(folder / "cache")
+        self.tracer = Tracer(environment(self.package), self.cache)
+        self.request = request(self.script, params={"/node/size": 5, "/node/unread": 1, "/other": "x"})
+        past = time.time() - 100
+        for path in self.package.iterdir():
+            os.utime(path, (past, past))
+
+    def trace(self, asked: TraceRequest | None = None) -> Interface:
+        return self.tracer.trace(asked or self.request, threading.Event())
+
+    def hit(self, **changes: Any) -> bool:
+        return self.tracer.lookup(dataclasses.replace(self.request, **changes)) is not None
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    desk = Desk(tmp_path)
+    assert not desk.trace().cached
+    return desk
+
+
+def rewrite(path: Path, text: str) -> None:
+    path.write_text(text)
+
+
+def test_the_same_again_needs_no_run(desk: Desk) -> None:
+    first = Tracer(desk.tracer.environment, None).trace(desk.request, threading.Event())
+    again = desk.trace()
+    assert again.cached
+    assert (own(again), again.params) == (own(first), first.params)
+    assert dataclasses.replace(again.outcome, seconds=0) == dataclasses.replace(first.outcome, seconds=0)
+
+
+def test_a_changed_module_data_file_or_script(desk: Desk) -> None:
+    for path, text in (
+        (desk.settings, "topic = 'olds'\n"),
+        (desk.data, "a: 2\n"),
+        (desk.script, desk.script.read_text() + "\n"),
+    ):
+        before = path.read_text()
+        rewrite(path, text)
+        assert not desk.hit(), path
+        rewrite(path, before)
+        assert desk.hit(), path
+    desk.data.unlink()
+    assert not desk.hit()
+
+
+def test_a_file_that_it_did_not_load_does_not_matter(desk: Desk) -> None:
+    (desk.package / "unrelated.py").write_text("x = 1\n")
+    assert desk.hit()
+
+
+def test_parameters_matter_only_if_read(desk: Desk) -> None:
+    params = dict(desk.request.params)
+    assert desk.hit(params=params | {"/node/unread": 2, "/new": 3})
+    assert not desk.hit(params=params | {"/node/size": 6})
+    assert not desk.hit(params={"/other": "x"})
+    assert not desk.hit(params=params | {"/use_sim_time": True})
+
+
+def test_name_namespace_and_remaps_matter_only_if_asked_for(desk: Desk, tmp_path: Path) -> None:
+    assert desk.hit(remaps=(("news", "/elsewhere"),))
+    assert desk.hit(node="/ns/other", params={"/ns/other/size": 5})
+    assert not desk.hit(node="/ns/other"), "its parameter is not set there"
+    assert not desk.hit(remaps=(("~size", "/nothing"),)), "its parameter is read elsewhere"
+
+    curious = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nrospy.get_name()\nrospy.spin()\n", "curious.py")
+    asked = request(curious)
+    tracer = Tracer(environment(tmp_path), desk.cache)
+    os.utime(curious, (0, 0))
+    tracer.trace(asked, threading.Event())
+    assert tracer.lookup(asked)
+    assert tracer.lookup(dataclasses.replace(asked, remaps=(("a", "b"),)))
+    assert not tracer.lookup(dataclasses.replace(asked, node="/renamed"))
+
+
+def test_arguments_environment_and_executable_name_the_run(desk: Desk, tmp_path: Path) -> None:
+    assert not desk.hit(args=("--fast",))
+    assert not desk.hit(env=(("MODE", "x"),))
+    assert not desk.hit(cwd="node")
+    assert not desk.hit(executable="/usr/lib/rosout/rosout")
+    other = Tracer(environment(desk.package, variables={"ROS_DISTRO": "melodic"}), desk.cache)
+    assert other.lookup(desk.request) is None
+
+
+def test_two_nodes_of_one_executable_are_cached_side_by_side(desk: Desk) -> None:
+    other = dataclasses.replace(desk.request, params={"/node/size": 7})
+    assert not desk.trace(other).cached
+    assert desk.trace().cached
+    assert desk.trace(other).cached
+
+
+def test_a_crash_is_cached_until_the_missing_module_turns_up(tmp_path: Path) -> None:
+    package = tmp_path / "pkg"
+    package.mkdir()
+    script = write_node(package, "import rospy, missing\n")
+    os.utime(script, (0, 0))
+    tracer = Tracer(environment(package), TraceCache(tmp_path / "cache"))
+    first = tracer.trace(request(script), threading.Event())
+    assert first.outcome.status == "crashed"
+    again = tracer.lookup(request(script))
+    assert again is not None
+    assert dataclasses.replace(again, cached=False) == first
+    (package / "missing.py").write_text("")
+    assert tracer.lookup(request(script)) is None
+
+
+def test_what_was_not_run_is_not_cached(desk: Desk, tmp_path: Path) -> None:
+    cancelled = threading.Event()
+    cancelled.set()
+    other = dataclasses.replace(desk.request, args=("x",))
+    assert desk.tracer.trace(other, cancelled).outcome.status == "not-run"
+    assert desk.tracer.lookup(other) is None
+
+
+def test_a_file_saved_during_the_run_is_not_cached(desk: Desk) -> None:
+    recipe = make(desk.tracer.environment, desk.request)
+    spinning = Interface("trace", Outcome("spinning"))
+    changed = Dependencies(files=(str(desk.settings),))
+    os.utime(desk.settings)
+    kept = desk.cache.store(recipe, desk.request, spinning, changed, started=time.time() - 60)
+    assert not kept
+
+
+def entries(cache: TraceCache) -> list[Path]:
+    return sorted(cache.folder.glob("*/*/*.json"))
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        b"",
+        b"\x00\xff" * 100,
+        b"null",
+        b"0" * 64 + b'\n{"schema": "ros-preflight/trace-cache/1"}',
+        b"[" * 100_000,
+    ],
+)
+def test_a_damaged_entry_is_a_miss(desk: Desk, damage: bytes) -> None:
+    (path,) = entries(desk.cache)
+    path.write_bytes(damage)
+    assert not desk.hit()
+    assert not desk.trace().cached
+    assert desk.hit()
+
+
+def test_a_truncated_entry_is_a_miss(desk: Desk) -> None:
+    (path,) = entries(desk.cache)
+    whole = path.read_bytes()
+    for length in range(0, len(whole), 97):
+        path.write_bytes(whole[:length])
+        assert not desk.hit()
+
+
+def test_an_entry_of_the_wrong_shape_is_a_miss(desk: Desk) -> None:
+    import hashlib
+    import json
+
+    (path,) = entries(desk.cache)
+    entry = json.loads(path.read_bytes().partition(b"\n")[2])
+    for change in (
+        {"dependencies": {}},
+        {"dependencies": None},
+        {"interface": {}},
+        {"interface": entry["interface"] | {"outcome": {"nonsense": 1}}},
+        {"interface": entry["interface"] | {"endpoints": [{"role": "publisher"}]}},
+        {"schema": "ros-preflight/trace-cache/0"},
+    ):
+        data = json.dumps(entry | change).encode()
+        path.write_bytes(hashlib.sha256(data).hexdigest().encode() + b"\n" + data)
+        assert not desk.hit(), change
+
+
+def test_a_folder_that_cannot_be_written_costs_the_cache_alone(tmp_path: Path) -> None:
+    desk = Desk(tmp_path)
+    (tmp_path / "cache").write_text("a file where the folder should be")
+    assert desk.trace().outcome.status == "spinning"
+    assert not desk.hit()
+
+
+INTERFACE = Interface(
+    "trace",
+    Outcome("crashed", 1, None, ("last", "lines"), "why", 0.5),
+    (Endpoint("publisher", "a", "std_msgs/String", "0" * 32, {"latch": True}, "/x.py", 3, True, True),),
+    (ParamUse("~p", "get", [1, {"k": None}], True, False, "/x.py", 4),),
+    notes=("a note",),
+)
+
+
+def test_everything_survives_the_way_to_disk_and_back(desk: Desk) -> None:
+    other = dataclasses.replace(desk.request, args=("other",))
+    recipe = make(desk.tracer.environment, other)
+    looks = Dependencies((), (ParamDependency("list", "/", True), ParamDependency("search", "size", True)))
+    assert desk.cache.store(recipe, other, INTERFACE, looks, started=time.time())
+    assert desk.cache.load(recipe, other) == dataclasses.replace(INTERFACE, cached=True)
+    assert desk.cache.load(recipe, dataclasses.replace(other, params={})) is None
+
+
+def test_the_least_recently_used_goes_first(desk: Desk, tmp_path: Path) -> None:
+    cache = TraceCache(tmp_path / "small", max_bytes=1)
+    requests = [dataclasses.replace(desk.request, args=(str(n),)) for n in range(6)]
+    recipes = [make(desk.tracer.environment, r) for r in requests]
+    cache.max_bytes = 10**9
+    for n, (recipe, asked) in enumerate(zip(recipes, requests, strict=True)):
+        cache.store(recipe, asked, INTERFACE, Dependencies(), started=time.time())
+        for path in (cache.folder / make_place(cache, recipe, asked)).glob("*.json"):
+            os.utime(path, (1000 + n, 1000 + n))
+    assert cache.load(recipes[0], requests[0])
+    size = entries(cache)[0].stat().st_size
+    cache.max_bytes = int(size * 3.5)
+    cache.sweep()
+    assert [n for n in range(6) if cache.load(recipes[n], requests[n])] == [0, 4, 5]
+
+
+def make_place(cache: TraceCache, recipe: Any, asked: TraceRequest) -> Path:
+    return cache._place(recipe, asked).relative_to(cache.folder)
+
+
+def test_several_processes_at_once(desk: Desk, tmp_path: Path) -> None:
+    context = multiprocessing.get_context("spawn")
+    shared = str(tmp_path / "shared")
+    arguments = (shared, str(desk.script), str(desk.package), INTERFACE, 40)
+    workers = [context.Process(target=hammer_cache, args=arguments) for _ in range(3)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join(60)
+    assert [w.exitcode for w in workers] == [0, 0, 0]
+    assert not list(Path(shared).glob("*/*/.*.tmp"))

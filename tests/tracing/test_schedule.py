@@ -1,0 +1,73 @@
+"""Many traces: in order, two at a time, equal ones once, cancelled together."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from preflight_analysis.tracing.interface import Interface, Outcome
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.trace import Tracer
+from tracing_desk import environment, request
+
+
+class Recorder(Tracer):
+    """A tracer that takes a moment and runs nothing."""
+
+    def __init__(self) -> None:
+        super().__init__(environment(), None)
+        self.order: list[str] = []
+        self.running = self.most = 0
+        self.lock = threading.Lock()
+
+    def trace(self, request: TraceRequest, cancel: threading.Event) -> Interface:
+        with self.lock:
+            self.order.append(request.node)
+            self.running += 1
+            self.most = max(self.most, self.running)
+        status = "not-run" if cancel.wait(0.05) else "spinning"
+        with self.lock:
+            self.running -= 1
+        return Interface("trace", Outcome("spinning" if status == "spinning" else "not-run"), notes=(request.node,))
+
+
+def requests(*nodes: str) -> list[TraceRequest]:
+    return [request(Path("/x"), node, params={"/p": [1]}) for node in nodes]
+
+
+def test_in_order_two_at_a_time_and_equal_ones_once() -> None:
+    tracer, done = Recorder(), {}
+    asked = requests("/a", "/b", "/a", "/c", "/b", "/d")
+    trace_all(tracer, asked, on_done=done.__setitem__, cancel=threading.Event())
+    assert sorted(tracer.order) == ["/a", "/b", "/c", "/d"]
+    assert set(tracer.order[:2]) == {"/a", "/b"}
+    assert tracer.most == 2
+    assert [done[n].notes for n in range(6)] == [(r.node,) for r in asked]
+
+
+def test_cancelling_ends_them_all() -> None:
+    cancel, done = threading.Event(), {}
+    cancel.set()
+    began = time.monotonic()
+    trace_all(Recorder(), requests("/a", "/b", "/c"), on_done=done.__setitem__, cancel=cancel)
+    assert time.monotonic() - began < 0.5
+    assert [done[n].outcome.status for n in range(3)] == ["not-run"] * 3
+
+
+def test_a_listener_that_raises_does_not_stop_the_others() -> None:
+    told = []
+
+    def tell(index: int, _interface: Interface) -> None:
+        told.append(index)
+        raise ValueError(index)
+
+    with pytest.raises(ValueError):
+        trace_all(Recorder(), requests("/a", "/b", "/c"), on_done=tell, cancel=threading.Event())
+    assert sorted(told) == [0, 1, 2]
+
+
+def test_nothing_to_do() -> None:
+    trace_all(Recorder(), [], on_done=lambda *_: None, cancel=threading.Event())
