@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.packages import MANIFEST, Found, find_packages
+from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, Found, find_packages
 
 BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated", "devel_isolated", "install_isolated"})
 """Folders of a workspace that its build makes: what is in them was copied from the source folder."""
+
+SETTINGS_FILE = ".ros-preflight.yaml"
 
 _ROS1_DISTROS = ("kinetic", "lunar", "melodic", "noetic")
 _PYTHON_LIBRARY = re.compile(r"^(.*)/lib/python(3(?:\.\d+)?|2\.7)/(?:dist|site)-packages/?$")
@@ -29,6 +31,28 @@ class _Python:
 
     interpreter: str | None
     problem: str | None = None
+
+
+def detect(place: str | None, package_path: Sequence[str] | None = None) -> Environment:
+    """The environment of this process's own variables for a workspace folder, or for the workspace of a file."""
+    workspace = workspace_of(place) if place and os.path.isfile(place) else place
+    return detect_environment(workspace, os.environ, package_path)
+
+
+def workspace_of(file: str) -> str:
+    """The folder to take as the workspace when only a file is known.
+
+    The catkin workspace around it, else the project (settings file, git) or the package that it is in, else its own
+    folder.
+    """
+    folder = os.path.dirname(os.path.abspath(file))
+    if catkin := _catkin_workspace(folder):
+        return catkin
+    for marks in ((SETTINGS_FILE, ".git"), (MANIFEST, LEGACY_MANIFEST)):
+        for candidate in _with_parents(folder):
+            if any(os.path.exists(os.path.join(candidate, mark)) for mark in marks):
+                return candidate
+    return folder
 
 
 def detect_environment(
@@ -145,17 +169,23 @@ def _version(package: Package) -> str:
 
 def _catkin_workspace(workspace: str | None) -> str | None:
     """The catkin workspace that the folder is, or is in: opening one package of it is usual."""
-    folder = workspace
-    while folder:
-        marks = (".catkin_workspace", ".catkin_tools", "devel/.catkin", "install/.catkin", "src/CMakeLists.txt")
-        # A package has src/CMakeLists.txt too, if rarely.
-        if any(os.path.exists(os.path.join(folder, m)) for m in marks) and not os.path.isfile(
-            os.path.join(folder, MANIFEST)
-        ):
+    marks = (".catkin_workspace", ".catkin_tools", "devel/.catkin", "install/.catkin", "src/CMakeLists.txt")
+    for folder in _with_parents(workspace) if workspace else ():
+        # The `src` of a package may have a CMakeLists.txt of its own.
+        if not _is_package(folder) and any(os.path.exists(os.path.join(folder, mark)) for mark in marks):
             return folder
-        parent = os.path.dirname(folder)
-        folder = parent if parent != folder else None
     return None
+
+
+def _with_parents(folder: str) -> Iterator[str]:
+    yield folder
+    while (parent := os.path.dirname(folder)) != folder:
+        folder = parent
+        yield folder
+
+
+def _is_package(folder: str) -> bool:
+    return any(os.path.isfile(os.path.join(folder, name)) for name in (MANIFEST, LEGACY_MANIFEST))
 
 
 def _source_folders(workspace: str | None, catkin: str | None) -> list[str]:
@@ -165,8 +195,7 @@ def _source_folders(workspace: str | None, catkin: str | None) -> list[str]:
             continue
         source = os.path.join(folder, "src")
         # The `src` of a package holds its code.
-        is_package = any(os.path.isfile(os.path.join(folder, name)) for name in (MANIFEST, "manifest.xml"))
-        folders.append(source if os.path.isdir(source) and not is_package else folder)
+        folders.append(source if os.path.isdir(source) and not _is_package(folder) else folder)
         installed = os.path.join(folder, "install")
         if not os.path.isdir(source) and os.path.isfile(os.path.join(installed, ".catkin")):
             folders.append(os.path.join(installed, "share"))
