@@ -12,12 +12,12 @@ from typing import Any
 
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.arguments import parse_arguments
 from preflight_analysis.evaluation.tree_json import tree_json
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
 from preflight_server.cli.errors import CLEAN, CannotDoError
-from preflight_server.cli.options import launch_args
 from preflight_server.cli.output import print_json
 
 BASE_ENV: Mapping[str, str] = {
@@ -69,7 +69,7 @@ def _environment(package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]
 
 
 def _read(jobs: Path) -> Iterator[Job]:
-    root = str(jobs.absolute().parent)
+    root = os.path.dirname(os.path.abspath(jobs))
     try:
         with jobs.open(encoding="utf-8") as lines:
             for number, line in enumerate(lines, 1):
@@ -101,7 +101,7 @@ def _job(line: str, root: str, where: str) -> Job:
 
     return Job(
         os.path.normpath(os.path.join(root, filled(file))),
-        launch_args([filled(each) for each in args]),
+        parse_arguments(filled(each) for each in args),
         {name: filled(value) for name, value in env.items()},
         tuple(os.path.normpath(os.path.join(root, filled(folder))) for folder in package_path),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 
+from preflight_analysis.evaluation.arguments import parse_arguments
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 
 from preflight_server.cli.errors import CannotDoError
@@ -54,14 +55,11 @@ def launch_file(args: argparse.Namespace) -> str:
 
 
 def launch_args(given: list[str]) -> dict[str, str]:
-    """`name:=value` to a mapping; of two values for one name the last counts, as for roslaunch."""
-    values = {}
+    """`name:=value` words as roslaunch takes them. Raises `CannotDoError` for a word that is nothing of the kind."""
     for each in given:
-        name, assigned, value = each.partition(_ASSIGNMENT)
-        if not assigned or not name:
+        if _ASSIGNMENT not in each or each.startswith(_ASSIGNMENT):
             raise CannotDoError(f"{each!r} is not of the form name:=value")
-        values[name] = value
-    return values
+    return parse_arguments(given)
 
 
 def package_path(args: argparse.Namespace) -> tuple[str, ...] | None:
