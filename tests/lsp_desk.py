@@ -261,7 +261,7 @@ async def editing(
     editor.encoding = str(getattr(offered[0], "value", offered[0]))
     if settings is not None:
         editor.client.set_configuration({"rosPreflight": settings})
-    await editor.client.start_io("ros-preflight", "lsp", "--stdio", env={**desk.environment, **(environment or {})})
+    await editor.client.start_io(str(desk.server), "lsp", "--stdio", env={**desk.environment, **(environment or {})})
     folder = folder or desk.workspace
     try:
         editor.result = await editor.client.initialize_session(

@@ -1,0 +1,112 @@
+"""The whole way: from opening the demo's launch file to a finding about two real nodes, and its fix."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import ENCODINGS, capabilities, editing
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+
+async def test_the_missing_letter_is_found_and_mended(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        started = time.monotonic()
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TOP001")
+        # "Within a second or two" on a free machine; this one may be busy.
+        assert time.monotonic() - started < 10
+        assert found.severity == types.DiagnosticSeverity.Warning
+        assert found.source == "ros-preflight"
+        assert "'/chatter'" in found.message
+        assert "/talker" in found.message
+        assert editor.covered(desk.launch_file, found.range) == "chater"
+        assert found.related_information
+        assert found.related_information[0].location.uri == desk.launch_file.as_uri()
+
+        actions = await editor.actions(desk.launch_file, found.range, ["quickfix"])
+        assert [(a.title, a.kind, a.is_preferred) for a in actions] == [
+            ("Replace 'chater' by 'chatter'", types.CodeActionKind.QuickFix, True)
+        ]
+        assert [(d.code, d.range) for d in actions[0].diagnostics or ()] == [("TOP001", found.range)]
+        editor.apply(actions[0].edit)
+        assert '<remap from="chatter" to="chatter"/>' in editor.texts[desk.launch_file]
+        await editor.until(lambda: editor.rules(desk.launch_file) == [])
+    assert desk.processes() == []
+
+
+async def test_a_remap_needs_no_new_run(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        runs = desk.sandbox_starts()
+        at = text.index("chater")
+        for _ in range(3):
+            editor.replace(desk.launch_file, at, at + 6, "chatter")
+            await editor.without(desk.launch_file, "TOP001")
+            editor.replace(desk.launch_file, at, at + 7, "chater")
+            await editor.having(desk.launch_file, "TOP001", seconds=2)
+        assert desk.sandbox_starts() == runs
+
+
+async def test_findings_stay_while_other_text_is_typed(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        editor.history.clear()
+        for letter in "<!-- a word -->":
+            editor.replace(desk.launch_file, len("<launch>\n"), len("<launch>\n"), letter)
+            version = editor.versions[desk.launch_file]
+            await editor.until(lambda version=version: editor.history and editor.history[-1].version == version)
+        broken = [p for p in editor.history if "TOP001" not in {str(d.code) for d in p.diagnostics}]
+        assert broken == []
+
+
+async def test_progress_is_shown_while_nodes_run(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        await editor.until(lambda: any(v["kind"] == "end" for values in editor.progress.values() for v in values))
+        (values,) = editor.progress.values()
+        kinds = [v["kind"] for v in values]
+        assert kinds[0] == "begin"
+        assert kinds[-1] == "end"
+        assert values[0]["cancellable"] is True
+
+
+async def test_a_second_server_needs_no_run(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+    runs = desk.sandbox_starts()
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        assert editor.progress == {}
+    assert desk.sandbox_starts() - runs <= 1, "only the probe of the sandbox"
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+async def test_columns_behind_other_scripts(desk: Desk, encoding: str) -> None:
+    async with editing(desk, trusted=True, client=capabilities(encoding=encoding)) as editor:
+        assert editor.result is not None
+        assert editor.result.capabilities.position_encoding == encoding
+        text = desk.launch_file.read_text().replace("<remap from=", "<!-- größe 漢字 𝒳 --><remap from=")
+        editor.open(desk.launch_file, text)
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert editor.covered(desk.launch_file, found.range) == "chater"
+        actions = await editor.actions(desk.launch_file, found.range, ["quickfix"])
+        editor.apply(actions[0].edit)
+        assert '𝒳 --><remap from="chatter" to="chatter"/>' in editor.texts[desk.launch_file]
+        await editor.until(lambda: editor.rules(desk.launch_file) == [])
+
+
+async def test_a_client_that_names_no_encoding_gets_utf_16(desk: Desk) -> None:
+    async with editing(desk, trusted=True, client=capabilities(encoding=None)) as editor:
+        text = desk.launch_file.read_text().replace("<remap from=", "<!-- 𝒳 --><remap from=")
+        editor.open(desk.launch_file, text)
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert editor.covered(desk.launch_file, found.range) == "chater"
