@@ -172,9 +172,8 @@ def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event
                     *lines, rest = (rest + data).split(b"\n")
                     for line in lines:
                         _take(line, raw)
-                    if len(rest) > MAX_LINE:
-                        raw.dropped += 1
-                        rest = b""
+                    # Too long already: its end is let go by, and the line counted once when it comes.
+                    rest = rest[: MAX_LINE + 1]
 
 
 def _take(line: bytes, raw: RawRun) -> None:
