@@ -49,7 +49,7 @@ class Publisher:
         the file whose edit led to them: its editor asks for them by itself."""
         self._current = dict(diagnostics)
         stale = False
-        for path in {*diagnostics, *self._published}:
+        for path in dict.fromkeys((*diagnostics, *self._published)):
             document = self._server.texts.by_path(path)
             if document is not None and self.pulls:
                 self._publish(path, document.uri, None, [], must=False)

@@ -74,7 +74,7 @@ def with_known(
     """The analysis with what is known of its nodes. While the first runs are under way it says nothing of the graph."""
     keys = node_keys(static.tree)
     nodes = zip(keys, static.tree.nodes, strict=True)
-    interfaces = [known.get(key) or not_run(node, PENDING) for key, node in nodes]
+    interfaces = [known.get(key) or not_run(node, why_not_run or PENDING) for key, node in nodes]
     if why_not_run is None and not known and any(r is not None for r in workspace.requests(static)):
         return static
     if all(key in known for key in keys):
@@ -242,6 +242,9 @@ class Runs:
 
         try:
             await loop.run_in_executor(self._pool, work)
+        except asyncio.CancelledError:  # the loop ends; the thread would go on
+            batch.cancel.set()
+            raise
         finally:
             self._batch = None
             progress.end("cancelled" if batch.cancel.is_set() else f"{len(keys)} nodes")

@@ -1,0 +1,148 @@
+"""Whatever a file holds, there is a clear finding, soon, and the server goes on."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, editing
+from lsprotocol import types
+
+LAUGHS = (
+    """<?xml version="1.0"?>
+<!DOCTYPE launch [
+ <!ENTITY a "ha">
+"""
+    + "".join(
+        f' <!ENTITY {name} "{10 * f"&{before};"}">\n' for before, name in zip("abcdefghi", "bcdefghij", strict=True)
+    )
+    + """]>
+<launch><param name="x" value="&j;"/></launch>
+"""
+)
+BIG = "<launch>\n" + '  <param name="p" value="v"/>\n' * 180_000 + "</launch>\n"
+MANY_NODES = (
+    "<launch>\n"
+    + "".join(f'  <node pkg="preflight_demo" type="talker.py" name="n{n}"/>\n' for n in range(300))
+    + "</launch>\n"
+)
+
+
+async def finding(editor: Editor, path: Path, text: str, rule: str) -> types.Diagnostic:
+    """The finding, within ten seconds; and the server still answers for another file after it."""
+    started = time.monotonic()
+    editor.open(path, text)
+    found = await editor.having(path, rule, seconds=10)
+    await editor.hover(path, types.Position(0, 0))
+    assert time.monotonic() - started < 10
+    assert [m.message for m in editor.client.messages] == [], "no message box"
+    return found
+
+
+@pytest.mark.parametrize(
+    ("text", "rule", "words"),
+    [
+        ("", "LCH003", "launch"),
+        (" \n\f\n", "LCH003", "launch"),
+        ("<", "LCH001", ""),
+        ("<launch>", "LCH001", "launch"),
+        ('<launch><node pkg="a" type="b" name="', "LCH001", ""),
+        ("<launch/>trailing", "LCH001", ""),
+        ("<robot/>", "LCH003", "robot"),
+        ("\x7fELF\0\0\0\x01", "LCH002", "not a text file"),
+        (BIG, "LCH002", "MB"),
+        (LAUGHS, "LCH018", "j"),
+        ("<launch>" + "<group>" * 5000, "LCH001", ""),
+    ],
+    ids=["empty", "blank", "lone", "unclosed", "attribute", "trailing", "robot", "binary", "5MB", "laughs", "deep"],
+)
+async def test_bad_text(desk: Desk, text: str, rule: str, words: str) -> None:
+    async with editing(desk, trusted=True) as editor:
+        found = await finding(editor, desk.workspace / "bad.launch", text, rule)
+        assert words in found.message
+        # It can be typed in all the same.
+        path = desk.workspace / "bad.launch"
+        editor.change(path, "<launch/>\n")
+        await editor.until(lambda: editor.rules(path) == [])
+
+
+def _folder(path: Path) -> None:
+    path.mkdir()
+
+
+def _binary(path: Path) -> None:
+    path.write_bytes(b"\x89PNG\r\n\x1a\n\0\0\xff")
+
+
+def _large(path: Path) -> None:
+    path.write_bytes(b"<launch/>" + b" " * (5 << 20))
+
+
+@pytest.mark.parametrize("make", [_folder, os.mkfifo, _binary, _large])
+async def test_an_include_that_cannot_be_read(desk: Desk, make: object) -> None:
+    assert callable(make)
+    inner = desk.workspace / "inner.launch"
+    make(inner)
+    text = f'<launch>\n  <include file="{inner}"/>\n</launch>\n'
+    async with editing(desk) as editor:
+        found = await finding(editor, desk.workspace / "outer.launch", text, "LCH014")
+        assert "inner.launch" in found.message
+
+
+async def test_an_include_that_is_malformed_is_reported_in_its_own_file(desk: Desk) -> None:
+    inner = desk.workspace / "inner.launch"
+    inner.write_text('<launch>\n  <node pkg="a"</launch>')
+    async with editing(desk) as editor:
+        editor.open(desk.workspace / "outer.launch", f'<launch>\n  <include file="{inner}"/>\n</launch>\n')
+        found = await editor.having(inner, "LCH001")
+        assert found.range.start.line == 1
+
+
+async def test_an_include_that_is_not_there(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        text = '<launch>\n  <include file="$(find preflight_demo)/launch/talker_listner.launch"/>\n</launch>\n'
+        found = await finding(editor, desk.workspace / "outer.launch", text, "LCH013")
+        assert "talker_listner.launch" in found.message
+
+
+async def test_a_circle_of_includes(desk: Desk) -> None:
+    one, two = desk.workspace / "one.launch", desk.workspace / "two.launch"
+    two.write_text(f'<launch>\n  <include file="{one}"/>\n</launch>\n')
+    text = f'<launch>\n  <include file="{two}"/>\n</launch>\n'
+    async with editing(desk) as editor:
+        editor.open(one, text)
+        found = await editor.until(
+            lambda: next((d for p in (one, two) for d in editor.diagnostics(p) or () if d.code == "LCH015"), None)
+        )
+        assert "one.launch" in found.message
+
+
+async def test_requests_on_a_file_of_many_nodes(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        path = desk.workspace / "many.launch"
+        started = time.monotonic()
+        editor.open(path, MANY_NODES)
+        await editor.having(path, "TRC004", seconds=10)
+        assert len(await editor.symbols(path)) == 300
+        assert time.monotonic() - started < 10
+
+
+async def test_malformed_messages_do_not_stop_the_server(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        writer = editor.client.protocol.writer
+        assert writer is not None
+        for body in (
+            b'{"jsonrpc": "2.0", "method": "rosPreflight/workspaceTrust", "params": ["nonsense"]}',
+            b'{"jsonrpc": "2.0", "method": "rosPreflight/workspaceTrust"}',
+            b'{"jsonrpc": "2.0", "method": "rosPreflight/unknown", "params": null}',
+            b'{"jsonrpc": "2.0", "method": "textDocument/didChange", "params": {"nonsense": 1}}',
+            b'{"jsonrpc": "2.0", "method": "workspace/didChangeConfiguration", "params": {"settings": 7}}',
+            b"no JSON at all",
+        ):
+            writer.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TRC004")
+        assert [m.message for m in editor.client.messages] == []

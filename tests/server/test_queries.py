@@ -1,0 +1,174 @@
+"""Hover, definition, symbols and code actions on the demo and on a file with an include."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, editing
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+OUTER = """<launch>
+  <arg name="robot" default="husky"/>
+  <include file="$(find preflight_demo)/launch/inner.launch">
+    <arg name="rate" value="7"/>
+    <arg name="ns" value="$(arg robot)"/>
+  </include>
+  <group ns="lab" if="true">
+    <param name="note" value="two words"/>
+  </group>
+</launch>
+"""
+INNER = """<launch>
+  <arg name="rate" default="1"/>
+  <arg name="ns"/>
+  <node ns="$(arg ns)" pkg="preflight_demo" type="talker.py" name="talker">
+    <param name="rate" value="$(arg rate)"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.fixture
+def outer(desk: Desk) -> Path:
+    desk.launch_file.with_name("inner.launch").write_text(INNER)
+    path = desk.launch_file.with_name("outer.launch")
+    path.write_text(OUTER)
+    return path
+
+
+async def hovered(editor: Editor, path: Path, needle: str, after: int = 0) -> str:
+    hover = await editor.hover(path, editor.at(path, needle, after))
+    assert hover is not None, needle
+    assert isinstance(hover.contents, types.MarkupContent)
+    assert hover.contents.kind == types.MarkupKind.Markdown
+    assert hover.range is not None
+    return hover.contents.value
+
+
+async def gone_to(editor: Editor, path: Path, needle: str, after: int = 0) -> list[tuple[str, int]]:
+    """File names and lines, the latter from 1."""
+    links = await editor.definition(path, editor.at(path, needle, after))
+    return [(link.target_uri.rpartition("/")[2], link.target_range.start.line + 1) for link in links]
+
+
+async def test_hover_on_a_node_shows_its_interface_and_where_it_comes_from(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        talker = await hovered(editor, desk.launch_file, 'name="talker"')
+        assert "**/talker** `preflight_demo/talker.py`" in talker
+        assert "from a run in the sandbox" in talker
+        assert "Reached its event loop" in talker
+        assert "- `/chatter` `std_msgs/String`" in talker
+        assert "[talker.py:10](file://" in talker
+        assert "`/talker/rate` = `5`, default `10`" in talker
+        listener = await hovered(editor, desk.launch_file, 'name="listener"')
+        assert "- `/chater` `std_msgs/String`, called `chatter` by the node and remapped" in listener
+        remap = await hovered(editor, desk.launch_file, "<remap", 2)
+        assert "`/chatter` → `/chater` for `/listener`" in remap
+        assert "topic `/chater` published by nobody" in remap
+
+
+async def test_hover_on_an_annotated_node_says_so(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        text = desk.launch_file.read_text().replace(
+            '<param name="rate" value="5"/>',
+            '<topics><topic name="chatter" type="std_msgs/String" class="pub"/></topics>',
+        )
+        editor.open(desk.launch_file, text)
+        talker = await hovered(editor, desk.launch_file, 'name="talker"')
+        assert "Interface from the annotation in the launch file" in talker
+        assert "`/chatter` `std_msgs/String`" in talker
+        listener = await hovered(editor, desk.launch_file, 'name="listener"')
+        assert "not trusted" in listener
+
+
+async def test_hover_on_arguments_values_includes_and_parameters(desk: Desk, outer: Path) -> None:
+    async with editing(desk) as editor:
+        editor.open(outer)
+        robot = await hovered(editor, outer, "$(arg robot)", 7)
+        assert "argument `robot` = `husky`" in robot
+        assert "[outer.launch:2]" in robot
+        assert "`preflight_demo`" in await hovered(editor, outer, "$(find preflight_demo)", 8)
+        include = await hovered(editor, outer, "<include", 2)
+        assert "inner.launch" in include
+        assert "`rate` = `7`" in include
+        assert "`/lab/note` = `two words` (str)" in await hovered(editor, outer, "<param", 2)
+        assert await editor.hover(outer, types.Position(0, 2)) is None
+
+        inner = outer.with_name("inner.launch")
+        editor.open(inner)
+        rate = await hovered(editor, inner, "$(arg rate)", 7)
+        assert "argument `rate` = `7`" in rate, "the value that it has where it is included"
+        assert "[outer.launch:4]" in rate
+        node = await hovered(editor, inner, "<node", 2)
+        assert "**/husky/talker**" in node
+        assert "included at [outer.launch:3]" in node
+
+
+async def test_definitions(desk: Desk, outer: Path) -> None:
+    async with editing(desk) as editor:
+        editor.open(outer)
+        assert await gone_to(editor, outer, "/launch/inner.launch", 9) == [("inner.launch", 1)]
+        assert await gone_to(editor, outer, "$(find preflight_demo)", 8) == [("package.xml", 1)]
+        assert await gone_to(editor, outer, "$(arg robot)", 7) == [("outer.launch", 2)]
+        assert await gone_to(editor, outer, "<group") == []
+
+        inner = outer.with_name("inner.launch")
+        editor.open(inner)
+        assert await gone_to(editor, inner, "$(arg rate)", 7) == [("inner.launch", 2)]
+        assert await gone_to(editor, inner, 'arg name="rate"', 11) == [("outer.launch", 4)]
+        assert await gone_to(editor, inner, "talker.py", 2) == [("talker.py", 1)]
+
+
+async def test_definition_leads_to_the_other_end(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        assert await gone_to(editor, desk.launch_file, '"chater"', 3) == [("talker_listener.launch", 3)]
+        at = text.index("chater")
+        editor.replace(desk.launch_file, at, at + 6, "chatter")
+        await editor.without(desk.launch_file, "TOP001")
+        assert await gone_to(editor, desk.launch_file, 'to="chatter"', 6) == [("talker_listener.launch", 3)]
+
+
+async def test_symbols_are_the_tags_as_they_nest(desk: Desk, outer: Path) -> None:
+    async with editing(desk) as editor:
+        editor.open(outer)
+        found = await editor.symbols(outer)
+        assert [(s.name, s.detail, s.kind) for s in found] == [
+            ("robot", "husky", types.SymbolKind.Variable),
+            ("$(find preflight_demo)/launch/inner.launch", None, types.SymbolKind.File),
+            ("lab", "if true", types.SymbolKind.Namespace),
+        ]
+        assert [s.name for s in found[1].children or ()] == ["rate", "ns"]
+        assert editor.covered(outer, found[2].selection_range) == "lab"
+        assert editor.covered(outer, found[2].range).startswith("<group")
+        assert editor.covered(outer, found[2].range).endswith("</group>")
+
+
+async def test_the_traced_interface_can_be_written_as_an_annotation(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        where = editor.at(desk.launch_file, 'name="talker"')
+        actions = await editor.actions(desk.launch_file, types.Range(where, where), ["refactor"])
+        assert [a.title for a in actions] == ["Annotate '/talker' with its traced interface"]
+        editor.apply(actions[0].edit)
+        assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[desk.launch_file]
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert editor.covered(desk.launch_file, found.range) == "chater"
+        where = editor.at(desk.launch_file, 'name="talker"')
+        assert await editor.actions(desk.launch_file, types.Range(where, where), ["refactor"]) == []
+
+
+async def test_only_the_asked_kinds_of_actions(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert await editor.actions(desk.launch_file, found.range, ["source.organizeImports"]) == []
+        assert [a.kind for a in await editor.actions(desk.launch_file, found.range, ["quickfix"])] == ["quickfix"]

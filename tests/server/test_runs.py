@@ -1,0 +1,155 @@
+"""Runs of nodes: cancelled by the user, superseded by an edit, ended with the server, and never in the way."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, editing
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+SLOW = """#!/usr/bin/env python3
+import time
+import rospy
+time.sleep(60)
+rospy.init_node("slow")
+rospy.spin()
+"""
+
+
+@pytest.fixture
+def slow(desk: Desk) -> Path:
+    """A launch file with a node that takes longer than any test waits."""
+    script = desk.launch_file.parents[1] / "scripts/slow.py"
+    script.write_text(SLOW)
+    script.chmod(0o755)
+    path = desk.launch_file.with_name("slow.launch")
+    path.write_text('<launch>\n  <node pkg="preflight_demo" type="slow.py" name="slow"/>\n</launch>\n')
+    return path
+
+
+def sandboxes(desk: Desk) -> list[str]:
+    """Processes of the desk besides the server itself."""
+    return [line for line in desk.processes() if " lsp" not in line]
+
+
+async def running(editor: Editor, desk: Desk) -> types.ProgressToken:
+    """Wait until a node runs and its progress is shown."""
+    token = await editor.until(lambda: next((t for t, v in editor.progress.items() if v), None))
+    await editor.until(lambda: desk.sandbox_starts() >= 2)
+    return token
+
+
+async def test_the_user_can_cancel(desk: Desk, slow: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(slow)
+        token = await running(editor, desk)
+        started = time.monotonic()
+        editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams(token))
+        found = await editor.having(slow, "TRC004")
+        assert "cancelled" in found.message
+        assert time.monotonic() - started < 3
+        assert editor.progress[token][-1]["kind"] == "end"
+        starts = desk.sandbox_starts()
+        editor.replace(slow, 8, 8, "\n")
+        await asyncio.sleep(1.5)
+        assert desk.sandbox_starts() == starts, "an edit does not undo the user's decision"
+        editor.save(slow)
+        await editor.until(lambda: desk.sandbox_starts() > starts)
+
+
+async def test_an_edit_supersedes_a_run_that_is_no_longer_wanted(desk: Desk, slow: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(slow)
+        await running(editor, desk)
+        at = text.index("slow.py")
+        editor.replace(slow, at, at + len("slow.py"), "talker.py")
+        hint = await editor.having(slow, "TOP002", seconds=5)
+        assert "chatter" in hint.message
+
+
+async def test_the_server_answers_while_nodes_run(desk: Desk, slow: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(slow)
+        await running(editor, desk)
+        started = time.monotonic()
+        hover = await editor.hover(slow, editor.at(slow, 'name="slow"'))
+        assert hover is not None
+        assert isinstance(hover.contents, types.MarkupContent)
+        assert "**/slow**" in hover.contents.value
+        assert [s.name for s in await editor.symbols(slow)] == ["slow"]
+        assert time.monotonic() - started < 2
+
+
+async def test_shutdown_ends_the_runs(desk: Desk, slow: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(slow)
+        await running(editor, desk)
+        started = time.monotonic()
+    assert time.monotonic() - started < 5
+    assert desk.processes() == []
+
+
+async def test_a_client_that_vanishes_leaves_nothing_running(desk: Desk, slow: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(slow)
+        await running(editor, desk)
+        server = editor.client._server
+        assert server is not None
+        assert server.stdin is not None
+        server.stdin.close()
+        await asyncio.wait_for(server.wait(), 4)
+        assert server.returncode == 1, "exit without shutdown"
+        await editor.until(lambda: not desk.processes(), 5)
+        editor.client.error = ConnectionError("the server is gone, as the test wants it")
+
+
+async def test_a_killed_server_leaves_nothing_running(desk: Desk, slow: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(slow)
+        await running(editor, desk)
+        server = editor.client._server
+        assert server is not None
+        server.kill()
+        await server.wait()
+        await editor.until(lambda: not desk.processes(), 5)
+        editor.client.error = ConnectionError("the server is gone, as the test wants it")
+
+
+async def test_a_changed_script_is_run_again(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        script = desk.launch_file.parents[1] / "scripts/talker.py"
+        script.write_text(script.read_text().replace('"chatter"', '"chater"'))
+        editor.watched(script)
+        await editor.without(desk.launch_file, "TOP001")
+
+
+async def test_a_node_that_crashes_is_a_finding(desk: Desk) -> None:
+    script = desk.launch_file.parents[1] / "scripts/listener.py"
+    script.write_text(script.read_text().replace("rospy.spin()", 'raise RuntimeError("no laser here")'))
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TRC001")
+        assert "/listener" in found.message
+        hover = await editor.hover(desk.launch_file, editor.at(desk.launch_file, 'name="listener"'))
+        assert hover is not None
+        assert isinstance(hover.contents, types.MarkupContent)
+        assert "no laser here" in hover.contents.value
+
+
+async def test_a_half_typed_file_starts_no_run(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = desk.launch_file.read_text().replace('name="listener"', 'name="listener')
+        editor.open(desk.launch_file, text)
+        await editor.having(desk.launch_file, "LCH001")
+        await asyncio.sleep(1.5)
+        assert desk.sandbox_starts() <= 1, "at most the probe of the sandbox"
+        editor.change(desk.launch_file, desk.launch_file.read_text())
+        await editor.having(desk.launch_file, "TOP001")

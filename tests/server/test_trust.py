@@ -1,0 +1,110 @@
+"""Nothing is executed without trust, or without a sandbox, and the user sees why."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import editing
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+
+def children(pid: int) -> list[str]:
+    """The command lines of all processes below `pid`."""
+    parents = {}
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = status.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        parents[int(status.parent.name)] = int(fields[1])
+    below = {pid}
+    while more := {child for child, parent in parents.items() if parent in below} - below:
+        below |= more
+    commands = []
+    for each in below - {pid}:
+        try:
+            commands.append(Path(f"/proc/{each}/cmdline").read_text().replace("\0", " "))
+        except OSError:
+            continue
+    return commands
+
+
+async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TRC004")
+        assert found.severity == types.DiagnosticSeverity.Information
+        assert "not trusted" in found.message
+        for _ in range(10):
+            assert children(editor.pid) == []
+            await asyncio.sleep(0.1)
+        assert editor.rules(desk.launch_file) == ["TRC004"]
+        assert editor.progress == {}
+    assert desk.sandbox_starts() == 0
+
+
+async def test_static_findings_need_no_trust(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        text = desk.launch_file.read_text().replace('value="5"', 'value="$(arg speed)"')
+        editor.open(desk.launch_file, text)
+        found = await editor.having(desk.launch_file, "ARG001")
+        assert "speed" in found.message
+        assert editor.covered(desk.launch_file, found.range).strip("$()").endswith("speed")
+        assert found.severity == types.DiagnosticSeverity.Error
+
+
+async def test_trust_that_is_granted_later_starts_the_runs(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TRC004")
+        editor.trust()
+        await editor.having(desk.launch_file, "TOP001")
+        await editor.without(desk.launch_file, "TRC004")
+
+
+async def test_trust_that_is_withdrawn_takes_back_what_runs_told(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        editor.trust(False)
+        await editor.having(desk.launch_file, "TRC004")
+        await editor.without(desk.launch_file, "TOP001")
+
+
+@pytest.mark.parametrize("value", ["true", 1, None])
+async def test_only_true_is_trust(desk: Desk, value: object) -> None:
+    async with editing(desk, settings={"workspaceTrusted": value}) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TRC004")
+        assert "not trusted" in found.message
+    assert desk.sandbox_starts() == 0
+
+
+async def test_where_no_sandbox_works_nothing_runs_and_the_reason_is_shown(desk: Desk) -> None:
+    broken = desk.home / "broken"
+    broken.mkdir()
+    (broken / "bwrap").write_text("#!/bin/sh\necho no permission for namespaces >&2\nexit 1\n")
+    (broken / "bwrap").chmod(0o755)
+    path = f"{broken}:{desk.environment['PATH']}"
+    async with editing(desk, trusted=True, environment={"PATH": path}) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TRC004")
+        assert "no permission for namespaces" in found.message
+        assert "TOP001" not in (editor.rules(desk.launch_file) or [])
+    assert desk.sandbox_starts() == 0
+
+
+async def test_running_can_be_switched_off_and_on_in_the_settings(desk: Desk) -> None:
+    async with editing(desk, trusted=True, settings={"runNodes": False}) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TRC004")
+        assert "rosPreflight.runNodes" in found.message
+        assert desk.sandbox_starts() == 0
+        editor.client.set_configuration({"runNodes": True}, section="rosPreflight")
+        editor.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(None))
+        await editor.having(desk.launch_file, "TOP001")
