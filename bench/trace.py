@@ -1,0 +1,133 @@
+"""How long a trace takes, against the bare node's own time to its event loop. Prints medians and ratios of one run.
+
+  python bench/trace.py [-n ROUNDS]
+
+Bare: the node under a real rosmaster, from exec until the master has the last topic that it registers before it spins.
+Cold: `Tracer.trace` without a cache. Warm: `Tracer.lookup` of a cached trace. The kinds take turns in each round, so
+that a busy moment of the machine meets them all.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import socket
+import statistics
+import subprocess
+import tempfile
+import threading
+import time
+import xmlrpc.client
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
+
+FIXTURES = Path(__file__).parent.parent / "fixtures" / "ros1"
+PYTHON = "/usr/bin/python3"
+NODES = {
+    "demo/talker (Rate loop)": (FIXTURES / "demo/scripts/talker.py", "/chatter"),
+    "demo/listener (rospy.spin)": (FIXTURES / "demo/scripts/listener.py", "/chatter"),
+    "tutorials/advanced_publish": (FIXTURES / "tutorials/scripts/advanced_publish.py", "~numbers"),
+}
+
+
+@contextmanager
+def rosmaster(folder: str) -> Iterator[dict[str, str]]:
+    """A real master on a free port; gives the environment for its nodes."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    variables = {
+        "PATH": "/usr/bin:/bin",
+        "HOME": folder,
+        "ROS_LOG_DIR": folder,
+        "ROS_IP": "127.0.0.1",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{port}/",
+    }
+    command = [PYTHON, "/usr/bin/rosmaster", "--core", "-p", str(port)]
+    process = subprocess.Popen(command, env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield variables
+    finally:
+        process.kill()
+        process.wait()
+
+
+def registered(master: xmlrpc.client.ServerProxy, topic: str, node: str) -> bool:
+    try:
+        state = master.getSystemState("/bench")
+    except OSError:
+        return False
+    return any(name == topic and node in nodes for side in state[2][:2] for name, nodes in side)  # type: ignore[index,union-attr]
+
+
+def bare(script: Path, topic: str, variables: dict[str, str], number: int) -> float:
+    """Seconds from exec to the registration of `topic`. Each run has a name of its own: a node that is killed stays
+    registered."""
+    master = xmlrpc.client.ServerProxy(variables["ROS_MASTER_URI"])
+    while True:
+        try:
+            master.getPid("/bench")
+            break
+        except OSError:
+            time.sleep(0.01)
+    node = f"/{script.stem}{number}"
+    topic = topic.replace("~", node + "/")
+    began = time.perf_counter()
+    process = subprocess.Popen(
+        [PYTHON, str(script), f"__name:={node[1:]}"],
+        env=variables,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        while not registered(master, topic, node):
+            if time.perf_counter() - began > 20:
+                raise SystemExit(f"{script} did not register {topic}")
+            time.sleep(0.002)
+        return time.perf_counter() - began
+    finally:
+        process.kill()
+        process.wait()
+
+
+def timed(rounds: int) -> None:
+    package_path = (str(FIXTURES),)
+    variables = {"PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(FIXTURES)}
+    environment = Environment(1, "noetic", variables, package_path, {}, {}, (), ("/usr",), PYTHON)
+    cancel = threading.Event()
+    print(f"{'median of ' + str(rounds):<30}{'bare':>9}{'cold':>9}{'warm':>9}{'cold/bare':>11}{'warm/bare':>11}")
+    with tempfile.TemporaryDirectory() as folder, rosmaster(folder) as ros:
+        cold_tracer, warm_tracer = Tracer(environment, None), Tracer(environment, TraceCache(Path(folder) / "cache"))
+        for title, (script, topic) in NODES.items():
+            request = TraceRequest("/node", "bench", os.fspath(script))
+            warm_tracer.trace(request, cancel)
+            samples: dict[str, list[float]] = {"bare": [], "cold": [], "warm": []}
+            for number in range(rounds):
+                samples["bare"].append(bare(script, topic, ros, number))
+                began = time.perf_counter()
+                found = cold_tracer.trace(request, cancel)
+                samples["cold"].append(time.perf_counter() - began)
+                if found.outcome.status != "spinning":
+                    raise SystemExit(f"{script}: {found.outcome}")
+                began = time.perf_counter()
+                if warm_tracer.lookup(request) is None:
+                    raise SystemExit(f"{script}: not in the cache")
+                samples["warm"].append(time.perf_counter() - began)
+            b, c, w = (statistics.median(samples[kind]) for kind in ("bare", "cold", "warm"))
+            print(f"{title:<30}{b:>8.3f}s{c:>8.3f}s{w:>8.4f}s{c / b:>11.2f}{w / b:>11.4f}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-n", type=int, default=10, metavar="ROUNDS")
+    timed(parser.parse_args().n)
+
+
+if __name__ == "__main__":
+    main()
