@@ -67,7 +67,7 @@ class Session:
         self.settings = settings
         self.publisher = Publisher(server)
         self._sources = Sources()
-        self._pool = ThreadPoolExecutor(2, thread_name_prefix="analysis")
+        self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
         self._workspace: Workspace | None = None
         self._analyses: dict[str, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}

@@ -1,0 +1,113 @@
+"""`check`: findings, their JSON, the exit codes, and what runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from editor_desk import Desk
+
+pytestmark = pytest.mark.ros
+Run = Callable[..., Any]
+
+TWO_WARNINGS = '<launch>\n  <nod/>\n  <node pkg="preflight_demo" type="talker.py" name="a" colour="red"/>\n</launch>\n'
+
+
+def test_the_demo_in_text(desk: Desk, preflight: Run) -> None:
+    done = preflight("check", desk.launch_file)
+    assert done.code == 0, "a warning is below the default --fail-on"
+    assert f"{desk.launch_file}:7:31: warning (likely) TOP001 subscribed-not-published: " in done.out
+    assert '  7 |     <remap from="chatter" to="chater"/>\n    |                               ^^^^^^\n' in done.out
+    assert "fix: Replace 'chater' by 'chatter'" in done.out
+    assert "2 nodes, 2 of them traced" in done.out
+    assert "\x1b" not in done.out, "no colours in a pipe"
+    assert done.err == ""
+
+
+def test_the_demo_in_json(desk: Desk, preflight: Run) -> None:
+    data = preflight("check", "launch/talker_listener.launch", "--format", "json").json
+    assert set(data) == {"schema", "findings", "files", "nodes", "traced"}
+    assert (data["schema"], data["files"], data["nodes"], data["traced"]) == ("ros-preflight/check/1", 1, 2, 2)
+    (finding,) = data["findings"]
+    assert set(finding) == {
+        *("rule", "name", "severity", "confidence", "message"),
+        *("file", "range", "related", "roots", "fixes"),
+    }
+    assert (finding["rule"], finding["name"]) == ("TOP001", "subscribed-not-published")
+    assert finding["file"] == str(desk.launch_file)
+    assert finding["range"] == {"start": {"line": 7, "column": 31}, "end": {"line": 7, "column": 37}}
+    assert finding["roots"] == [str(desk.launch_file)]
+    assert finding["related"][0]["file"] == str(desk.launch_file)
+    assert finding["fixes"] == ["Replace 'chater' by 'chatter'"]
+
+
+def test_the_mended_demo_is_clean(desk: Desk, preflight: Run) -> None:
+    done = preflight("check", desk.launch_file.with_name("fixed.launch"), "--fail-on", "hint")
+    assert (done.code, done.out) == (0, "no findings in 1 file, 2 nodes, 2 of them traced\n")
+
+
+def test_no_run_executes_nothing(desk: Desk, preflight: Run) -> None:
+    done = preflight("check", desk.launch_file, "--no-run", "--format", "json")
+    assert [f["rule"] for f in done.json["findings"]] == ["TRC004"]
+    assert "--no-run" in done.json["findings"][0]["message"]
+    assert done.json["traced"] == 0
+    assert desk.sandbox_starts() == 0
+
+
+@pytest.mark.parametrize(
+    ("fail_on", "code"), [("error", 0), ("warning", 1), ("info", 1), ("hint", 1), ("never", 0), (None, 0)]
+)
+def test_fail_on(desk: Desk, preflight: Run, fail_on: str | None, code: int) -> None:
+    desk.launch_file.write_text(TWO_WARNINGS)
+    options = ["--fail-on", fail_on] if fail_on else []
+    assert preflight("check", desk.launch_file, "--no-run", *options).code == code
+
+
+def test_an_error_is_exit_code_1(desk: Desk, preflight: Run) -> None:
+    desk.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
+    assert preflight("check", desk.launch_file, "--no-run").code == 1
+    assert preflight("check", desk.launch_file, "--no-run", "--fail-on", "never").code == 0
+
+
+def test_launch_arguments_may_stand_anywhere(desk: Desk, preflight: Run) -> None:
+    desk.launch_file.write_text("<launch><arg name='x'/><param name='p' value='$(arg x)'/><arg name='y'/></launch>")
+    assert preflight("check", desk.launch_file, "--no-run", "--fail-on", "info").code == 1
+    assert preflight("check", desk.launch_file, "x:=1", "--no-run", "y:=a:=b", "--fail-on", "info").code == 0
+
+
+def test_package_path_means_there_and_nowhere_else(desk: Desk, preflight: Run, tmp_path: Path) -> None:
+    options = ("--no-run", "--format", "json")
+    done = preflight("check", desk.launch_file, "--package-path", tmp_path / "nothing", *options)
+    assert {"PKG001"} <= {f["rule"] for f in done.json["findings"]}
+    done = preflight("check", desk.launch_file, "--package-path", f"{tmp_path / 'nothing'}:{desk.workspace}", *options)
+    assert [f["rule"] for f in done.json["findings"]] == ["TRC004"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["missing.launch"], "missing.launch does not exist"),
+        (["."], "is a folder"),
+        (["launch/talker_listener.launch", "speed"], "'speed' is not of the form name:=value"),
+        (["launch/talker_listener.launch", ":=3"], "':=3' is not of the form name:=value"),
+        (["launch/talker_listener.launch", "--nonsense"], "--nonsense"),
+        (["launch/talker_listener.launch", "--fail-on", "perhaps"], "perhaps"),
+        ([], "FILE"),
+    ],
+)
+def test_what_cannot_be_done_is_exit_code_2(preflight: Run, arguments: list[str], message: str) -> None:
+    done = preflight("check", *arguments)
+    assert done.code == 2
+    assert message in done.err
+    assert done.out == ""
+
+
+@pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n\0", b"<launch>" * 3, b" " * (5 << 20)])
+def test_bad_files_are_findings(desk: Desk, preflight: Run, content: bytes) -> None:
+    desk.launch_file.write_bytes(content)
+    done = preflight("check", desk.launch_file, "--format", "json")
+    assert done.code == 1
+    assert done.json["findings"]
+    assert desk.sandbox_starts() <= 1, "at most the probe"

@@ -1,0 +1,141 @@
+"""`tree`: the contract's JSON, one file or many."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from editor_desk import Desk
+
+Run = Callable[..., Any]
+
+LAUNCH = """<launch>
+  <arg name="need"/>
+  <arg name="rate" default="5"/>
+  <env name="LEVEL" value="3"/>
+  <remap from="a" to="/b"/>
+  <rosparam command="load" file="$(dirname)/p.yaml" ns="cfg"/>
+  <group ns="lab">
+    <node pkg="preflight_demo" type="talker.py" name="t" args="-v $(arg need)" output="screen" respawn="true"
+          respawn_delay="2.5">
+      <param name="rate" value="$(arg rate)"/>
+      <rosparam command="load" file="$(dirname)/p.yaml"/>
+    </node>
+  </group>
+  <param name="text" command="date +%s"/>
+  <param name="bytes" binfile="$(dirname)/b"/>
+</launch>
+"""
+KEYS = {
+    *("schema", "file", "generation", "args", "nodes", "params"),
+    *("clear_params", "includes", "machines", "unknown", "errors"),
+}
+NODE_KEYS = {
+    *("name", "namespace", "package", "executable", "kind", "container", "plugin", "args", "remaps", "env", "params"),
+    *("param_files", "machine", "respawn", "respawn_delay", "required", "output", "cwd", "launch_prefix"),
+    *("clear_params", "origin"),
+}
+
+
+@pytest.fixture
+def launch(desk: Desk) -> Path:
+    path = desk.launch_file.with_name("all.launch")
+    path.write_text(LAUNCH)
+    path.with_name("p.yaml").write_text("gain: 1.5\nlimits: {low: .inf, names: [a, größe]}\n")
+    path.with_name("b").write_bytes(b"\0\1")
+    return path
+
+
+def test_the_contract(launch: Path, preflight: Run) -> None:
+    data = preflight("tree", launch, "need:=x y", "--format", "json").json
+    assert set(data) == KEYS
+    assert data["schema"] == "ros-preflight/tree/1"
+    assert (data["file"], data["generation"], data["errors"], data["includes"]) == (str(launch), 1, [], [])
+    assert data["args"] == {
+        "need": {"value": "x y", "default": None, "required": True},
+        "rate": {"value": "5", "default": "5", "required": False},
+    }
+    (node,) = data["nodes"]
+    assert set(node) == NODE_KEYS
+    assert (node["name"], node["namespace"], node["kind"]) == ("/lab/t", "/lab/", "node")
+    assert (node["args"], node["respawn"], node["respawn_delay"]) == ("-v x y", True, 2.5)
+    assert (node["output"], node["container"], node["plugin"]) == ("screen", None, None)
+    assert node["remaps"] == [["a", "/b"]]
+    assert node["env"] == [["LEVEL", "3"]]
+    assert node["param_files"] == [str(launch.with_name("p.yaml"))]
+    assert node["origin"] == [{"file": str(launch), "line": 8, "column": 5}]
+    assert node["params"]["rate"] == 5
+    assert data["params"]["/lab/t/rate"] == 5
+    assert data["params"]["/cfg/gain"] == 1.5
+    assert data["params"]["/text"] == {"command": "date +%s"}
+    assert data["params"]["/bytes"] == {"binary_sha1": "3f29546453678b855931c174a97d6c0894b8f546"}
+    assert "größe" in json.dumps(data["params"], ensure_ascii=False)
+    assert '"inf"' in json.dumps(data["params"]), "JSON has no infinity"
+
+
+def test_an_error_is_what_would_stop_the_launcher(launch: Path, preflight: Run) -> None:
+    launch.write_text('<launch><nod/><node pkg="p" type="t" name="$(arg x)"/></launch>')
+    done = preflight("tree", launch, "--format", "json")
+    assert done.code == 1
+    (error,) = done.json["errors"]
+    assert set(error) == {"rule", "message", "file", "line", "column"}
+    assert (error["rule"], error["line"], error["file"]) == ("ARG001", 1, str(launch))
+    assert preflight("tree", launch, "--format", "json", "--fail-on", "never").code == 0
+
+
+def test_text(launch: Path, preflight: Run) -> None:
+    done = preflight("tree", launch, "need:=1")
+    assert "node /lab/t  preflight_demo/talker.py" in done.out
+    assert "param rate = 5" in done.out
+    assert "remap a -> /b" in done.out
+    assert f"{launch}:8:5" in done.out
+    assert done.err == ""
+    done = preflight("tree", launch)
+    assert done.code == 1
+    assert "need" in done.err
+
+
+def test_a_batch_answers_each_job_in_order_from_its_own_environment(desk: Desk, preflight: Run) -> None:
+    jobs = desk.workspace / "jobs.jsonl"
+    launch = desk.workspace / "launch/env.launch"
+    launch.write_text(
+        '<launch><param name="a" value="$(optenv A none)"/><param name="home" value="$(env HOME)"/>'
+        '<param name="x" value="$(arg x)"/><param name="at" value="$(find preflight_demo)"/></launch>'
+    )
+    given = [
+        {"file": "launch/env.launch", "args": ["x:=$ROOT/x"], "env": {"A": "$ROOT"}, "package_path": ["."]},
+        {"file": "launch/env.launch", "args": ["x:=1"], "package_path": ["launch", "$ROOT"]},
+        {"file": "launch/env.launch", "args": ["x:=1"], "package_path": ["launch"]},
+        {"file": "launch/missing.launch", "args": [], "env": {}, "package_path": ["."]},
+    ]
+    jobs.write_text("\n".join(json.dumps(job) for job in given) + "\n\n")
+    done = preflight("tree", "--batch", jobs, "--no-run", cwd=desk.home, environment={"A": "of the process"})
+    assert done.code == 0
+    first, second, third, fourth = (json.loads(line) for line in done.out.splitlines())
+    root = str(desk.workspace)
+    assert {**first["params"]} == {"/a": root, "/home": "/home/robot", "/x": f"{root}/x", "/at": root}
+    assert (second["params"]["/a"], second["params"]["/at"]) == ("none", root)
+    assert [e["rule"] for e in third["errors"]] == ["PKG001"]
+    assert [e["rule"] for e in fourth["errors"]] == ["LCH002"]
+    assert all(list(each) == sorted(each) for each in (first, second, third, fourth))
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [("{", "jobs.jsonl:2"), ("[]", "jobs.jsonl:2"), ('{"args": []}', "jobs.jsonl:2"), ('{"file": 3}', "jobs.jsonl:2")],
+)
+def test_a_line_that_is_no_job(desk: Desk, preflight: Run, line: str, message: str) -> None:
+    jobs = desk.workspace / "jobs.jsonl"
+    jobs.write_text(f"\n{line}\n")
+    done = preflight("tree", "--batch", jobs)
+    assert done.code == 2
+    assert message in done.err
+
+
+def test_batch_and_file_exclude_each_other(desk: Desk, preflight: Run) -> None:
+    assert preflight("tree", desk.launch_file, "--batch", "jobs.jsonl").code == 2
+    assert preflight("tree").code == 2
+    assert preflight("tree", "--batch", "missing.jsonl").code == 2

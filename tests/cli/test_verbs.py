@@ -1,0 +1,199 @@
+"""`graph`, `trace`, `rules`, `doctor`, `lsp`, and what all of the command has in common."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from editor_desk import Desk
+from preflight_analysis.rules.registry import all_rules
+
+pytestmark = pytest.mark.ros
+Run = Callable[..., Any]
+
+
+def test_graph_in_json(desk: Desk, preflight: Run) -> None:
+    data = preflight("graph", desk.launch_file, "--format", "json").json
+    assert set(data) == {"schema", "nodes", "topics", "services", "actions"}
+    assert data["schema"] == "ros-preflight/graph/1"
+    talker, listener = data["nodes"]
+    assert set(talker) == {
+        *("name", "package", "executable", "interface_source", "outcome", "publishers", "subscribers"),
+        *("services", "clients", "action_servers", "action_clients", "params_read"),
+    }
+    assert (talker["name"], talker["interface_source"], talker["outcome"]) == ("/talker", "trace", "spinning")
+    own = [end for end in talker["publishers"] if not end.get("builtin")]
+    assert [(end["name"], end["type"], end["qos"]["queue_size"]) for end in own] == [
+        ("/chatter", "std_msgs/String", 10)
+    ]
+    assert {"name": "/talker/rate", "default": 10, "mandatory": False} in talker["params_read"]
+    assert [end["name"] for end in listener["subscribers"] if not end.get("builtin")] == ["/chater"], "a final name"
+    assert data["topics"]["/chatter"] == {"types": ["std_msgs/String"], "publishers": ["/talker"], "subscribers": []}
+    assert data["topics"]["/rosout"]["builtin"] is True
+    assert {end["name"] for end in talker["services"]} == {"/talker/get_loggers", "/talker/set_logger_level"}
+    assert all(end["builtin"] for end in talker["services"])
+
+
+def test_graph_in_text(desk: Desk, preflight: Run) -> None:
+    done = preflight("graph", desk.launch_file)
+    assert (done.code, done.err) == (0, "")
+    assert "topic /chatter  std_msgs/String  /talker -> nobody" in done.out
+    assert "/rosout" not in done.out
+
+
+def test_graph_without_runs_has_what_annotations_tell(desk: Desk, preflight: Run) -> None:
+    desk.launch_file.write_text(
+        '<launch><node pkg="preflight_demo" type="talker.py" name="a">'
+        '<topics><topic name="t" type="std_msgs/String" class="pub"/></topics></node>'
+        '<node pkg="preflight_demo" type="listener.py" name="b"/></launch>'
+    )
+    data = preflight("graph", desk.launch_file, "--no-run", "--format", "json").json
+    assert [(n["interface_source"], n["outcome"]) for n in data["nodes"]] == [
+        ("annotation", "not-run"),
+        ("none", "not-run"),
+    ]
+    assert data["topics"] == {"/t": {"types": ["std_msgs/String"], "publishers": ["/a"], "subscribers": []}}
+    assert desk.sandbox_starts() == 0
+
+
+def test_trace_in_json(desk: Desk, preflight: Run) -> None:
+    data = preflight("trace", desk.launch_file, "--format", "json").json
+    assert data["schema"] == "ros-preflight/trace/1"
+    talker, listener = data["nodes"]
+    (endpoint,) = [e for e in listener["endpoints"] if not e["builtin"]]
+    assert (endpoint["role"], endpoint["name"], endpoint["type"]) == ("subscriber", "chatter", "std_msgs/String")
+    assert endpoint["source"]["file"].endswith("scripts/listener.py")
+    assert (talker["outcome"]["status"], talker["cached"]) == ("spinning", False)
+    assert preflight("trace", desk.launch_file, "--format", "json").json["nodes"][0]["cached"] is True
+
+
+def test_trace_of_one_node(desk: Desk, preflight: Run) -> None:
+    done = preflight("trace", desk.launch_file, "--node", "listener")
+    assert "subscriber chatter  std_msgs/String" in done.out
+    assert "/talker" not in done.out
+    assert desk.sandbox_starts() == 2, "the probe and one node"
+    done = preflight("trace", desk.launch_file, "--node", "speaker")
+    assert done.code == 2
+    assert "/talker, /listener" in done.err
+
+
+def test_trace_says_how_a_node_crashed(desk: Desk, preflight: Run) -> None:
+    script = desk.launch_file.parents[1] / "scripts/talker.py"
+    script.write_text('#!/usr/bin/env python3\nraise RuntimeError("no laser here")\n')
+    done = preflight("trace", desk.launch_file, "--node", "/talker")
+    assert "crashed" in done.out
+    assert "no laser here" in done.out
+
+
+def test_rules_lists_all_and_explains_one(preflight: Run) -> None:
+    listed = preflight("rules")
+    assert [line.split()[0] for line in listed.out.splitlines()] == [rule.id for rule in all_rules()]
+    data = preflight("rules", "--format", "json").json
+    assert data["schema"] == "ros-preflight/rules/1"
+    assert len(data["rules"]) == len(all_rules())
+    page = preflight("rules", "top001")
+    assert page.out.startswith("TOP001 subscribed-not-published (warning)\n")
+    assert "Why: " in page.out
+    assert preflight("rules", "subscribed-not-published").out == page.out
+    done = preflight("rules", "XXX001")
+    assert (done.code, done.out) == (2, "")
+
+
+def test_doctor(desk: Desk, preflight: Run) -> None:
+    done = preflight("doctor")
+    assert "sandbox" in done.out
+    assert "works" in done.out
+    data = preflight("doctor", desk.workspace, "--format", "json").json
+    assert data["schema"] == "ros-preflight/doctor/1"
+    assert data["packages"]["preflight_demo"] == str(desk.workspace)
+    assert data["sandbox"] == {"works": True, "reason": None}
+    assert preflight("doctor", "nowhere").code == 2
+
+
+def test_doctor_says_why_there_is_no_sandbox(desk: Desk, preflight: Run) -> None:
+    empty = desk.home / "empty"
+    empty.mkdir()
+    done = preflight("doctor", environment={"PATH": str(empty)})
+    assert done.code == 1
+    assert "bubblewrap is not installed" in done.out
+    assert preflight("doctor", "--fail-on", "never", environment={"PATH": str(empty)}).code == 0
+
+
+def test_without_a_sandbox_check_runs_nothing_and_says_why(desk: Desk, preflight: Run) -> None:
+    empty = desk.home / "empty"
+    empty.mkdir()
+    done = preflight("check", desk.launch_file, "--format", "json", environment={"PATH": str(empty)})
+    (finding,) = done.json["findings"]
+    assert finding["rule"] == "TRC004"
+    assert "bubblewrap is not installed" in finding["message"]
+
+
+def test_a_reader_that_has_enough_is_no_error(desk: Desk) -> None:
+    with subprocess.Popen(
+        [str(desk.server), "doctor", "--format", "json", "--no-run"],
+        env=desk.environment,
+        cwd=desk.workspace,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+
+
+def test_an_interrupt_ends_the_runs(desk: Desk) -> None:
+    script = desk.launch_file.parents[1] / "scripts/talker.py"
+    script.write_text("#!/usr/bin/env python3\nimport time\ntime.sleep(60)\n")
+    with subprocess.Popen(
+        [str(desk.server), "check", str(desk.launch_file)],
+        env=desk.environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        while desk.sandbox_starts() < 2:
+            time.sleep(0.05)
+        started = time.monotonic()
+        os.kill(process.pid, signal.SIGINT)
+        out, err = process.communicate(timeout=10)
+    assert time.monotonic() - started < 3
+    assert (process.returncode, out, err) == (2, "", "ros-preflight: interrupted\n")
+    assert desk.processes() == []
+
+
+def test_lsp_takes_what_editors_add(desk: Desk) -> None:
+    body = json.dumps({"jsonrpc": "2.0", "method": "exit"}).encode()
+    done = subprocess.run(
+        [str(desk.server), "lsp", "--stdio", "--clientProcessId=1"],
+        env=desk.environment,
+        input=b"Content-Length: %d\r\n\r\n%s" % (len(body), body),
+        capture_output=True,
+        timeout=30,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (1, b""), "exit without shutdown"
+    assert b"Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("verb", ["check", "tree", "graph", "trace", "rules", "doctor", "lsp"])
+def test_every_verb_has_help(preflight: Run, verb: str) -> None:
+    done = preflight(verb, "--help")
+    assert done.code == 0
+    assert verb in done.out
+    assert ("--no-run" in done.out) == (verb != "lsp")
+
+
+def test_help_says_that_running_is_consent(preflight: Run) -> None:
+    assert "consent" in preflight("check", "--help").out
+
+
+@pytest.mark.parametrize("arguments", [[], ["nonsense"], ["rules", "a:=b", "c:=d"]])
+def test_bad_usage_is_exit_code_2(preflight: Run, arguments: list[str]) -> None:
+    assert preflight(*arguments).code == 2
