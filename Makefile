@@ -20,7 +20,7 @@ setup: $(READY) ## Debian packages (where allowed) and a virtual environment in 
 	@.ci/apt-install
 
 demo: setup ## trace two real nodes in the sandbox and show what is wrong with their launch file
-	$(BIN)/ros-preflight check $(DEMO)/src/preflight_demo/launch/talker_listener.launch
+	$(BIN)/ros-preflight check $(DEMO)/launch/talker_listener.launch
 
 test: setup ## all tests but those in VS Code; Neovim is among them
 	tests/editors/install.sh neovim

@@ -47,7 +47,11 @@ install_neovim() {
 }
 
 install_vscode() {
-  need "chromium ripgrep nodejs npm" chromium rg node npm
+  need "chromium ripgrep nodejs npm g++ make python3" chromium rg node npm g++ make python3
+  if [ "$(node -p 'process.versions.node.split(".")[0]')" != 20 ]; then
+    echo "tests/editors/install.sh: code-server needs Node.js 20, not $(node --version)" >&2
+    exit 2
+  fi
   local vscode="$here/vscode"
   local stamp="$vscode/node_modules/.installed"
   local wanted
@@ -63,7 +67,13 @@ install_vscode() {
   mkdir -p "$code/node_modules/@vscode/ripgrep/bin"
   ln -sf "$(command -v rg)" "$code/node_modules/@vscode/ripgrep/bin/rg"
   ln -sfn node_modules "$code/node_modules.asar"
+  # Two native modules: code-server does not start without argon2, and writes no logs without spdlog. They are compiled
+  # with the headers that stand beside Node.js, where there are any.
+  local prefix
+  prefix=$(dirname "$(dirname "$(readlink -f "$(command -v node)")")")
+  [ -d "$prefix/include/node" ] && export npm_config_nodedir=$prefix
   quietly npm rebuild --prefix "$vscode" --build-from-source argon2
+  quietly npm rebuild --prefix "$code" --build-from-source @vscode/spdlog
   echo "$wanted" >"$stamp"
 }
 

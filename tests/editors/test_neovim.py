@@ -70,8 +70,8 @@ def drive(neovim: Neovim, desk: Desk, scenario: str) -> dict[str, Any]:
     )
     assert result.exists(), f"the driver gave no result:\n{done.stdout}{done.stderr}"
     answer: dict[str, Any] = json.loads(result.read_text())
-    log = desk.home / ("cache/nvim/lsp.log" if neovim.version == "0.7.2" else ".local/state/nvim/lsp.log")
-    assert "error" not in answer, f"{answer['error']}\n{done.stderr}\n{log.read_text() if log.exists() else ''}"
+    logs = "".join(log.read_text() for log in desk.home.rglob("lsp.log"))
+    assert "error" not in answer, f"{answer['error']}\n{done.stderr}\n{logs}"
     return answer
 
 

@@ -45,11 +45,12 @@ def to_json(report: Report) -> dict[str, Any]:
     }
 
 
-def to_text(report: Report, *, colour: bool = False, show_hints: bool = True) -> str:
+def to_text(report: Report, *, base: str | None = None, colour: bool = False, show_hints: bool = True) -> str:
     """For reading: place, severity, rule and message, the source line with the place underlined, other places, fixes;
-    at the end how many findings there are and what was looked at. Ends with a newline."""
+    at the end how many findings there are and what was looked at. Ends with a newline. Files below the folder `base`
+    are shown relative to it."""
     shown = [f for f in report.findings if show_hints or f.severity != "hint"]
-    blocks = ["\n".join(_finding_lines(finding, report.documents, colour=colour)) for finding in shown]
+    blocks = ["\n".join(_finding_lines(finding, report.documents, base, colour=colour)) for finding in shown]
     return "\n\n".join([*blocks, _summary(report)]) + "\n"
 
 
@@ -87,14 +88,16 @@ def _positions(location: Location, documents: Mapping[str, Document]) -> tuple[t
     return document.lines.position(location.span.start), document.lines.position(location.span.end)
 
 
-def _finding_lines(finding: Finding, documents: Mapping[str, Document], *, colour: bool) -> Iterator[str]:
+def _finding_lines(
+    finding: Finding, documents: Mapping[str, Document], base: str | None, *, colour: bool
+) -> Iterator[str]:
     severity = f"{finding.severity}{_unsure(finding.confidence)} {finding.rule} {finding.name}"
     if colour:
         severity = f"\x1b[{_COLOURS[finding.severity]}m{severity}\x1b[0m"
-    yield f"{place(finding.location, documents)}: {severity}: {printable(finding.message)}"
+    yield f"{place(finding.location, documents, base)}: {severity}: {printable(finding.message)}"
     yield from _underlined(finding.location, documents)
     for related in finding.related:
-        yield f"  {place(related.location, documents)}: {printable(related.message)}"
+        yield f"  {place(related.location, documents, base)}: {printable(related.message)}"
     for fix in finding.fixes:
         yield f"  fix: {printable(fix.title)}"
 
@@ -103,10 +106,13 @@ def _unsure(confidence: Confidence) -> str:
     return "" if confidence == "certain" else f" ({confidence})"
 
 
-def place(location: Location, documents: Mapping[str, Document]) -> str:
-    """`file:line:column`, both counted from 1."""
+def place(location: Location, documents: Mapping[str, Document], base: str | None = None) -> str:
+    """`file:line:column`, both counted from 1; the file relative to the folder `base` where it lies below it."""
     (line, column), _ = _positions(location, documents)
-    return f"{printable(location.file)}:{line + 1}:{column + 1}"
+    file = location.file
+    if base is not None and file.startswith(base.rstrip("/") + "/"):
+        file = file[len(base.rstrip("/")) + 1 :]
+    return f"{printable(file)}:{line + 1}:{column + 1}"
 
 
 def _underlined(location: Location, documents: Mapping[str, Document]) -> Iterator[str]:

@@ -38,5 +38,5 @@ def run(args: argparse.Namespace) -> int:
     if args.format == "json":
         print_json(to_json(report))
     else:
-        print_text(to_text(report, colour=sys.stdout.isatty() and "NO_COLOR" not in os.environ))
+        print_text(to_text(report, base=os.getcwd(), colour=sys.stdout.isatty() and "NO_COLOR" not in os.environ))
     return int(options.fails(analysis.findings, args.fail_on))

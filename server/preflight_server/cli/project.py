@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import threading
 from dataclasses import dataclass
 
@@ -89,7 +90,7 @@ def say_errors(analysis: Analysis) -> None:
     """What would stop the launcher, on standard error."""
     for finding in analysis.findings:
         if finding.stops_launch:
-            where = place(finding.location, analysis.documents)
+            where = place(finding.location, analysis.documents, os.getcwd())
             say(f"{where}: {finding.severity} {finding.rule}: {finding.message}")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -63,7 +64,7 @@ def _lines(analysis: Analysis) -> Iterator[str]:
             yield f"    env {name}={value}"
         for name in _private(tree, node.name):
             yield f"    param {name.removeprefix(node.name + '/')} = {json_value(tree.params[name].value)!r}"
-        yield f"    from {' < '.join(place(step, analysis.documents) for step in reversed(node.origin))}"
+        yield f"    from {' < '.join(place(step, analysis.documents, os.getcwd()) for step in reversed(node.origin))}"
     owned = {name for node in tree.nodes for name in _private(tree, node.name)}
     for name, param in tree.params.items():
         if name not in owned:
