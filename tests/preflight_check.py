@@ -215,7 +215,7 @@ def _environment(fixture: Fixture) -> Environment:
         folder = PurePosixPath(path)
         if folder.name == "package.xml":
             packages[folder.parent.name] = Package(folder.parent.name, str(folder.parent), path)
-    return Environment(1, "noetic", {}, ("/",), packages, {}, (), (), None)
+    return Environment(1, "noetic", {}, ("/",), packages, {}, (), (), "/usr/bin/python3")
 
 
 def _as_expectation(finding: Finding, context: Context) -> Expectation:

@@ -124,6 +124,9 @@ def test_an_invalid_name() -> None:
         <launch>
           <node pkg="p" type="t" name="a/b"/>
                                        ^^^ error[LCH009] 'a/b' is not allowed
+          <node pkg="p" type="t" name="front-camera"/>
+                                       ^^^^^^^^^^^^ warning[LCH009] 'front-camera' is not allowed
+          <node pkg="p" type="t" name="front_camera"/>
         </launch>
     """)
 

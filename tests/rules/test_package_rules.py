@@ -92,3 +92,23 @@ def test_a_file_without_the_permission_to_be_executed(launch: Path) -> None:
 
 def test_an_executable_that_is_there(launch: Path) -> None:
     assert judge(launch, "listener") == []
+
+
+def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
+    cmake = launch.parent / "CMakeLists.txt"
+    cmake.write_text("add_executable(${PROJECT_NAME}_node src/node.cpp)\n# add_executable(gone src/gone.cpp)\n")
+    (finding,) = judge(launch, "demo_node")
+    assert (finding.rule, finding.severity) == ("PKG002", "info")
+    assert "is not built yet" in finding.message
+    (finding,) = judge(launch, "gone")
+    assert finding.severity == "error"
+
+
+def test_without_ros_a_package_that_is_not_there_is_no_error(launch: Path) -> None:
+    launch.write_text('<launch><node pkg="tf2_ros" type="x" name="n"/><node pkg="demmo" type="x" name="m"/></launch>')
+    share = str(launch.parent)
+    packages = {"demo": Package("demo", share, f"{share}/package.xml")}
+    for python, severities in ((None, ["info", "error"]), ("/usr/bin/python3", ["error", "error"])):
+        environment = Environment(1, "noetic", {}, (share,), packages, {}, (), (), python)
+        findings = Workspace(environment, Sources(), share).static(str(launch)).findings
+        assert [f.severity for f in findings] == severities

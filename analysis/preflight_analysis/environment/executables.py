@@ -9,9 +9,11 @@ name that its owner may read and execute is run.
 from __future__ import annotations
 
 import os
+import re
 import stat
 from collections.abc import Iterator
 
+from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import crawl
 from preflight_analysis.environment.walk import walk
@@ -27,6 +29,7 @@ class ExecutableIndex:
         self._environment = environment
         self._files: dict[str, dict[str, list[str]]] = {}
         self._sources: dict[str, dict[str, str]] = {}
+        self._targets: dict[str, frozenset[str]] = {}
 
     def find(self, package: str, name: str) -> Executable:
         """What a node of this `pkg` and `type` runs.
@@ -45,6 +48,20 @@ class ExecutableIndex:
                     (runnable if mode & _RUNNABLE == _RUNNABLE else others).append(path)
         candidates = tuple(dict.fromkeys(runnable))
         return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
+
+    def is_build_target(self, package: str, name: str) -> bool:
+        """Whether the package's `CMakeLists.txt` names the executable: it is there once the workspace is built.
+
+        A word of the file is taken for its word; `${PROJECT_NAME}` is the package, any other variable unknown.
+        """
+        found = self._environment.packages.get(package)
+        if found is None:
+            return False
+        if package not in self._targets:
+            text = read_text(os.path.join(found.share, "CMakeLists.txt"))
+            words = text.text.replace("${PROJECT_NAME}", package) if isinstance(text, Text) else ""
+            self._targets[package] = frozenset(re.findall(r"[^\s()\"]+", re.sub(r"#.*", "", words)))
+        return name in self._targets[package]
 
     def names(self, package: str) -> tuple[str, ...]:
         """All that a node of this package could name as its type, sorted. Empty for an unknown package."""

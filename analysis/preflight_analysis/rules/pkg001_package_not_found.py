@@ -26,9 +26,14 @@ def _finding(
     packages = context.environment.packages
     near = nearest(name, packages)
     fixes = rename(context, location, name, near) if near else ()
+    # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
+    expected = near is None and context.environment.python is None
+    note = "; no ROS is installed here, so the packages of ROS itself are not known" if expected else ""
     return rule.finding(
-        f"package '{name}' is not among the {len(packages)} packages of this environment{did_you_mean(near)}",
+        f"package '{name}' is not among the {len(packages)} packages of this environment{note}{did_you_mean(near)}",
         location,
+        severity="info" if expected else None,
+        confidence="possible" if expected else "certain",
         related=related,
         fixes=fixes,
         stops_launch=stops,
@@ -40,7 +45,7 @@ RULE = Rule(
     name="package-not-found",
     severity="error",
     what="Reports a package, in `$(find ...)` or as a node's `pkg`, that is neither on the package path nor in the "
-    "workspace, and names the nearest one.",
+    "workspace, and names the nearest one. Where no ROS is installed this is for information only.",
     why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
     "command `ros-preflight doctor` shows where packages are looked for.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

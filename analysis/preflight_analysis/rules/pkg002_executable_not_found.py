@@ -23,12 +23,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             path = found.not_executable[0]
             yield rule.finding(f"'{path}' is not executable; chmod +x {path}", location, related=chain)
             continue
+        if executables.is_build_target(node.package, node.executable):
+            message = f"'{node.executable}' is not built yet: CMakeLists.txt of package '{node.package}' names it"
+            yield rule.finding(message, location, severity="info", confidence="likely", related=chain)
+            continue
         names = executables.names(node.package)
         near = nearest(node.executable, names) or nearest(node.executable, names, key=_stem)
-        count = f"{len(names)} others" if names else "no other"
         yield rule.finding(
-            f"package '{node.package}' has no executable '{node.executable}' but {count}; looked in "
-            f"{found.package_path} and the devel and install spaces{did_you_mean(near)}",
+            f"package '{node.package}' has no executable '{node.executable}'; looked at its {len(names)} executables "
+            f"in {found.package_path} and the devel and install spaces{did_you_mean(near)}",
             location,
             related=chain,
             fixes=rename(context, location, node.executable, near) if near else (),
@@ -44,9 +47,9 @@ RULE = Rule(
     name="executable-not-found",
     severity="error",
     what="Reports a node whose `type` is no executable file of its package, and names the nearest one that is; or that "
-    "is there without the permission to be executed.",
-    why="`roslaunch` prints an error among the output of the other nodes and goes on without this one. In a workspace "
-    "that was not built yet, the executables of C++ nodes are not there.",
+    "is there without the permission to be executed. One that the package's `CMakeLists.txt` names is not built yet: "
+    "that is for information only.",
+    why="`roslaunch` prints an error among the output of the other nodes and goes on without this one.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
     check=_check,
