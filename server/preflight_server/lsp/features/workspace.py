@@ -53,7 +53,9 @@ def register(server: PreflightServer) -> None:
     async def did_change_configuration(ls: PreflightServer, params: types.DidChangeConfigurationParams) -> None:
         try:
             settings = await _settings(ls, params.settings)
-        except (Exception, asyncio.CancelledError) as error:
+        except asyncio.CancelledError:  # the client leaves
+            return
+        except Exception as error:
             _log.warning("the settings could not be read: %s", error)
             return
         if ls.session is not None:
