@@ -7,10 +7,31 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.rule import Check, Context, Rule
 
 _MOST_ENTRIES = 5000
 """A package has fewer; a path into a home directory must not lead to reading all of it."""
+
+
+def check_missing_files(what: str) -> Check:
+    """The check of a rule about files that are not there, `what` they are: the nearest one is named and offered."""
+
+    def check(rule: Rule, context: Context) -> Iterator[Finding]:
+        for problem in problems_of(rule, context):
+            path = str(problem.data["path"])
+            near = nearest_file(path, context.environment)
+            message = f"{what} '{shown(path, context)}' does not exist"
+            fixes: tuple[Fix, ...] = ()
+            if near is not None:
+                message += f"; did you mean '{shown(near, context)}'?"
+                if Path(near).parent == Path(path).parent:
+                    fixes = rename(context, problem.location, Path(path).name, Path(near).name)
+            yield problem_finding(rule, problem, message, fixes=fixes)
+
+    return check
 
 
 def nearest_file(path: str, environment: Environment) -> str | None:
