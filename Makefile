@@ -40,7 +40,7 @@ corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslau
 	$(BIN)/python ../shared/tools/compare_ros1.py --root $$(realpath ../shared/corpus/ros1) ../shared/corpus/ros1/expected.jsonl out/ros1.jsonl
 
 vsix: ## the VS Code extension, out/ros-preflight.vsix
-	cd vscode-client && npm ci --ignore-scripts && npm run package
+	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package
 
 test-editors: setup vsix ## the extension in the real VS Code, with screenshots in out/screenshots
 	tests/editors/install.sh vscode
@@ -50,4 +50,4 @@ docs: $(READY) ## the rule reference, from the rules
 	$(BIN)/python -m preflight_analysis.rules.reference docs/rules
 
 clean:
-	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist
+	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist tests/editors/vscode/node_modules
