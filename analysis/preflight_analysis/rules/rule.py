@@ -22,6 +22,9 @@ class ExecutableNames(Protocol):
     def names(self, package: str) -> tuple[str, ...]:
         """All that a node of this package could name as its type, sorted; empty for an unknown package."""
 
+    def is_build_target(self, package: str, name: str) -> bool:
+        """Whether building the package will make the executable."""
+
 
 @dataclass(frozen=True, slots=True)
 class Context:
