@@ -18,7 +18,7 @@ TWO_WARNINGS = '<launch>\n  <nod/>\n  <node pkg="preflight_demo" type="talker.py
 def test_the_demo_in_text(desk: Desk, preflight: Run) -> None:
     done = preflight("check", desk.launch_file)
     assert done.code == 0, "a warning is below the default --fail-on"
-    assert f"{desk.launch_file}:7:31: warning (likely) TOP001 subscribed-not-published: " in done.out
+    assert "launch/talker_listener.launch:7:31: warning (likely) TOP001 subscribed-not-published: " in done.out
     assert '  7 |     <remap from="chatter" to="chater"/>\n    |                               ^^^^^^\n' in done.out
     assert "fix: Replace 'chater' by 'chatter'" in done.out
     assert "2 nodes, 2 of them traced" in done.out

@@ -91,7 +91,7 @@ def test_text(launch: Path, preflight: Run) -> None:
     assert "node /lab/t  preflight_demo/talker.py" in done.out
     assert "param rate = 5" in done.out
     assert "remap a -> /b" in done.out
-    assert f"{launch}:8:5" in done.out
+    assert "from launch/all.launch:8:5\n" in done.out
     assert done.err == ""
     done = preflight("tree", launch)
     assert done.code == 1
