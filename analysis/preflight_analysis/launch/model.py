@@ -50,7 +50,7 @@ class Value:
     @property
     def is_literal(self) -> bool:
         """Whether the value means what it says."""
-        return not any(True for _ in self.substitutions)
+        return "$" not in self.text or not any(True for _ in self.substitutions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,11 @@ class Action:
 
     def attribute(self, name: str) -> ActionAttribute | None:
         """The attribute of that name."""
-        return next((a for a in self.attributes if a.name == name), None)
+        # A plain loop: this is called more than anything else on a keystroke.
+        for attribute in self.attributes:
+            if attribute.name == name:
+                return attribute
+        return None
 
     def value(self, name: str) -> Value | None:
         """The value of the attribute of that name."""
