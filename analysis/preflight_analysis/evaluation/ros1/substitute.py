@@ -240,12 +240,15 @@ def _insert_package(state: State, text: str, piece: str, package: str, share: st
 
 
 def _path_in_package(state: State, package: str, share: str, path: str) -> str:
-    """Where `$(find package)/path` is: an executable of a devel or install space by its base name, else a file there,
-    else the path below the package's folder."""
-    for space in state.environment.devel_spaces:
-        executable = os.path.join(space, "lib", package, os.path.basename(path))
-        if os.path.isfile(executable) and os.access(executable, os.X_OK):
-            return executable
+    """Where `$(find package)/path` is: an executable of that base name in the first space that has any of the package,
+    else the path below the package's folder, else below that of a devel or install space."""
+    for space in (*state.environment.devel_spaces, *state.environment.system_prefixes):
+        folder = os.path.join(space, "lib", package)
+        if os.path.isdir(folder):
+            executable = os.path.join(folder, os.path.basename(path))
+            if os.path.isfile(executable) and os.access(executable, os.X_OK):
+                return executable
+            break
     below = os.path.join(share, path)
     if not os.path.exists(below):
         for space in state.environment.devel_spaces:
