@@ -20,7 +20,10 @@ setup: $(READY) ## Debian packages (where allowed) and a virtual environment in 
 	@.ci/apt-install
 
 demo: setup ## trace two real nodes in the sandbox and show what is wrong with their launch file
-	$(BIN)/ros-preflight check $(DEMO)/launch/talker_listener.launch
+	@echo "What each node does, seen by running it in the sandbox:"
+	@$(BIN)/ros-preflight trace $(DEMO)/launch/talker_listener.launch
+	@echo; echo "What is wrong with the launch file:"
+	@$(BIN)/ros-preflight check $(DEMO)/launch/talker_listener.launch
 
 test: setup ## all tests but those in VS Code; Neovim is among them
 	tests/editors/install.sh neovim
