@@ -26,6 +26,19 @@ def test_a_crash_after_a_made_up_answer_may_be_our_doing() -> None:
     """)
 
 
+def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
+    check("""
+        <launch>
+          <param name="robot_description" command="xacro robot.xacro"/>
+                                                   ^^^^^^^^^^^^^^^^^ hint[LCH018] is not supported yet
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/robot_description', which comes from a command
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/robot_description": null}}}
+    """)
+
+
 def test_an_early_end_and_a_slow_start() -> None:
     check("""
         <launch>

@@ -1,8 +1,18 @@
 """LCH018: what roslaunch would evaluate and the analysis does not."""
 
+from collections.abc import Iterator
+
 from preflight_analysis.evaluation.tree import Problem
-from preflight_analysis.rules.problems import check_problems
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        # Every robot description is made by a command: said, but quietly.
+        severity: Severity | None = "hint" if problem.kind == "not-supported" else None
+        yield problem_finding(rule, problem, _message(problem), severity=severity)
 
 
 def _message(problem: Problem) -> str:
@@ -11,7 +21,9 @@ def _message(problem: Problem) -> str:
         return f"entity '&{data['name']};' is not expanded; values that use it are unknown here"
     if problem.kind == "eval-not-allowed":
         return f"$(eval {data['expression']}) is not evaluated: {data['message']}"
-    return f"{data['what']} is not evaluated yet; what depends on it is unknown here"
+    if problem.kind == "nested-too-deeply":
+        return f"there are more than {data['limit']} of groups and includes; what is beyond is left out"
+    return f"{data['what']} is not supported yet: it is not run, and its value is unknown here"
 
 
 RULE = Rule(
@@ -19,11 +31,12 @@ RULE = Rule(
     name="not-evaluated",
     severity="info",
     what="Says that something that `roslaunch` accepts is not evaluated here: a part of the language that is not "
-    "supported, an `$(eval ...)` that would need to run code, an entity that a DOCTYPE defines.",
+    "supported yet (the `command` of a parameter; a hint only), an `$(eval ...)` that would need to run code, an "
+    "entity that a DOCTYPE defines, includes and groups without end.",
     why="Values that depend on it are unknown, nodes that need them are not run, and findings that would need them "
     "are left out. It is no error of the file.",
-    example='<param name="now" value="$(eval __import__(\'time\').time())"/>',
-    instead='<param name="now" value="$(arg now)"/>',
-    check=check_problems(_message),
-    problems=("not-supported", "eval-not-allowed", "xml-entity"),
+    example='<param name="letters" value="$(eval [letter for letter in name])"/>',
+    instead='<param name="letters" value="$(eval list(name))"/>',
+    check=_check,
+    problems=("not-supported", "eval-not-allowed", "xml-entity", "nested-too-deeply"),
 )

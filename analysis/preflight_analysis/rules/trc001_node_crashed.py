@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.tree import CommandValue
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
@@ -15,15 +16,18 @@ _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Exit|Interrupt|Warning
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
+    commands = {p.name for p in context.tree.params.values() if isinstance(p.value, CommandValue)}
     for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
         outcome = interface.outcome
         failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
         if not failed:
             continue
-        # After a made-up answer of ours the crash may be our own doing.
-        ours = any(endpoint.speculative for endpoint in interface.endpoints)
+        # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
+        lacking = next((r.name for r in context.graph.param_reads if r.node is node and r.name in commands), None)
+        ours = lacking is not None or any(endpoint.speculative for endpoint in interface.endpoints)
+        note = f"; it asked for '{lacking}', which comes from a command that was not run" if lacking else ""
         yield rule.finding(
-            _message(node.name, outcome),
+            _message(node.name, outcome) + note,
             node_location(node),
             severity="info" if ours else None,
             confidence="possible" if ours else "likely",

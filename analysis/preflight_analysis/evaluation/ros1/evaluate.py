@@ -27,8 +27,9 @@ from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
 from preflight_analysis.launch.check_language import check_language
 from preflight_analysis.launch.model import Action, LaunchFile
 
-MAX_INCLUDE_DEPTH = 60
-MAX_INCLUDES = 5_000
+MAX_DEPTH = 150
+"""Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
+MAX_INCLUDES = 2_000
 """Real launches stay below a few hundred; an include that multiplies itself does not."""
 
 
@@ -83,6 +84,7 @@ def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: 
         state.problem("xml-malformed", scope.origin(problem.span), message=problem.message)
     for name, span in document.entities:
         state.problem("xml-entity", scope.origin(span), fatal=False, name=name)
+        state.unknown(f"&{name};", "entities of a DOCTYPE are not expanded", scope, span)
     root = launch_file.root
     if root is None or launch_file.extra_roots:
         span = launch_file.extra_roots[0] if launch_file.extra_roots else Span(0, min(1, len(document.text)))
@@ -131,6 +133,8 @@ def _group(state: State, scope: Scope, action: Action, default_machine: str | No
     ns = namespace_of(state, scope, action, attributes)
     if ns is None:
         return default_machine
+    if _too_deep(state, scope, action):
+        return default_machine
     inside = scope.child(ns.text)
     inside.private_params = list(inside.private_params)
     clear_params(state, scope, action, attributes, inside, ns.text)
@@ -165,6 +169,8 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     path = os.path.normpath(os.path.join(state.cwd, file.text))
     state.uses.append(Use("include", place, file.text, path, Location(path, Span(0, 0))))
+    if _too_deep(state, scope, action):
+        return default_machine
     found = _included(state, scope, path, passed, scope.origin(file_attribute.value.span))
     if found is None:
         return default_machine
@@ -184,6 +190,18 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
                 name = name_attribute.value.text
                 state.problem("include-arg-undeclared", at, name=name, file=path, declared=declared)
     return default_machine
+
+
+def _too_deep(state: State, scope: Scope, action: Action) -> bool:
+    """Whether to look no further, which is said once: where includes multiply, each of thousands would say so."""
+    if scope.depth <= MAX_DEPTH and len(state.includes) <= MAX_INCLUDES:
+        return False
+    if not state.exhausted:
+        state.exhausted = True
+        limit = f"{MAX_DEPTH} levels" if scope.depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"
+        state.problem("nested-too-deeply", scope.origin(action.kind_span), fatal=False, limit=limit)
+        state.unknown(f"<{action.kind}>", f"there are more than {limit}", scope, action.kind_span)
+    return True
 
 
 def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass_all: bool) -> dict[str, ArgValue]:
@@ -234,9 +252,6 @@ def _included(
     above = [location.file for location in scope.chain] + [scope.file]
     if path in above and _same_args(scope, path, passed):
         state.problem("include-cycle", origin, path=path, chain=[*above[above.index(path) :], path])
-        return None
-    if len(above) > MAX_INCLUDE_DEPTH or len(state.includes) > MAX_INCLUDES:
-        state.problem("include-cycle", origin, path=path, chain=above[-10:])
         return None
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):

@@ -71,6 +71,9 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
     type_attribute = action.value("type")
     type_name = (type_attribute.text if type_attribute else "").lower().strip() or "auto"
     if source == "command":
+        command = action.attribute("command")
+        span = command.value.span if command else action.kind_span
+        state.problem("not-supported", scope.origin(span), fatal=False, what="the command of a parameter")
         return CommandValue(given.text)
     text = given.text.strip()
     if source in ("textfile", "binfile"):

@@ -38,6 +38,8 @@ class Scope:
     """`<arg>` tags seen in this file so far, by name."""
     anonymous: dict[str, str] = field(default_factory=dict)
     pass_all_args: bool = False
+    depth: int = 0
+    """How many scopes are around this one."""
 
     def origin(self, span: Span) -> Origin:
         """The origin of a place in this scope's file."""
@@ -60,6 +62,7 @@ class Scope:
             dict(self.args),
             dict(self.declared),
             dict(self.anonymous),
+            depth=self.depth + 1,
         )
 
     def add_remap(self, remap: Remap) -> None:

@@ -43,6 +43,8 @@ class State:
         self.unknowns: list[Unknown] = []
         self.visited: list[str] = []
         self.inputs: dict[str, str] = {}
+        self.exhausted = False
+        """Whether something was nested too deeply to be evaluated."""
         self._anonymous: dict[str, int] = {}
         self._reported: set[tuple[str, Origin, str]] = set()
 

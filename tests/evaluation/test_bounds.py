@@ -1,0 +1,60 @@
+"""Launch files that would take for ever, or all of the stack."""
+
+from pathlib import Path
+
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+
+def tree_of(folder: Path, files: dict[str, str]) -> LaunchTree:
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    environment = detect_environment(None, {}, [str(folder)])
+    return Workspace(environment, Sources(), str(folder)).static(str(folder / "root.launch")).tree
+
+
+def nested(levels: int, inside: str) -> str:
+    return f"<launch>{'<group>' * levels}{inside}{'</group>' * levels}</launch>"
+
+
+def test_groups_and_includes_nested_too_deeply(tmp_path: Path) -> None:
+    files = {f"f{n}.launch": nested(60, f'<include file="$(dirname)/f{n + 1}.launch"/>') for n in range(10)}
+    tree = tree_of(tmp_path, {"root.launch": '<launch><include file="$(dirname)/f0.launch"/></launch>', **files})
+    assert [p.kind for p in tree.problems] == ["nested-too-deeply"]
+    assert tree.unknowns
+
+
+def test_reasonable_nesting_is_fine(tmp_path: Path) -> None:
+    tree = tree_of(tmp_path, {"root.launch": nested(60, '<param name="a" value="1"/>')})
+    assert (list(tree.problems), list(tree.params)) == ([], ["/a"])
+
+
+def test_an_include_that_multiplies_itself(tmp_path: Path) -> None:
+    twice = '<include file="$(dirname)/root.launch"><arg name="n" value="$(arg n)x"/></include>' * 2
+    tree = tree_of(tmp_path, {"root.launch": f'<launch><arg name="n" default=""/>{twice}</launch>'})
+    assert [p.kind for p in tree.problems] == ["nested-too-deeply"]
+
+
+def test_a_file_that_includes_itself_until_it_has_counted_down(tmp_path: Path) -> None:
+    text = """<launch>
+      <arg name="n" default="20"/>
+      <param name="p$(arg n)" value="1"/>
+      <include file="$(dirname)/root.launch" if="$(eval n > 0)"><arg name="n" value="$(eval n - 1)"/></include>
+    </launch>"""
+    tree = tree_of(tmp_path, {"root.launch": text})
+    assert not tree.problems
+    assert len(tree.params) == 21
+
+
+def test_a_circle_ends_at_its_first_turn(tmp_path: Path) -> None:
+    tree = tree_of(
+        tmp_path,
+        {
+            "root.launch": '<launch><include file="$(dirname)/a.launch"/></launch>',
+            "a.launch": '<launch><include file="$(dirname)/root.launch"/></launch>',
+        },
+    )
+    assert [p.kind for p in tree.problems] == ["include-cycle"]
+    assert len(tree.includes) <= 3
