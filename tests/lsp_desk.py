@@ -253,8 +253,10 @@ async def editing(
     settings: dict[str, Any] | None = None,
     environment: dict[str, str] | None = None,
     folder: Path | None = None,
+    without_folder: bool = False,
 ) -> AsyncIterator[Editor]:
-    """The server, started as editors start it, on the desk's workspace; shut down as editors do it at the end."""
+    """The server, started as editors start it, on the desk's workspace (or on no folder at all); shut down as editors
+    do it at the end."""
     editor = Editor()
     client = client or capabilities()
     offered = (client.general.position_encodings if client.general else None) or ["utf-16"]
@@ -268,8 +270,8 @@ async def editing(
             types.InitializeParams(
                 capabilities=client,
                 process_id=os.getpid(),
-                root_uri=folder.as_uri(),
-                workspace_folders=[types.WorkspaceFolder(folder.as_uri(), folder.name)],
+                root_uri=None if without_folder else folder.as_uri(),
+                workspace_folders=None if without_folder else [types.WorkspaceFolder(folder.as_uri(), folder.name)],
                 initialization_options={"workspaceTrusted": trusted, **(settings or {})},
             )
         )

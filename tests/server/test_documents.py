@@ -254,3 +254,11 @@ async def _agrees(desk: Desk, path: Path, text: str, expected: list[types.Diagno
 
 def _comparable(editor: Editor, path: Path) -> list[tuple[object, types.Range, str]]:
     return [(d.code, d.range, d.message) for d in editor.diagnostics(path) or ()]
+
+
+async def test_a_file_without_a_folder_finds_the_workspace_around_it(desk: Desk) -> None:
+    async with editing(desk, trusted=True, without_folder=True) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert "chatter" in found.message
+        assert editor.rules(desk.launch_file) == ["TOP001"]

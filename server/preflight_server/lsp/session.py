@@ -189,9 +189,11 @@ class Session:
         return self._workspace
 
     async def _detect(self) -> None:
-        folder, package_path = self._folder, self.settings.package_path
+        package_path = self.settings.package_path
+        # An editor that opened a file and no folder: the workspace is the one around the file.
+        place = self._folder or next(iter(self._focus), None)
         try:
-            environment = await self.in_pool(lambda: detect(folder, package_path=package_path))
+            environment = await self.in_pool(lambda: detect(place, package_path=package_path))
         finally:
             self._detecting = None
         if package_path == self.settings.package_path:
