@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
-from preflight_analysis.environment.detect import detect
+from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import all_rules
@@ -100,6 +100,9 @@ class Session:
         self._sources.open(document.path, document.text)
         if is_launch_file(document):
             self._focus = [document.path, *(p for p in self._focus if p != document.path)]
+            if self._folder is None:
+                # An editor that opened a file and no folder: the workspace is the one around the file.
+                self._folder, self._workspace = workspace_of(document.path), None
         else:
             self._forget(document.path)
         self._touch([document.path], document.path, quiet=quiet)
@@ -189,14 +192,12 @@ class Session:
         return self._workspace
 
     async def _detect(self) -> None:
-        package_path = self.settings.package_path
-        # An editor that opened a file and no folder: the workspace is the one around the file.
-        place = self._folder or next(iter(self._focus), None)
+        folder, package_path = self._folder, self.settings.package_path
         try:
-            environment = await self.in_pool(lambda: detect(place, package_path=package_path))
+            environment = await self.in_pool(lambda: detect(folder, package_path=package_path))
         finally:
             self._detecting = None
-        if package_path == self.settings.package_path:
+        if (folder, package_path) == (self._folder, self.settings.package_path):
             self._workspace = Workspace(environment, self._sources)
             self.runs.set_environment(environment)
 
