@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import threading
 import time
 import uuid
@@ -280,6 +282,53 @@ def test_cancelling_kills_the_run(tmp_path: Path) -> None:
     assert (found.outcome.status, found.outcome.reason) == ("not-run", "the run was cancelled")
     assert time.monotonic() - began < 2
     assert processes_with(marker) == []
+
+
+HOST = """
+import sys, threading
+from pathlib import Path
+from tracing_desk import trace
+print("tracing", flush=True)
+trace(Path(sys.argv[1]))
+"""
+
+
+def nothing_left(folder: Path) -> bool:
+    """Whether no sandbox and no node of this folder runs, or stops running soon."""
+    deadline = time.monotonic() + 3
+    while processes_with(str(folder)) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    return processes_with(str(folder)) == []
+
+
+@pytest.mark.parametrize("milliseconds", [0, 2, 4, 8, 12, 18, 25, 40, 80, 400])
+def test_when_the_host_is_killed_the_sandbox_dies_too(tmp_path: Path, milliseconds: int) -> None:
+    """Also while bubblewrap is setting it up, when its --die-with-parent does not work yet."""
+    script = write_node(tmp_path, "import time\ntime.sleep(60)\n")
+    folders = [str(Path(__file__).parents[1]), *sys.path]
+    host = subprocess.Popen(
+        [sys.executable, "-c", HOST, str(script)],
+        env=dict(os.environ, PYTHONPATH=os.pathsep.join(folders)),
+        stdout=subprocess.PIPE,
+    )
+    assert host.stdout is not None
+    assert host.stdout.readline() == b"tracing\n"
+    time.sleep(milliseconds / 1000)
+    host.kill()
+    host.wait()
+    host.stdout.close()
+    assert nothing_left(tmp_path)
+
+
+@pytest.mark.parametrize("milliseconds", [0, 1, 2, 3, 5, 8, 12, 20])
+def test_cancelling_at_the_start_leaves_nothing(tmp_path: Path, milliseconds: int) -> None:
+    script = write_node(tmp_path, "import time\ntime.sleep(60)\n")
+    cancel = threading.Event()
+    tracer = Tracer(environment(tmp_path), None)
+    sandbox.probe()
+    threading.Timer(milliseconds / 1000, cancel.set).start()
+    assert tracer.trace(request(script), cancel).outcome.status == "not-run"
+    assert nothing_left(tmp_path)
 
 
 @pytest.mark.parametrize("present", [True, False])

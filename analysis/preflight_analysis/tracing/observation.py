@@ -241,6 +241,8 @@ def _own(record: Mapping[str, Any], found: _Gathered) -> bool:
             if name is None or len(found.lookups) >= MAX_ENDPOINTS:
                 return False
             found.lookups.append(name)
+        case "started":
+            pass
         case "maps":
             _add_files(_paths(record.get("paths")), found)
         case "end":

@@ -49,6 +49,9 @@ _PROCESSES_SHARED = 8192
 """Before Linux 5.14 the limit counts all of the user's processes, not only those of the sandbox."""
 
 _POLL = 0.05
+_START_SECONDS = 2.0
+"""How long a cancelled run may take to start. bubblewrap killed while it sets up its name spaces leaves their first
+process behind, waiting for it; so the kill waits for the supervisor's first word, some 20 ms."""
 
 
 @dataclass(slots=True)
@@ -152,11 +155,13 @@ def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event
             os.set_blocking(pipe.fileno(), False)
             selector.register(pipe, selectors.EVENT_READ)
         while selector.get_map():
-            if cancel.is_set():
+            if cancel.is_set() and not raw.cancelled:
                 raw.cancelled = True
+                deadline = time.monotonic() + _START_SECONDS
+            if raw.cancelled and raw.records:
                 return
             if time.monotonic() > deadline:
-                raw.killed = True
+                raw.killed = not raw.cancelled
                 return
             for key, _ in selector.select(_POLL):
                 data = os.read(key.fd, 65536)

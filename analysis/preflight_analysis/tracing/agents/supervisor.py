@@ -205,8 +205,25 @@ def _exec(job: dict[str, Any], failure: int) -> None:
 
 
 def main() -> None:
-    """Run the job and end, and with it everything in the sandbox."""
+    """Run the job and end, and with it everything in the sandbox, whatever happens."""
+    try:
+        _main()
+    finally:
+        # bubblewrap's process 1 stays for as long as it has children, and dies with its own parent only once it has
+        # asked for that: a host that was killed while the sandbox started would leave the node behind.
+        try:
+            if os.getpid() == 2:
+                os.kill(-1, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        finally:
+            os._exit(0)
+
+
+def _main() -> None:
     job = json.load(sys.stdin)
+    if _host_is_gone():
+        return
     for folder in job["folders"]:
         os.makedirs(folder, exist_ok=True)
     os.mkfifo(FIFO, 0o600)
@@ -222,6 +239,7 @@ def main() -> None:
     signal.set_wakeup_fd(wake_write)
     signal.signal(signal.SIGCHLD, lambda *_: None)
     run = Run(job)
+    run.emit({"own": {"ev": "started"}})
     pid = os.fork()
     if pid == 0:
         _exec(job, failure_write)
@@ -254,7 +272,13 @@ def main() -> None:
             }
         }
     )
-    os._exit(0)
+
+
+def _host_is_gone() -> bool:
+    """Whether nobody reads our output any more."""
+    poll = select.poll()
+    poll.register(1, 0)
+    return bool(poll.poll(0))
 
 
 def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
@@ -271,7 +295,7 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
         rest = _drain(run, events, rest)
         if ended is not None:
             return "ended", ended, ""
-        reason = run.over()
+        reason = "abandoned" if _host_is_gone() else run.over()
         if reason is not None:
             return reason, None, ""
 
