@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import pytest
-
 from preflight_analysis.tracing import agents
 
 FILES = sorted(Path(agents.__file__).parent.glob("*.py"))
