@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
 
-.PHONY: help setup demo test lint bench corpus vsix test-editors docs clean
+.PHONY: help setup apt demo test lint bench corpus vsix test-editors docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -16,7 +16,9 @@ $(READY): pyproject.toml
 	$(BIN)/python -m pip install --quiet --editable . --group dev
 	touch $(READY)
 
-setup: $(READY) ## Debian packages (where allowed) and a virtual environment in .venv
+setup: apt $(READY) ## Debian packages (where allowed) and a virtual environment in .venv
+
+apt:
 	@.ci/apt-install
 
 demo: setup ## trace two real nodes in the sandbox and show what is wrong with their launch file
