@@ -40,10 +40,11 @@ bench: setup ## editing latency and the time of a trace, as ratios
 	$(BIN)/python bench/editing.py
 	$(BIN)/python bench/trace.py
 
+corpus: CORPUS = $(realpath ../shared/corpus/ros1)
 corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslaunch has them
 	@mkdir -p out
-	$(BIN)/ros-preflight tree --no-run --batch ../shared/corpus/ros1/jobs.jsonl > out/ros1.jsonl
-	$(BIN)/python ../shared/tools/compare_ros1.py --root $$(realpath ../shared/corpus/ros1) ../shared/corpus/ros1/expected.jsonl out/ros1.jsonl
+	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
+	$(BIN)/python ../shared/tools/compare_ros1.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
 
 vsix: ## the VS Code extension, out/ros-preflight.vsix
 	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package
