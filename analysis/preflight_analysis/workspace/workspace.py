@@ -62,7 +62,7 @@ class Workspace:
             known = self._static.get(key)
         if known is not None and self._unchanged(known.tree):
             return known
-        tree = evaluate(path, args, self.sources, self._executables, self.environment, self._cwd)
+        tree = self.tree(path, args)
         documents, launch_files = self._documents(tree)
         context = Context(path, tree, documents, launch_files, self.environment)
         findings = tuple(run_rules(context))
@@ -70,6 +70,10 @@ class Workspace:
         with self._lock:
             self._static[key] = analysis
         return analysis
+
+    def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
+        """What `path` launched with `args` would start; not remembered."""
+        return evaluate(path, args, self.sources, self._executables, self.environment, self._cwd)
 
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""

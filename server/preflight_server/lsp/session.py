@@ -18,6 +18,7 @@ from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import all_rules
+from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -40,11 +41,14 @@ PAUSE_AFTER_TYPING = 0.5
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """An open launch file as one request sees it: its text, the analysis of a root that reaches it, its findings."""
+    """An open launch file as one request sees it: its text, the analysis of the root in whose context it is shown,
+    those of all roots that reach it (the shown one first), its findings, and the index of the workspace."""
 
     document: OpenDocument
     path: str
     analysis: Analysis
+    analyses: tuple[Analysis, ...]
+    index: WorkspaceIndex
     findings: tuple[Finding, ...]
     converter: Converter
 
@@ -71,6 +75,7 @@ class Session:
         self._workspace: Workspace | None = None
         self._analyses: dict[str, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}
+        self._index = WorkspaceIndex()
         self._focus: list[str] = []
         """Paths of open launch files, the one that was last opened or edited first."""
         self._dirty: dict[str, int] = {}
@@ -165,7 +170,9 @@ class Session:
         if analysis is None or parsed is None or parsed.text != document.text:
             return None
         converter = Converter(self._server.texts, analysis.documents)
-        return View(document, document.path, analysis, self._findings.get(document.path, ()), converter)
+        analyses = (analysis, *(a for a in self.roots() if a is not analysis and document.path in a.documents))
+        findings = self._findings.get(document.path, ())
+        return View(document, document.path, analysis, analyses, self._index, findings, converter)
 
     async def settled(self) -> None:
         """Wait until what was typed so far is analysed."""

@@ -1,0 +1,143 @@
+"""What one launch file mentions, by its syntax alone: small enough to be kept for every file of a workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.references import arg_references
+
+Kind = Literal[
+    "arg-declaration",
+    "arg-use",
+    "arg-passed",
+    "package",
+    "executable",
+    "include",
+    "node",
+    "param",
+    "remap-from",
+    "remap-to",
+    "env",
+    "machine",
+]
+"""`package`: in `pkg=` or `$(find)`; `executable`: `pkg/type`; `include`: the text of `file=`, unresolved; `node`,
+`param` and remaps: the name as written; `env`: in `$(env)`, `$(optenv)` or an `<env>` tag; `machine`: declared or
+used."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """A name at a place. `action` is the start tag that it stands in: for `arg-passed` that of the include."""
+
+    kind: Kind
+    name: str
+    span: Span
+    action: Span
+
+
+@dataclass(frozen=True, slots=True)
+class ArgDeclaration:
+    """An `<arg>` tag of the file, under whatever condition. `default` and `value` as written."""
+
+    name: str
+    default: str | None
+    value: str | None
+    doc: str | None
+    span: Span
+
+    @property
+    def required(self) -> bool:
+        """Whether it has to be given."""
+        return self.default is None and self.value is None
+
+
+@dataclass(frozen=True, slots=True)
+class FileFacts:
+    """What the index keeps of a launch file. `digest` names the text that it was read from."""
+
+    path: str
+    digest: str
+    args: tuple[ArgDeclaration, ...]
+    mentions: tuple[Mention, ...]
+    has_nodes: bool
+
+    def named(self, kind: Kind, name: str) -> Iterator[Mention]:
+        """The mentions of a name."""
+        return (m for m in self.mentions if m.kind == kind and m.name == name)
+
+
+def facts_of(launch_file: LaunchFile) -> FileFacts:
+    """The facts of a file, whether well-formed or not."""
+    root = launch_file.root
+    mentions = tuple(_mentions(root, None)) if root is not None else ()
+    args = tuple(_declaration(action) for action in _declarations(root)) if root is not None else ()
+    has_nodes = any(m.kind == "executable" for m in mentions)
+    return FileFacts(launch_file.path, launch_file.document.digest, args, mentions, has_nodes)
+
+
+def _declarations(action: Action) -> Iterator[Action]:
+    for child in action.children:
+        if child.kind == "arg" and child.attribute("name") is not None:
+            yield child
+        elif child.kind == "group":
+            yield from _declarations(child)
+
+
+def _declaration(action: Action) -> ArgDeclaration:
+    texts = {a.name: a.value.text for a in action.attributes}
+    span = next(a.value.span for a in action.attributes if a.name == "name")
+    return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), texts.get("doc"), span)
+
+
+def _mentions(action: Action, parent: Action | None) -> Iterator[Mention]:
+    for attribute in action.attributes:
+        yield from _of_attribute(action, attribute, parent)
+        if attribute.value.problem is None and "$" in attribute.value.text:
+            for name, span in arg_references(attribute.value):
+                yield Mention("arg-use", name, span, action.head_span)
+            for part in attribute.value.substitutions:
+                if part.command == "find":
+                    yield Mention("package", part.arguments, part.arguments_span, action.head_span)
+                elif part.command in ("env", "optenv"):
+                    name = part.arguments.split(" ", 1)[0]
+                    span = Span(part.arguments_span.start, part.arguments_span.start + len(name))
+                    yield Mention("env", name, span, action.head_span)
+    if "$" in action.body.text:
+        for name, span in arg_references(action.body):
+            yield Mention("arg-use", name, span, action.head_span)
+    for child in action.children:
+        yield from _mentions(child, action)
+
+
+def _of_attribute(action: Action, attribute: ActionAttribute, parent: Action | None) -> Iterator[Mention]:
+    def mention(kind: Kind, name: str = attribute.value.text) -> Mention:
+        where = parent.head_span if kind == "arg-passed" and parent is not None else action.head_span
+        return Mention(kind, name, attribute.value.span, where)
+
+    match action.kind, attribute.name:
+        case "arg", "name":
+            passed = parent is not None and parent.kind == "include"
+            yield mention("arg-passed" if passed else "arg-declaration")
+        case "node" | "test", "pkg":
+            yield mention("package")
+        case "node" | "test", "type":
+            package = action.value("pkg")
+            yield mention("executable", f"{package.text if package else ''}/{attribute.value.text}")
+        case ("node", "name") | ("test", "name" | "test-name"):
+            yield mention("node")
+        case "node" | "test" | "machine", "machine" | "name":
+            yield mention("machine")
+        case "include", "file":
+            yield mention("include")
+        case "param", "name":
+            yield mention("param")
+        case "remap", "from":
+            yield mention("remap-from")
+        case "remap", "to":
+            yield mention("remap-to")
+        case "env", "name":
+            yield mention("env")

@@ -1,0 +1,179 @@
+"""Making the workspace index, and bringing it up to date when files change."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.walk import walk
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.workspace.facts import FileFacts, facts_of
+from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
+from preflight_analysis.workspace.workspace import Workspace
+
+SUFFIXES = (".launch", ".launch.xml", ".test")
+"""Launch files by their name; any other file is one if a launch file includes it."""
+SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"})
+"""Folders right below the workspace that hold copies of what is in its source."""
+
+Report = Callable[[int, int, str], None]
+"""How many of how many are done, and the path that is next."""
+
+
+def build_index(
+    workspace: Workspace,
+    folder: str | None,
+    named: Sequence[Root] = (),
+    *,
+    previous: WorkspaceIndex | None = None,
+    changed: Collection[str] | None = None,
+    report: Report = lambda done, total, path: None,
+    cancelled: Callable[[], bool] = lambda: False,
+) -> WorkspaceIndex | None:
+    """The index of the launch files below `folder`; None when `cancelled()`.
+
+    `named` are the roots that the settings name. With `previous`, only what depends on the files in `changed` is
+    looked at again (None: everything). Runs in a thread of its own for as long as it takes; never raises for what
+    files contain.
+    """
+    known = previous if previous is not None and changed is not None else WorkspaceIndex()
+    stale = frozenset(changed or ())
+    paths = _launch_files(folder) if folder is not None else []
+    maker = _Maker(workspace, known, stale, report, len(paths))
+    for path in paths:
+        if cancelled():
+            return None
+        maker.read(path)
+    includes_written = frozenset(i.target for i in maker.written if i.target != i.includer)
+    named_paths = {root.path for root in named}
+    candidates = [*named, *(Root(p) for p in paths if p not in includes_written and p not in named_paths)]
+    for root in candidates:
+        if cancelled():
+            return None
+        maker.enter(root)
+    # A file that only a false condition includes, or files that include each other in a circle, are reached by no one.
+    for path in paths:
+        if cancelled():
+            return None
+        if path not in maker.reached:
+            maker.enter(Root(path))
+    maker.drop_included(keep=frozenset(named))
+    maker.read_reached()
+    return WorkspaceIndex(maker.files, maker.entries, tuple(maker.written), complete=True)
+
+
+def entry_of(tree: LaunchTree, root: Root) -> RootEntry:
+    """What the index keeps of a tree."""
+    inclusions = tuple(
+        Inclusion(os.path.normpath(i.path), i.file_location, i.origin[-1], dict(i.args), root)
+        for i in tree.includes
+        if i.path is not None
+    )
+    nodes = tuple(NodeEntry(n.name, n.package, n.executable, n.location) for n in tree.nodes)
+    return RootEntry(root, tree.files, tree.inputs, inclusions, nodes)
+
+
+class _Maker:
+    def __init__(
+        self,
+        workspace: Workspace,
+        known: WorkspaceIndex,
+        stale: frozenset[str],
+        report: Report,
+        total: int,
+    ) -> None:
+        self._workspace = workspace
+        self._known = known
+        self._stale = stale
+        self._report = report
+        self._total = total
+        self._packages = {name: package.share for name, package in workspace.environment.packages.items()}
+        self._written_before: dict[str, list[Inclusion]] = {}
+        for inclusion in known.written:
+            self._written_before.setdefault(inclusion.includer, []).append(inclusion)
+        self.files: dict[str, FileFacts] = {}
+        self.entries: dict[Root, RootEntry] = {}
+        self.written: list[Inclusion] = []
+        self.reached: set[str] = set()
+
+    def read(self, path: str) -> None:
+        """The facts of one file, and the includes that its text shows."""
+        facts = self._known.files.get(path) if path not in self._stale else None
+        if facts is not None:
+            self.files[path] = facts
+            self.written += self._written_before.get(path, ())
+            return
+        found = self._workspace.sources.launch_file(path)
+        if isinstance(found, Unreadable) or found.root is None:
+            return
+        self.files[path] = facts_of(found)
+        self.written += written_includes(found, self._packages)
+
+    def enter(self, root: Root) -> None:
+        """Evaluate a root, unless nothing of it changed."""
+        entry = self._known.entries.get(root)
+        if entry is None or not self._stale.isdisjoint(entry.inputs):
+            self._report(len(self.reached), self._total, root.path)
+            entry = entry_of(self._workspace.tree(root.path, dict(root.args)), root)
+        self.entries[root] = entry
+        self.reached.update(entry.files)
+
+    def drop_included(self, keep: frozenset[Root]) -> None:
+        """Roots that turned out to be included, by an include whose file only the evaluation could tell."""
+        reaching: dict[str, set[Root]] = {}
+        for root, entry in self.entries.items():
+            for path in entry.files:
+                reaching.setdefault(path, set()).add(root)
+        for root in list(self.entries):
+            # Of files that include each other in a circle the last one stays.
+            if root not in keep and any(r != root and r in self.entries for r in reaching.get(root.path, ())):
+                del self.entries[root]
+
+    def read_reached(self) -> None:
+        """Facts of the files outside of the folder, or of another name, that some root includes."""
+        for entry in self.entries.values():
+            for path in entry.files:
+                if path not in self.files:
+                    self.read(path)
+
+
+def written_includes(launch_file: LaunchFile, packages: Mapping[str, str]) -> Iterator[Inclusion]:
+    """The includes of a file whose target its text tells: literal paths, `$(find package)/...` and `$(dirname)/...`."""
+    if launch_file.root is None:
+        return
+    for action in launch_file.root.walk():
+        if action.kind == "include" and (file := action.value("file")) is not None:
+            target = _written_path(file, launch_file.path, packages)
+            if target is not None:
+                place, tag = Location(launch_file.path, file.span), Location(launch_file.path, action.head_span)
+                yield Inclusion(target, place, tag, _no_args(action), None)
+
+
+def _no_args(action: Action) -> dict[str, str | None]:
+    return {name.text: None for child in action.children if child.kind == "arg" and (name := child.value("name"))}
+
+
+def _written_path(value: Value, path: str, packages: Mapping[str, str]) -> str | None:
+    text = ""
+    for part in value.parts:
+        if isinstance(part, Literal):
+            text += part.text
+        elif part.command == "find" and part.arguments in packages:
+            text += packages[part.arguments]
+        elif part.command == "dirname":
+            text += os.path.dirname(path)
+        else:
+            return None
+    return os.path.normpath(text) if os.path.isabs(text) else None
+
+
+def _launch_files(folder: str) -> list[str]:
+    return [
+        os.path.join(place, name)
+        for place, _, names in walk(folder, SKIPPED)
+        for name in names
+        if name.endswith(SUFFIXES)
+    ]
