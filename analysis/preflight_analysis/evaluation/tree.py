@@ -53,6 +53,8 @@ class Remap:
     source_location: Location
     target_location: Location
     inside_node: bool
+    replaces: tuple[Remap, ...] = ()
+    """Earlier or outer remaps of the same name that this one took the place of, for the same nodes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +132,7 @@ class Use:
 
     `kind` is `arg` (a reference or declaration), `find` (a package), `env`, `include` (a file), `value` (an attribute
     with substitutions), `executable`, `anon`, `dirname`, `eval`. `value` is what it came to, None if unknown.
-    `target` is the place it leads to.
+    `target` is the place it leads to. `clear_params` is that attribute where it is true: `value` is the namespace.
     """
 
     kind: str

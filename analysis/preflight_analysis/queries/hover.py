@@ -136,6 +136,8 @@ def _use(analysis: Analysis, use: Use) -> str:
         text = f"package `{use.name}`: {value}"
     elif use.kind == "env":
         text = f"environment variable `{use.name}` = {value}"
+    elif use.kind == "clear_params":
+        text = f"parameters below {value} are deleted before the launch sets any"
     else:
         text = f"`{use.name}` = {value}" if use.name else value
     chain = _chain(analysis, use.origin)

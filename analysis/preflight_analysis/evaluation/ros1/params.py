@@ -28,7 +28,8 @@ def set_param(state: State, param: Param) -> None:
     """Set a parameter as the last one to do so; what it replaces is kept with it."""
     old = state.params.pop(param.name, None)
     if old is not None:
-        param = Param(param.name, param.value, param.origin, param.owner, param.name_location, (*old.overrides, old))
+        overrides = (*old.overrides, old, *param.overrides)
+        param = Param(param.name, param.value, param.origin, param.owner, param.name_location, overrides)
     state.params[param.name] = param
 
 

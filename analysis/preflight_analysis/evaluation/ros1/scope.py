@@ -6,7 +6,7 @@ held by a test against the real one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.names import as_namespace, join
@@ -67,7 +67,9 @@ class Scope:
 
     def add_remap(self, remap: Remap) -> None:
         """A later remap of the same name replaces the earlier one."""
-        self.own_remaps = [r for r in self.own_remaps if r.source != remap.source]
+        for old in [r for r in self.own_remaps if r.source == remap.source]:
+            self.own_remaps.remove(old)
+            remap = replace(remap, replaces=(*old.replaces, old))
         self.own_remaps.append(remap)
 
     def remaps(self) -> list[Remap]:
@@ -75,10 +77,19 @@ class Scope:
         if self.parent is None:
             return list(self.own_remaps)
         own = {r.source for r in self.own_remaps}
-        return [r for r in self.parent.remaps() if r.source not in own] + self.own_remaps
+        outer = self.parent.remaps()
+        hidden = {r.source: r for r in outer if r.source in own}
+        if not hidden:
+            return outer + self.own_remaps
+        inner = (
+            replace(r, replaces=(*old.replaces, old, *r.replaces)) if (old := hidden.get(r.source)) else r
+            for r in self.own_remaps
+        )
+        return [r for r in outer if r.source not in own] + list(inner)
 
     def add_private(self, param: Param) -> None:
         """A `~param` for the nodes that come later in this scope."""
         for old in [p for p in self.private_params if p.name == param.name]:
             self.private_params.remove(old)
+            param = replace(param, overrides=(*old.overrides, old))
         self.private_params.append(param)

@@ -146,9 +146,12 @@ def clear_params(
     """The attribute `clear_params`: parameters below the namespace are deleted before the launch."""
     if not attributes.text("clear_params") or not attributes.convert("clear_params", False, values.to_flag):
         return
-    if node is not None:
-        state.clear_params.append(names.as_namespace(names.join(inside.ns, node)))
-    elif not ns:
+    if node is None and not ns:
         state.problem("missing-attribute", scope.origin(action.kind_span), tag=action.kind, names=["ns"])
-    else:
-        state.clear_params.append(inside.ns)
+        return
+    cleared = inside.ns if node is None else names.as_namespace(names.join(inside.ns, node))
+    state.clear_params.append(cleared)
+    attribute = action.attribute("clear_params")
+    if attribute is not None and attributes.all_known:
+        place, origin = Location(scope.file, attribute.span), scope.origin(action.head_span)
+        state.uses.append(Use("clear_params", place, attribute.value.text, cleared, origin=origin))
