@@ -15,6 +15,9 @@ all files are compared with the expectations: nothing may be missing and nothing
 Interfaces come from annotations in the launch files or from a section `//- interfaces` with JSON by node name:
 `{"/talker": {"publishers": {"chatter": "std_msgs/String"}, "params": {"~rate": 10}}}`, see `interface_from_json`.
 Without either there is no graph.
+
+A section `//- commands` has, by command line, what the commands of parameters gave, as the fields of `CommandResult`:
+`{"xacro r.xacro": {"output": "<robot/>"}}`. One that is not in it has yet to be run.
 """
 
 from __future__ import annotations
@@ -30,6 +33,7 @@ from typing import Any
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.tree import Executable, LaunchTree
 from preflight_analysis.findings.finding import Edit, Finding
@@ -72,7 +76,22 @@ class Fixture:
     files: Mapping[str, str]
     root: str
     interfaces: Mapping[str, Any] | None
+    commands: Mapping[str, Any]
     expected: tuple[Expectation, ...]
+
+
+class _Results:
+    """What the fixture says of its commands."""
+
+    def __init__(self, given: Mapping[str, Any]) -> None:
+        self._given = given
+
+    def result(self, line: str) -> CommandResult | None:
+        data = self._given.get(line)
+        if data is None:
+            return None
+        tail = tuple(data.get("stderr_tail", ()))
+        return CommandResult(data.get("status", "done"), data.get("output", ""), data.get("reason", ""), tail)
 
 
 class _EveryExecutable:
@@ -104,8 +123,9 @@ def read_fixture(text: str) -> Fixture:
         else:
             files.setdefault(path, []).append(line)
     texts = {name: "\n".join(lines) + "\n" for name, lines in files.items()}
-    interfaces = texts.pop("interfaces", None)
-    return Fixture(texts, next(iter(texts)), json.loads(interfaces) if interfaces else None, tuple(expected))
+    interfaces, commands = texts.pop("interfaces", None), texts.pop("commands", "{}")
+    given = json.loads(interfaces) if interfaces else None
+    return Fixture(texts, next(iter(texts)), given, json.loads(commands), tuple(expected))
 
 
 def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run: str | None = None) -> Context:
@@ -114,7 +134,8 @@ def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run
     for path, text in fixture.files.items():
         sources.open(path, text)
     environment = _environment(fixture)
-    tree = evaluate(fixture.root, args or {}, sources, _EveryExecutable(environment), environment, "/")
+    executables, results = _EveryExecutable(environment), _Results(fixture.commands)
+    tree = evaluate(fixture.root, args or {}, sources, executables, environment, "/", results)
     documents: dict[str, Document] = {}
     launch_files = {}
     for path in (*tree.files, *tree.inputs):

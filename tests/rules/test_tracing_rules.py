@@ -30,12 +30,14 @@ def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
     check("""
         <launch>
           <param name="robot_description" command="xacro robot.xacro"/>
-                                                   ^^^^^^^^^^^^^^^^^ hint[LCH018] is not supported yet
+                                                   ^^^^^^^^^^^^^^^^^ hint[LCH018] was not run
           <node pkg="p" type="t" name="n"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/robot_description', which comes from a command
         </launch>
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "params": {"/robot_description": null}}}
+        //- commands
+        {"xacro robot.xacro": {"status": "not-run", "reason": "--no-run was given"}}
     """)
 
 

@@ -20,7 +20,6 @@ KINDS: dict[str, str] = {
     "attributes-exclude": "tag, names (list of those given). fatal",
     "bad-value": "tag, attribute, value, expected (a phrase), choices (list, may be empty). fatal",
     "invalid-name": "what (node, arg, ...), name, reason. fatal",
-    "not-supported": "what: valid for roslaunch, not evaluated by us yet; what depends on it is unknown",
     "ignored-child": "tag, parent: <include> takes only arg and env; roslaunch drops the rest with a warning",
     # substitutions
     "bad-substitution": "text, message. fatal",
@@ -44,6 +43,10 @@ KINDS: dict[str, str] = {
     "param-file-not-found": "path, tag, attribute: textfile, binfile or rosparam file. fatal",
     "param-file-unreadable": "path, tag, attribute, reason. fatal",
     "bad-yaml": "message, path (None when inline). fatal",
+    "command-malformed": "command, message: it cannot be split into words. fatal",
+    "command-failed": "command, reason, stderr (list of lines): it was run and had no success. fatal",
+    "command-missing": "command, reason: its program is not there. fatal",
+    "command-not-run": "command, reason",
     # nodes
     "duplicate-node": "name, first (Location). fatal",
     "machine-undefined": "name, declared (list). fatal",

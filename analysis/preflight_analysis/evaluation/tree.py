@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.launch.model import Action
 
 ParamValue = Any
@@ -15,9 +16,26 @@ ParamValue = Any
 
 @dataclass(frozen=True, slots=True)
 class CommandValue:
-    """The value of `<param command=...>` that was not run."""
+    """The value of `<param command=...>` that was not run. `reason` says why not, None if it has yet to be."""
 
     command: str
+    reason: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command that roslaunch would run for the value of a parameter; `origin` ends at the command line."""
+
+    line: str
+    param: str
+    origin: Origin
+    result: CommandResult | None
+    """The one that the tree was made with."""
+
+    @property
+    def location(self) -> Location:
+        """Where the command line is written."""
+        return self.origin[-1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +211,8 @@ class LaunchTree:
     files: tuple[str, ...]
     """The root and every included file that was evaluated, in order of first appearance."""
     inputs: Mapping[str, str] = field(default_factory=dict)
+    commands: tuple[Command, ...] = ()
+    """In the order in which roslaunch would run them."""
 
     @property
     def complete(self) -> bool:

@@ -239,7 +239,7 @@ def _read(analysis: Analysis, graph: Graph, node: LaunchNode, use: ParamUse) -> 
 
 def _value(value: ParamValue) -> str:
     if isinstance(value, CommandValue):
-        return f"what `{value.command}` prints"
+        return f"what `{value.command}` prints" + (f" ({value.reason})" if value.reason else "")
     if isinstance(value, bytes):
         return f"{len(value)} bytes"
     if value is None:

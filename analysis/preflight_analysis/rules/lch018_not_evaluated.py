@@ -11,7 +11,7 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(rule, context):
         # Every robot description is made by a command: said, but quietly.
-        severity: Severity | None = "hint" if problem.kind == "not-supported" else None
+        severity: Severity | None = "hint" if problem.kind == "command-not-run" else None
         yield problem_finding(rule, problem, _message(problem), severity=severity)
 
 
@@ -23,20 +23,20 @@ def _message(problem: Problem) -> str:
         return f"$(eval {data['expression']}) is not evaluated: {data['message']}"
     if problem.kind == "nested-too-deeply":
         return f"there are more than {data['limit']} of groups and includes; what is beyond is left out"
-    return f"{data['what']} is not supported yet: it is not run, and its value is unknown here"
+    return f"the command was not run, and its value is unknown here: {data['reason']}"
 
 
 RULE = Rule(
     id="LCH018",
     name="not-evaluated",
     severity="info",
-    what="Says that something that `roslaunch` accepts is not evaluated here: a part of the language that is not "
-    "supported yet (the `command` of a parameter; a hint only), an `$(eval ...)` that would need to run code, an "
-    "entity that a DOCTYPE defines, includes and groups without end.",
+    what="Says that something that `roslaunch` accepts is not evaluated here: the `command` of a parameter that was "
+    "not run (a hint only; commands are run in the sandbox, if the workspace is trusted), an `$(eval ...)` that would "
+    "need to run code, an entity that a DOCTYPE defines, includes and groups without end.",
     why="Values that depend on it are unknown, nodes that need them are not run, and findings that would need them "
     "are left out. It is no error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',
     instead='<param name="letters" value="$(eval list(name))"/>',
     check=_check,
-    problems=("not-supported", "eval-not-allowed", "xml-entity", "nested-too-deeply"),
+    problems=("command-not-run", "eval-not-allowed", "xml-entity", "nested-too-deeply"),
 )

@@ -9,6 +9,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
@@ -31,6 +32,7 @@ MAX_DEPTH = 150
 """Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
 MAX_INCLUDES = 2_000
 """Real launches stay below a few hundred; an include that multiplies itself does not."""
+NO_RESULTS = NoResults()
 
 
 def evaluate(
@@ -40,13 +42,15 @@ def evaluate(
     executables: Executables,
     environment: Environment,
     cwd: str,
+    commands: Commands = NO_RESULTS,
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
-    paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing.
+    paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing: the values
+    of commands are those of `commands`, and what it does not know stands in the tree's `commands`.
     """
-    state = State(files, executables, environment, cwd)
+    state = State(files, executables, environment, cwd, commands)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
     whole = (Location(path, Span(0, 0)),)
@@ -74,6 +78,7 @@ def evaluate(
         tuple(state.unknowns),
         tuple(state.visited),
         state.inputs,
+        tuple(state.commands),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +16,7 @@ from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import resolve
-from preflight_analysis.evaluation.tree import CommandValue, Param, Use
+from preflight_analysis.evaluation.tree import Command, CommandValue, Param, Use
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.substitutions import parse_value
@@ -49,7 +50,8 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
     name = names.canonicalize(found[0].text.strip())
     name_attribute = action.attribute("name")
     location = Location(scope.file, name_attribute.value.span) if name_attribute else None
-    value = _value(state, scope, action, attributes, given[0])
+    full = names.join(node, name.removeprefix("~")) if node is not None else name
+    value = _value(state, scope, action, attributes, given[0], full)
     if isinstance(value, _NoValue):
         state.unknown(f"parameter {name}", value.reason, scope, action.kind_span)
         return
@@ -65,18 +67,18 @@ class _NoValue:
     reason: str
 
 
-def _value(state: State, scope: Scope, action: Action, attributes: Attributes, source: str) -> Any:
+def _value(state: State, scope: Scope, action: Action, attributes: Attributes, source: str, param: str) -> Any:
     given = attributes.get(source)
     if given is None or not given.known:
         return _NoValue("its value is not known")
     type_attribute = action.value("type")
     type_name = (type_attribute.text if type_attribute else "").lower().strip() or "auto"
-    if source == "command":
-        command = action.attribute("command")
-        span = command.value.span if command else action.kind_span
-        state.problem("not-supported", scope.origin(span), fatal=False, what="the command of a parameter")
-        return CommandValue(given.text)
     text = given.text.strip()
+    if source == "command":
+        printed = _printed(state, scope, action, given.text, param)
+        if not isinstance(printed, str):
+            return printed
+        text = printed
     if source in ("textfile", "binfile"):
         path = os.path.join(state.cwd, given.text)
         found = state.read_text(path) if source == "textfile" else state.read_data(path)
@@ -93,6 +95,30 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
         attribute = source if type_name in values.TYPES else "type"
         attributes.bad_value(attribute, text[:100] if attribute == source else type_name, str(error))
         return _NoValue(f"it is not {error}")
+
+
+def _printed(state: State, scope: Scope, action: Action, line: str, param: str) -> str | CommandValue | _NoValue:
+    """What a command printed, as far as that is known."""
+    attribute = action.attribute("command")
+    origin = scope.origin(attribute.value.span if attribute else action.kind_span)
+    try:
+        shlex.split(line)
+    except ValueError as error:
+        state.problem("command-malformed", origin, command=line, message=str(error))
+        return _NoValue(f"its command cannot be split into words: {error}")
+    result = state.results.result(line)
+    full = param if names.is_private(param) else names.canonicalize(names.join(scope.ns, param))
+    state.commands.append(Command(line, full, origin, result))
+    if result is None:
+        return CommandValue(line)
+    if result.status == "done":
+        return result.output
+    if result.status == "not-run":
+        state.problem("command-not-run", origin, fatal=False, command=line, reason=result.reason)
+        return CommandValue(line, result.reason)
+    kind = "command-missing" if result.status == "missing" else "command-failed"
+    state.problem(kind, origin, command=line, reason=result.reason, stderr=list(result.stderr_tail))
+    return _NoValue(f"its command failed: {result.reason}")
 
 
 def report_file(state: State, scope: Scope, action: Action, attribute: str, found: Unreadable) -> None:

@@ -8,10 +8,12 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
     Arg,
+    Command,
     Include,
     LaunchNode,
     Machine,
@@ -26,9 +28,12 @@ from preflight_analysis.launch.model import LaunchFile
 class State:
     """The growing result, and what everything is read from."""
 
-    def __init__(self, files: Files, executables: Executables, environment: Environment, cwd: str) -> None:
+    def __init__(
+        self, files: Files, executables: Executables, environment: Environment, cwd: str, results: Commands
+    ) -> None:
         self.files = files
         self.executables = executables
+        self.results = results
         self.environment = environment
         self.cwd = cwd
         self.nodes: list[LaunchNode] = []
@@ -38,6 +43,7 @@ class State:
         self.includes: list[Include] = []
         self.machines: dict[str, Machine] = {}
         self.args: dict[str, Arg] = {}
+        self.commands: list[Command] = []
         self.uses: list[Use] = []
         self.problems: list[Problem] = []
         self.unknowns: list[Unknown] = []

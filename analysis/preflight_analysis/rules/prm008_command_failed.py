@@ -1,0 +1,119 @@
+"""PRM008: the command of a parameter has no success."""
+
+import os
+import re
+import shlex
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+_DEBIAN = {"xacro": "xacro", "rosrun": "rosbash", "rospack": "rospack", "rosparam": "rosparam"}
+"""Programs that robot descriptions are made with, and the end of the names of their packages (`ros-noetic-xacro`)."""
+_TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
+_STDERR_LINES = 3
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        if problem.kind == "command-missing":
+            yield _missing(rule, context, str(problem.data["command"]), problem.origin, stops=problem.fatal)
+        else:
+            yield problem_finding(rule, problem, _message(problem))
+    # A program that is named with its folder is looked for without running anything.
+    for command in context.tree.commands:
+        if command.result is None or command.result.status == "not-run":
+            program = next(iter(shlex.split(command.line)), "")
+            if os.path.isabs(program) and not _executable(program):
+                yield _missing(rule, context, command.line, command.origin, stops=False)
+
+
+def _message(problem: Problem) -> str:
+    if problem.kind == "command-malformed":
+        return f"the command cannot be split into words: {problem.data['message']}"
+    lines = [line.strip() for line in problem.data["stderr"] if line.strip()]
+    told = lines[-1:] if any(_TRACEBACK.match(line) for line in lines) else lines[-_STDERR_LINES:]
+    return "; ".join([f"the command failed: {problem.data['reason']}", *told])
+
+
+def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: bool) -> Finding:
+    """The program is not there, or may not be executed."""
+    program = shlex.split(line)[0]
+    name = os.path.basename(program)
+    severity: Severity | None = None
+    confidence: Confidence = "certain"
+    near = None
+    if "/" not in program:
+        message = f"there is no program '{program}' on the PATH of this environment"
+        package = _DEBIAN.get(name)
+        if package:
+            message += f"; install it: apt install ros-{context.environment.distro or 'noetic'}-{package}"
+        if context.environment.python is None:  # without ROS its programs are missing by nature
+            severity, confidence = "info", "possible"
+    elif os.path.isfile(program):
+        message = f"'{shown(program, context)}' is not executable; chmod +x {program}"
+    elif package := _will_build(context, program):
+        message = f"'{shown(program, context)}' is not built yet: CMakeLists.txt of package '{package}' names it"
+        severity, confidence = "info", "likely"
+    else:
+        near = _near(program)
+        removed = (
+            "; ROS Noetic has no xacro.py any more"
+            if name == "xacro.py" and context.environment.distro in (None, "noetic")
+            else ""
+        )
+        message = f"there is no program '{shown(program, context)}'{removed}{did_you_mean(near)}"
+    location: Location = origin[-1]
+    return rule.finding(
+        message,
+        location,
+        severity=severity,
+        confidence=confidence,
+        related=include_chain(origin),
+        fixes=rename(context, location, name, near) if near else (),
+        stops_launch=stops,
+    )
+
+
+def _will_build(context: Context, program: str) -> str | None:
+    """The package whose build makes the program."""
+    executables = context.executables or ExecutableIndex(context.environment)
+    for package in context.environment.packages.values():
+        inside = program.startswith(package.share.rstrip("/") + "/")
+        if inside and executables.is_build_target(package.name, os.path.basename(program)):
+            return package.name
+    return None
+
+
+def _executable(path: str) -> bool:
+    return os.path.isfile(path) and os.access(path, os.X_OK)
+
+
+def _near(program: str) -> str | None:
+    """The most similar program of the same folder."""
+    folder, name = os.path.split(program)
+    try:
+        names = [each for each in os.listdir(folder or ".") if _executable(os.path.join(folder, each))]
+    except OSError:
+        return None
+    return nearest(name, names) or nearest(name, names, key=lambda each: os.path.splitext(each)[0])
+
+
+RULE = Rule(
+    id="PRM008",
+    name="command-failed",
+    severity="error",
+    what="Reports a `<param command=...>` whose command ended with an error, with the last lines that it printed, or "
+    "whose program does not exist. The command is run in the sandbox, if the workspace is trusted, and again when a "
+    "file that it read has changed. `ros-preflight check --no-run` runs nothing and finds missing programs only.",
+    why="`roslaunch` runs the command before it starts the first node, and stops and starts nothing if it fails.",
+    example='<param name="robot_description" command="$(find xacro)/xacro.py $(find arm)/urdf/arm.xacro"/>',
+    instead='<param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro"/>',
+    check=_check,
+    problems=("command-failed", "command-missing", "command-malformed"),
+)
