@@ -62,7 +62,8 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         severity, confidence = "info", "likely"
     else:
         near = _near(program)
-        removed = (
+        noetic = context.environment.distro in (None, "noetic")
+        removed = "; ROS Noetic has no xacro.py any more" if name == "xacro.py" and noetic else ""
             "; ROS Noetic has no xacro.py any more"
             if name == "xacro.py" and context.environment.distro in (None, "noetic")
             else ""
