@@ -64,10 +64,6 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         near = _near(program)
         noetic = context.environment.distro in (None, "noetic")
         removed = "; ROS Noetic has no xacro.py any more" if name == "xacro.py" and noetic else ""
-            "; ROS Noetic has no xacro.py any more"
-            if name == "xacro.py" and context.environment.distro in (None, "noetic")
-            else ""
-        )
         message = f"there is no program '{shown(program, context)}'{removed}{did_you_mean(near)}"
     location: Location = origin[-1]
     return rule.finding(
