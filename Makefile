@@ -36,8 +36,9 @@ lint: $(READY) ## ruff and mypy
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## editing latency and the time of a trace, as ratios
+bench: setup ## editing latency, a large workspace and the time of a trace, as ratios
 	$(BIN)/python bench/editing.py
+	$(BIN)/python bench/index.py
 	$(BIN)/python bench/trace.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)

@@ -11,84 +11,17 @@ figures are the median and the 95th percentile in milliseconds, and the medians'
 from __future__ import annotations
 
 import argparse
-import json
-import os
 import shutil
 import statistics
-import subprocess
-import sys
 import tempfile
 import time
 import xml.dom.minidom
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+
+from client import Client
 
 DEMO = Path(__file__).parent.parent / "fixtures" / "ros1" / "demo"
 NODES = 500
-
-
-class Client:
-    """Just enough of an editor."""
-
-    def __init__(self, folder: Path, home: Path, *, trusted: bool) -> None:
-        environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": str(home / ".cache")}
-        self._server = subprocess.Popen(
-            [sys.executable, "-m", "preflight_server.cli.main", "lsp"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=environment,
-        )
-        self._id = 0
-        self.request(
-            "initialize",
-            {
-                "processId": os.getpid(),
-                "rootUri": folder.as_uri(),
-                "capabilities": {},
-                "initializationOptions": {"workspaceTrusted": trusted},
-            },
-        )
-        self.notify("initialized", {})
-
-    def notify(self, method: str, params: Any) -> None:
-        self._send({"method": method, "params": params})
-
-    def request(self, method: str, params: Any) -> Any:
-        self._id += 1
-        self._send({"id": self._id, "method": method, "params": params})
-        while (message := self.receive()).get("id") != self._id:
-            pass
-        return message.get("result")
-
-    def diagnostics(self, fits: Callable[[Any], bool]) -> Any:
-        """The next published diagnostics that fit."""
-        while True:
-            message = self.receive()
-            if message.get("method") == "textDocument/publishDiagnostics" and fits(message["params"]):
-                return message["params"]
-
-    def receive(self) -> Any:
-        assert self._server.stdout is not None
-        length = 0
-        while line := self._server.stdout.readline().strip():
-            name, _, value = line.partition(b":")
-            if name.lower() == b"content-length":
-                length = int(value)
-        if not length:
-            raise SystemExit("the server ended")
-        return json.loads(self._server.stdout.read(length))
-
-    def _send(self, message: dict[str, Any]) -> None:
-        assert self._server.stdin is not None
-        body = json.dumps({"jsonrpc": "2.0", **message}).encode()
-        self._server.stdin.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
-        self._server.stdin.flush()
-
-    def close(self) -> None:
-        self.request("shutdown", None)
-        self.notify("exit", None)
-        self._server.wait(20)
 
 
 def large(nodes: int) -> str:

@@ -1,0 +1,216 @@
+"""A workspace of 1,000 launch files: the time of its index, and how soon findings follow a keystroke in a large tree.
+
+  python bench/index.py [-n ROUNDS]
+
+The workspace is that of `workspace.py`. Through the real server: the time from `initialized` to the end of the index,
+hovers meanwhile, the time from a keystroke to the published diagnostics in several files of the largest tree (500
+nodes, 60 includes), and memory. Typed are single characters in an attribute's value, each taken back again, and lines.
+In the same run real `roslaunch --nodes` is asked about the same tree: that is what an edit is compared with. Last, the
+same edits without a server, split into the steps of the analysis.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import os
+import statistics
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from client import Client
+from preflight_analysis.environment.detect import detect
+from preflight_analysis.workspace import sources as sources_module
+from preflight_analysis.workspace import workspace as workspace_module
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace as Engine
+from workspace import INCLUDES, NODES, Workspace, generate
+
+TITLE = "Indexing launch files"
+TYPED = "front_left"
+TARGET_MS, TARGET_RATIO = 50, 50
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where something is typed: behind the first `before` in a file."""
+
+    title: str
+    path: Path
+    before: str
+
+    def texts(self, rounds: int) -> Iterator[tuple[str, int, int, str]]:
+        """The edits, as start, end and new text, with the text that each leads to; the last leads back."""
+        text = self.path.read_text()
+        at = text.index(self.before) + len(self.before)
+        line = text.index("\n", at) + 1
+        for _ in range(rounds):
+            for start, typed in ((at, TYPED), (line, "\n" * 3)):
+                for count, char in enumerate(typed, 1):
+                    new = text[:start] + typed[:count] + text[start:]
+                    yield new, start + count - 1, start + count - 1, char
+                for count in range(len(typed) - 1, -1, -1):
+                    yield text[:start] + typed[:count] + text[start:], start + count, start + count + 1, ""
+
+
+def places(made: Workspace) -> list[Place]:
+    return [
+        Place("root: a node's attribute", made.root, 'type="teleop_monitor.py" name="'),
+        Place("root: an argument for a third", made.root, '<arg name="robot" value="'),
+        Place("robot.launch, included once", made.middle, '<param name="parts" value="'),
+        Place("tracker.launch, a leaf", made.leaf, 'name="frame_id" value="'),
+    ]
+
+
+def shown(title: str, samples: list[float]) -> None:
+    p95 = statistics.quantiles(samples, n=20)[-1]
+    print(f"  {title:<42}{1000 * statistics.median(samples):8.1f}{1000 * p95:8.1f}{1000 * max(samples):8.1f}")
+
+
+def position(text: str, offset: int) -> dict[str, int]:
+    return {"line": text.count("\n", 0, offset), "character": offset - (text.rfind("\n", 0, offset) + 1)}
+
+
+def index(client: Client, made: Workspace) -> None:
+    """Cold index, with hovers meanwhile. The client has just said `initialized`."""
+    began = time.perf_counter()
+    text = made.root.read_text()
+    at = {"textDocument": {"uri": made.root.as_uri()}, "position": position(text, text.index("$(arg sim)") + 4)}
+    hovers = []
+    while TITLE not in client.ended and (TITLE in client.started or time.perf_counter() - began < 10):
+        asked = time.perf_counter()
+        if not client.request("textDocument/hover", at):
+            raise SystemExit("a hover was not answered")
+        hovers.append(time.perf_counter() - asked)
+    if TITLE in client.ended:
+        print(f"cold index of 1,000 launch files: {client.ended[TITLE] - began:.2f} s")
+    else:
+        print("cold index: the server shows none")
+    print(f"{'ms':<44}{'median':>8}{'p95':>8}{'max':>8}")
+    shown("hover, while the index is built" if TITLE in client.ended else "hover", hovers)
+
+
+def opened(client: Client, path: Path) -> None:
+    item = {"uri": path.as_uri(), "languageId": "roslaunch", "version": 0, "text": path.read_text()}
+    client.notify("textDocument/didOpen", {"textDocument": item})
+
+
+def edits(client: Client, place: Place, rounds: int, version: Iterator[int]) -> list[float]:
+    uri = place.path.as_uri()
+    samples = []
+    text = place.path.read_text()
+    for new, start, end, typed in place.texts(rounds):
+        number = next(version)
+        change = {"range": {"start": position(text, start), "end": position(text, end)}, "text": typed}
+        began = time.perf_counter()
+        document = {"uri": uri, "version": number}
+        client.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
+        client.diagnostics(lambda p, number=number: p["uri"] == uri and p.get("version") == number)
+        samples.append(time.perf_counter() - began)
+        text = new
+    return samples
+
+
+def roslaunch(root: Path) -> float:
+    """Seconds that the real one takes, the median of five."""
+    samples = []
+    for _ in range(5):
+        began = time.perf_counter()
+        answer = subprocess.run(["roslaunch", "--nodes", root], check=True, capture_output=True, text=True)
+        samples.append(time.perf_counter() - began)
+        if len(answer.stdout.split()) != NODES:
+            raise SystemExit(f"roslaunch: {answer.stdout}{answer.stderr}")
+    return statistics.median(samples)
+
+
+class Stopwatch:
+    """The time spent in functions of modules, less that in watched ones which they call."""
+
+    def __init__(self) -> None:
+        self.spent: dict[str, float] = {}
+        self._inner = [0.0]
+
+    def watch(self, title: str, module: Any, name: str) -> None:
+        function: Callable[..., Any] = getattr(module, name)
+
+        def watched(*args: Any, **kwargs: Any) -> Any:
+            self._inner.append(0.0)
+            began = time.perf_counter()
+            try:
+                return function(*args, **kwargs)
+            finally:
+                took = time.perf_counter() - began
+                self.spent[title] = self.spent.get(title, 0.0) + took - self._inner.pop()
+                self._inner[-1] += took
+
+        setattr(module, name, watched)
+
+
+def library(made: Workspace, rounds: int) -> None:
+    """The same edits without a server."""
+    watch = Stopwatch()
+    watch.watch("parse", sources_module, "parse_xml")
+    watch.watch("frontend", sources_module, "read_ros1")
+    watch.watch("evaluate", workspace_module, "evaluate")
+    watch.watch("rules", workspace_module, "run_rules")
+    gc.set_threshold(100_000, 20, 100)  # as the server
+    texts = Sources()
+    engine = Engine(detect(str(made.folder)), texts)
+    engine.static(str(made.root))
+    print("without a server, means in ms")
+    for place in places(made):
+        watch.spent.clear()
+        samples = []
+        for new, *_ in place.texts(rounds):
+            began = time.perf_counter()
+            texts.open(str(place.path), new)
+            engine.static(str(made.root))
+            samples.append(time.perf_counter() - began)
+        watch.spent["other"] = sum(samples) - sum(watch.spent.values())
+        steps = ", ".join(f"{step} {1000 * spent / len(samples):.1f}" for step, spent in watch.spent.items())
+        print(f"  {place.title:<30}{1000 * statistics.mean(samples):6.1f}: {steps}")
+        texts.close(str(place.path))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-n", type=int, default=3, metavar="ROUNDS", help="of 26 edits in each place")
+    rounds = parser.parse_args().n
+    with tempfile.TemporaryDirectory() as folder:
+        home = Path(folder, "home")
+        home.mkdir()
+        made = generate(Path(folder, "workspace"))
+        os.environ["ROS_PACKAGE_PATH"] = str(made.folder / "src")
+        client = Client(made.folder, home, trusted=False)
+        memory = [client.megabytes()]
+        opened(client, made.root)
+        index(client, made)
+        memory.append(client.megabytes())
+        for path in (made.middle, made.leaf):
+            opened(client, path)
+            client.diagnostics(lambda p, path=path: p["uri"] == path.as_uri())
+        version = iter(range(1, 1_000_000))
+        samples: list[float] = []
+        for place in places(made):
+            took = edits(client, place, rounds, version)
+            shown(place.title, took)
+            samples += took
+        shown("all edits", samples)
+        memory.append(client.megabytes())
+        client.close()
+        real = roslaunch(made.root)
+        ratio = real / statistics.median(samples)
+        p95 = 1000 * statistics.quantiles(samples, n=20)[-1]
+        print(f"roslaunch --nodes of the same tree ({NODES} nodes, {INCLUDES} includes): {1000 * real:.0f} ms")
+        print(f"roslaunch : edit = {ratio:.0f} (target: {TARGET_RATIO}); p95 {p95:.1f} ms (target: {TARGET_MS})")
+        print("memory of the server in MB: {:.0f} at first, {:.0f} indexed, {:.0f} after the edits".format(*memory))
+        library(made, 1)
+
+
+if __name__ == "__main__":
+    main()
