@@ -114,6 +114,15 @@ class Editor:
 
         return handler
 
+    def progress_of(self, title: str) -> dict[types.ProgressToken, list[Any]]:
+        """The progress reports that have begun under a title."""
+        return {t: values for t, values in self.progress.items() if values and values[0].get("title") == title}
+
+    @property
+    def runs(self) -> dict[types.ProgressToken, list[Any]]:
+        """The progress of runs of nodes."""
+        return self.progress_of("Running nodes in the sandbox")
+
     @property
     def pid(self) -> int:
         process = self.client._server

@@ -69,8 +69,8 @@ async def test_progress_is_shown_while_nodes_run(desk: Desk) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(desk.launch_file)
         await editor.having(desk.launch_file, "TOP001")
-        await editor.until(lambda: any(v["kind"] == "end" for values in editor.progress.values() for v in values))
-        (values,) = editor.progress.values()
+        await editor.until(lambda: any(v["kind"] == "end" for values in editor.runs.values() for v in values))
+        (values,) = editor.runs.values()
         kinds = [v["kind"] for v in values]
         assert kinds[0] == "begin"
         assert kinds[-1] == "end"
@@ -85,7 +85,7 @@ async def test_a_second_server_needs_no_run(desk: Desk) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(desk.launch_file)
         await editor.having(desk.launch_file, "TOP001")
-        assert editor.progress == {}
+        assert editor.runs == {}
     assert desk.sandbox_starts() - runs <= 1, "only the probe of the sandbox"
 
 

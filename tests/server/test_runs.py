@@ -40,7 +40,7 @@ def sandboxes(desk: Desk) -> list[str]:
 
 async def running(editor: Editor, desk: Desk) -> types.ProgressToken:
     """Wait until a node runs and its progress is shown."""
-    token = await editor.until(lambda: next((t for t, v in editor.progress.items() if v), None))
+    token = await editor.until(lambda: next(iter(editor.runs), None))
     await editor.until(lambda: desk.sandbox_starts() >= 2)
     return token
 

@@ -44,7 +44,7 @@ async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(desk: D
             assert children(editor.pid) == []
             await asyncio.sleep(0.1)
         assert editor.rules(desk.launch_file) == ["TRC004"]
-        assert editor.progress == {}
+        assert editor.runs == {}
     assert desk.sandbox_starts() == 0
 
 

@@ -11,7 +11,7 @@ from preflight_analysis.findings.finding import Finding
 
 @dataclass(frozen=True, slots=True)
 class RootFindings:
-    """The findings of one root, and the files that it reads."""
+    """The findings of one root, and the files that it reads. `root` is its path, with its arguments if it has any."""
 
     root: str
     files: frozenset[str]

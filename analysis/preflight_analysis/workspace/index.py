@@ -26,6 +26,11 @@ class Root:
         """The root for arguments in any order."""
         return cls(path, tuple(sorted((args or {}).items())))
 
+    @property
+    def label(self) -> str:
+        """As one would type it: path and arguments."""
+        return " ".join((self.path, *(f"{name}:={value}" for name, value in self.args)))
+
 
 @dataclass(frozen=True, slots=True)
 class Inclusion:

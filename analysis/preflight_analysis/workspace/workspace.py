@@ -22,6 +22,7 @@ from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.sources import Sources
 
 
@@ -30,6 +31,7 @@ class Analysis:
     """Everything known of one root. `documents` has each text that a location in it may point into, by path."""
 
     root: str
+    args: tuple[tuple[str, str], ...]
     tree: LaunchTree
     documents: Mapping[str, Document]
     launch_files: Mapping[str, LaunchFile]
@@ -37,6 +39,11 @@ class Analysis:
     graph: Graph | None
     findings: tuple[Finding, ...]
     why_not_run: str | None
+
+    @property
+    def launch(self) -> Root:
+        """The root with the arguments that it was launched with."""
+        return Root(self.root, self.args)
 
 
 class Workspace:
@@ -66,7 +73,7 @@ class Workspace:
         documents, launch_files = self._documents(tree)
         context = Context(path, tree, documents, launch_files, self.environment)
         findings = tuple(run_rules(context))
-        analysis = Analysis(path, tree, documents, launch_files, self.environment, None, findings, None)
+        analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, None, findings, None)
         with self._lock:
             self._static[key] = analysis
         return analysis

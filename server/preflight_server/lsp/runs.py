@@ -23,6 +23,7 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import PENDING, not_run
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -52,7 +53,7 @@ class Known:
 
 @dataclass(frozen=True, slots=True)
 class _Batch:
-    root: str
+    root: Root
     requests: Mapping[NodeKey, TraceRequest]
     progress: Progress
     cancel: threading.Event
@@ -100,7 +101,7 @@ class Runs:
         self._cancelled = False
         self._closing = False
         self._tracer: Tracer | None = None
-        self._known: dict[str, dict[NodeKey, Known]] = {}
+        self._known: dict[Root, dict[NodeKey, Known]] = {}
         self._batch: _Batch | None = None
         self._not_before = 0.0
         self._wanted = False
@@ -116,7 +117,7 @@ class Runs:
             return NOT_TRUSTED
         return self._no_sandbox or (CANCELLED if self._cancelled else None)
 
-    def known(self, root: str) -> dict[NodeKey, Interface]:
+    def known(self, root: Root) -> dict[NodeKey, Interface]:
         """What is known of the nodes of a root."""
         return {key: known.interface for key, known in self._known.get(root, {}).items()}
 
@@ -189,7 +190,7 @@ class Runs:
         self._probed = True
         if self._no_sandbox is not None:
             for analysis in self._session.roots():
-                self._session.interfaces_changed(analysis.root)
+                self._session.interfaces_changed(analysis.launch)
 
     async def _round(self, analysis: Analysis) -> None:
         """Look up, then run, what is not known of the nodes of one root."""
@@ -198,7 +199,7 @@ class Runs:
             return  # a file in the middle of being typed is not worth a run
         workspace = await self._session.workspace()
         requests = await self._requests(workspace, analysis)
-        known = self._known.setdefault(analysis.root, {})
+        known = self._known.setdefault(analysis.launch, {})
         for key in set(known) - set(requests):
             del known[key]
         missing = {k: r for k, r in requests.items() if k not in known or known[k].request != r}
@@ -207,16 +208,16 @@ class Runs:
         changed = any(k not in known or known[k].interface != hit for k, hit in found.items())
         known.update({k: Known(missing[k], hit) for k, hit in found.items()})
         if changed:
-            self._session.interfaces_changed(analysis.root)
+            self._session.interfaces_changed(analysis.launch)
         remaining = {k: r for k, r in missing.items() if k not in found}
         if remaining and not self._closing:
-            await self._run(tracer, analysis.root, remaining)
+            await self._run(tracer, analysis.launch, remaining)
 
     async def _requests(self, workspace: Workspace, analysis: Analysis) -> dict[NodeKey, TraceRequest]:
         requests = await self._session.in_pool(lambda: workspace.requests(analysis))
         return {k: r for k, r in zip(node_keys(analysis.tree), requests, strict=True) if r is not None}
 
-    async def _run(self, tracer: Tracer, root: str, requests: Mapping[NodeKey, TraceRequest]) -> None:
+    async def _run(self, tracer: Tracer, root: Root, requests: Mapping[NodeKey, TraceRequest]) -> None:
         loop = asyncio.get_running_loop()
         progress = Progress(self._server, "Running nodes in the sandbox")
         batch = self._batch = _Batch(root, requests, progress, threading.Event())
@@ -252,7 +253,7 @@ class Runs:
 
     async def _reconsider(self, batch: _Batch) -> None:
         """Stop a batch of which a part is no longer what the launch file asks for; what is done is kept."""
-        analysis = next((a for a in self._session.roots() if a.root == batch.root), None)
+        analysis = next((a for a in self._session.roots() if a.launch == batch.root), None)
         if analysis is None:
             batch.cancel.set()
             return

@@ -1,4 +1,4 @@
-"""What the server knows of the workspace: environment, analyses of the open roots, and their findings by file.
+"""What the server knows of the workspace: environment, index, analyses of the roots that reach open files, findings.
 
 All state belongs to the event loop. The analysis itself runs in threads of our own (pygls' pool also reads standard
 input), and what comes back is dropped if the text has changed in the meantime.
@@ -7,8 +7,9 @@ input), and what comes back is dropped if the text has changed in the meantime.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
@@ -18,11 +19,12 @@ from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import all_rules
-from preflight_analysis.workspace.index import WorkspaceIndex
+from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
+from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file
 from preflight_server.lsp.publisher import Publisher
 from preflight_server.lsp.runs import Runs, with_known
@@ -36,7 +38,10 @@ _log = logging.getLogger(__name__)
 _T = TypeVar("_T")
 
 PAUSE_AFTER_TYPING = 0.5
-"""Seconds without an edit before nodes are run again: half a word is no argument to run a node with."""
+"""Seconds without an edit before anything is done but to analyse the root in whose context the file is shown: half a
+word is no argument to run a node with."""
+MAX_ROOTS = 8
+"""How many of the roots that reach a file are analysed while it is open, the one that it is shown in first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +62,7 @@ class View:
 class _Round:
     """What one more analysis led to, over all roots."""
 
-    analyses: Mapping[str, Analysis]
+    analyses: Mapping[Root, Analysis]
     findings: Mapping[str, tuple[Finding, ...]]
     diagnostics: Mapping[str, list[types.Diagnostic]]
 
@@ -67,27 +72,34 @@ class Session:
 
     def __init__(self, server: PreflightServer, folder: str | None, settings: Settings, *, trusted: bool) -> None:
         self._server = server
-        self._folder = folder
+        self.folder = folder
         self.settings = settings
         self.publisher = Publisher(server)
         self._sources = Sources()
         self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
         self._workspace: Workspace | None = None
-        self._analyses: dict[str, Analysis] = {}
+        self._analyses: dict[Root, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}
-        self._index = WorkspaceIndex()
         self._focus: list[str] = []
         """Paths of open launch files, the one that was last opened or edited first."""
-        self._dirty: dict[str, int] = {}
-        """Roots to analyse, and the edit that made it necessary."""
+        self._selected: dict[str, Root] = {}
+        """The root that the user chose for a file to be shown in."""
+        self._dirty: dict[Root, int] = {}
+        """Roots whose analysis is out of date, and the edit that made it so."""
         self._edits = 0
         self._remerge = False
+        self._quiet_at = 0.0
+        """When the user will have stopped typing, in the time of the event loop."""
         self._detecting: asyncio.Task[None] | None = None
         self._closed = False
         self._edited: str | None = None
         self._refreshing: asyncio.Task[None] | None = None
+        self._news = asyncio.Event()
+        self._settled = asyncio.Event()
+        self._settled.set()
         self._every_root = frozenset(rule.id for rule in all_rules() if rule.every_root)
         self.runs = Runs(server, self, trusted=trusted)
+        self.indexing = Indexing(server, self)
 
     # What the handlers report
 
@@ -105,11 +117,12 @@ class Session:
         self._sources.open(document.path, document.text)
         if is_launch_file(document):
             self._focus = [document.path, *(p for p in self._focus if p != document.path)]
-            if self._folder is None:
+            if self.folder is None:
                 # An editor that opened a file and no folder: the workspace is the one around the file.
-                self._folder, self._workspace = workspace_of(document.path), None
+                self.folder, self._workspace = workspace_of(document.path), None
+                self.indexing.changed(None)
         else:
-            self._forget(document.path)
+            self._focus = [p for p in self._focus if p != document.path]
         self._touch([document.path], document.path, quiet=quiet)
 
     def closed(self, document: OpenDocument) -> None:
@@ -117,20 +130,25 @@ class Session:
         if document.path is None or self._server.texts.by_path(document.path) is not None:
             return
         self._sources.close(document.path)
-        self._forget(document.path)
+        self._focus = [p for p in self._focus if p != document.path]
         self._touch([document.path], None, quiet=0)
 
-    def files_changed(self, paths: Iterable[str] | None) -> None:
-        """Files changed on disk, None for any of them: launch files, parameter files or sources of nodes."""
+    def files_changed(self, paths: Iterable[str], *, came_or_went: bool = False) -> None:
+        """Files changed on disk: launch files, parameter files or sources of nodes. If some came or went, so may have
+        executables of any package."""
         self.runs.forget_requests()
         if self._workspace is not None:
             self._workspace.refresh()
-        self._touch(paths, None, quiet=0)
+        paths = tuple(paths)
+        self._touch(None if came_or_went else paths, None, quiet=0)
+        self.indexing.changed(paths)
 
     def environment_changed(self) -> None:
         """Packages came or went, or settings that say where they are changed."""
         self._workspace = None
-        self.files_changed(None)
+        self.runs.forget_requests()
+        self._touch(None, None, quiet=0)
+        self.indexing.changed(None)
 
     def configure(self, settings: Settings) -> None:
         """New settings."""
@@ -143,7 +161,20 @@ class Session:
         self.runs.set_trusted(trusted)
         self._touch(None, None, quiet=0)
 
-    def interfaces_changed(self, root: str) -> None:
+    async def select(self, path: str, root: Root | None) -> str | None:
+        """Show a file in the context of this root; None for the one that the index puts first. Returns why not."""
+        if root is None:
+            self._selected.pop(path, None)
+        else:
+            workspace = await self.workspace()
+            analysis = await self.in_pool(lambda: workspace.static(root.path, dict(root.args)))
+            if path not in analysis.tree.inputs:
+                return f"{root.label} does not include {path}"
+            self._selected[path] = root
+        self.index_changed()
+        return None
+
+    def interfaces_changed(self, root: Root) -> None:
         """Runs of nodes told something new; no text changed."""
         if root in self._analyses:
             self._edits += 1
@@ -151,10 +182,17 @@ class Session:
             self._edited = None
             self._start()
 
+    def index_changed(self) -> None:
+        """Other roots may reach the open files now."""
+        self._edited = None
+        self._remerge = True
+        self._start()
+
     def close(self) -> None:
         """Leave nothing running. Returns when the threads have ended; may be called from any thread, and twice."""
         self._closed = True
         self.runs.close()
+        self.indexing.close()
         self._pool.shutdown(wait=True, cancel_futures=True)
 
     # What the handlers ask
@@ -165,24 +203,32 @@ class Session:
         document = self._server.texts.get(uri)
         if document is None or document.path is None or not is_launch_file(document):
             return None
-        analysis = self._of(document.path)
-        parsed = analysis.documents.get(document.path) if analysis else None
-        if analysis is None or parsed is None or parsed.text != document.text:
+        analyses = tuple(self._of(document.path))
+        parsed = analyses[0].documents.get(document.path) if analyses else None
+        if parsed is None or parsed.text != document.text:
             return None
-        converter = Converter(self._server.texts, analysis.documents)
-        analyses = (analysis, *(a for a in self.roots() if a is not analysis and document.path in a.documents))
         findings = self._findings.get(document.path, ())
-        return View(document, document.path, analysis, analyses, self._index, findings, converter)
+        converter = Converter(self._server.texts, analyses[0].documents)
+        index = self.indexing.index
+        return View(document, document.path, analyses[0], analyses, index, findings, converter)
 
     async def settled(self) -> None:
-        """Wait until what was typed so far is analysed."""
-        while self._refreshing is not None and not self._refreshing.done():
-            await asyncio.wait([self._refreshing])
+        """Wait until what was typed so far is analysed, in the context in which it is shown."""
+        await self._settled.wait()
+
+    async def quiet(self) -> None:
+        """Wait until the user has not typed for a moment."""
+        while (pause := self._quiet_at - asyncio.get_running_loop().time()) > 0:  # noqa: ASYNC110
+            await asyncio.sleep(pause)
 
     def roots(self) -> list[Analysis]:
-        """The analyses of what is open, the file that is looked at first."""
-        order = [root for path in self._focus for root, a in self._analyses.items() if path in a.tree.files]
-        return [self._analyses[root] for root in dict.fromkeys([*order, *self._analyses])]
+        """The analyses of the roots that reach open files, those that files are shown in first."""
+        return [self._analyses[root] for root in self._wanted() if root in self._analyses]
+
+    def roots_of(self, path: str) -> list[Root]:
+        """The roots that reach a file, the one that it is shown in first."""
+        chosen = [self._selected[path]] if path in self._selected else []
+        return list(dict.fromkeys((*chosen, *self.indexing.index.roots_of(path))))
 
     async def in_pool(self, work: Callable[[], _T]) -> _T:
         """Run `work` in a thread."""
@@ -199,71 +245,113 @@ class Session:
         return self._workspace
 
     async def _detect(self) -> None:
-        folder, package_path = self._folder, self.settings.package_path
+        folder, package_path = self.folder, self.settings.package_path
         try:
             environment = await self.in_pool(lambda: detect(folder, package_path=package_path))
         finally:
             self._detecting = None
-        if (folder, package_path) == (self._folder, self.settings.package_path):
+        if (folder, package_path) == (self.folder, self.settings.package_path):
             self._workspace = Workspace(environment, self._sources)
             self.runs.set_environment(environment)
 
-    def _of(self, path: str) -> Analysis | None:
-        """The analysis that a file is shown in: its own, or that of the first root that includes it."""
-        if path in self._analyses:
-            return self._analyses[path]
-        return next((a for a in self.roots() if path in a.documents), None)
+    # Which roots are analysed
+
+    def _wanted(self) -> list[Root]:
+        """The roots to be analysed: for each open file the one that it is shown in, then the others."""
+        shown, others = self._shown(), dict[Root, None]()
+        for path in self._focus:
+            others.update(dict.fromkeys(self.roots_of(path)[:MAX_ROOTS]))
+        return list(dict.fromkeys((*shown, *others)))
+
+    def _shown(self) -> list[Root]:
+        """The roots that open files are shown in. A file that its root does not reach any more is shown by itself."""
+        shown: dict[Root, None] = {}
+        for path in self._focus:
+            root = self.roots_of(path)[0]
+            shown[root] = None
+            analysis = self._analyses.get(root)
+            if analysis is not None and root not in self._dirty and path not in analysis.tree.inputs:
+                shown[Root(path)] = None
+        return list(shown)
+
+    def _of(self, path: str) -> Iterator[Analysis]:
+        """The analyses that reach a file, the one that it is shown in first."""
+        for root in dict.fromkeys((*self.roots_of(path), Root(path), *self._analyses)):
+            analysis = self._analyses.get(root)
+            if analysis is not None and path in analysis.documents:
+                yield analysis
 
     # How an edit becomes findings
 
     def _touch(self, paths: Iterable[str] | None, edited: str | None, *, quiet: float) -> None:
-        """Analyse again what depends on `paths` (None: all of it); runs of nodes wait `quiet` seconds more."""
+        """Analyse again what depends on `paths` (None: all of it). All but what is shown waits `quiet` seconds more."""
         self._edits += 1
         self._edited = edited
         touched = None if paths is None else set(paths)
         for root, analysis in self._analyses.items():
-            if touched is None or root in touched or not touched.isdisjoint(analysis.tree.inputs):
+            if touched is None or root.path in touched or not touched.isdisjoint(analysis.tree.inputs):
                 self._dirty[root] = self._edits
-        for path in self._focus:
-            if path in self._dirty or self._of(path) is None:
-                self._dirty[path] = self._edits
         self._remerge = True
+        self._quiet_at = asyncio.get_running_loop().time() + quiet
         self.runs.hold(quiet)
+        if touched is not None:
+            self.indexing.changed(touched)
         self._start()
 
-    def _forget(self, path: str) -> None:
-        self._focus = [p for p in self._focus if p != path]
-        self._analyses.pop(path, None)
-        self._dirty.pop(path, None)
-
     def _start(self) -> None:
+        self._settled.clear()
+        self._news.set()
         if self._refreshing is None or self._refreshing.done():
             self._refreshing = self._server.spawn(self._refresh())
 
     async def _refresh(self) -> None:
-        """Analyse what is dirty, the file that is looked at first, until nothing is."""
-        while self._dirty or self._remerge:
-            workspace = await self.workspace()
-            root = next((p for p in (*self._focus, *self._dirty) if p in self._dirty), None)
-            asked = self._dirty.get(root) if root else None
-            self._remerge = False
-            round_ = await self._round(workspace, root)
-            if self._workspace is not workspace or (root is not None and self._dirty.get(root) != asked):
-                continue  # superseded by a newer text
-            if root is not None:
-                del self._dirty[root]
-            if round_ is not None:
-                self._commit(round_)
+        """Analyse what is out of date: at once what files are shown in, the rest when the user pauses."""
+        try:
+            while True:
+                self._news.clear()
+                workspace = await self.workspace()
+                root = next((r for r in self._shown() if self._is_due(r)), None)
+                if root is None and not self._remerge:
+                    self._settled.set()
+                    root = next((r for r in self._wanted() if self._is_due(r)), None)
+                    if root is None:
+                        break
+                    if (pause := self._quiet_at - asyncio.get_running_loop().time()) > 0:
+                        with contextlib.suppress(asyncio.TimeoutError):
+                            await asyncio.wait_for(self._news.wait(), pause)
+                        continue
+                await self._turn(workspace, root)
+        finally:
+            self._settled.set()
         self.runs.wake()
 
-    async def _round(self, workspace: Workspace, root: str | None) -> _Round | None:
+    def _is_due(self, root: Root) -> bool:
+        return root in self._dirty or root not in self._analyses
+
+    async def _turn(self, workspace: Workspace, root: Root | None) -> None:
+        """Analyse one root, and put the findings of all of them together."""
+        asked = self._dirty.get(root, self._edits) if root is not None else None
+        self._remerge = False
+        round_ = await self._round(workspace, root)
+        if self._workspace is not workspace or (root is not None and self._dirty.get(root, asked) != asked):
+            self._remerge = True
+            return  # superseded by a newer text
+        if root is not None:
+            self._dirty.pop(root, None)
+        if round_ is not None:
+            self._commit(round_)
+
+    async def _round(self, workspace: Workspace, root: Root | None) -> _Round | None:
         analyses = dict(self._analyses)
         known, why = (self.runs.known(root), self.runs.why_not_run) if root is not None else ({}, None)
+        stale = frozenset(self._dirty) - {root}
+        explicit = frozenset((*self._selected.values(), *self.indexing.named))
 
         def work() -> _Round:
             if root is not None:
-                analyses[root] = with_known(workspace, workspace.static(root), known, why)
-            return self._merge(analyses)
+                static = workspace.static(root.path, dict(root.args))
+                analyses[root] = with_known(workspace, static, known, why)
+            return self._merge(analyses, stale, explicit)
 
         try:
             return await self.in_pool(work)
@@ -271,24 +359,36 @@ class Session:
             _log.exception("the analysis of %s broke; its findings are left as they are", root)
             return None
 
-    def _merge(self, analyses: Mapping[str, Analysis]) -> _Round:
+    def _merge(self, analyses: Mapping[Root, Analysis], stale: Collection[Root], explicit: Collection[Root]) -> _Round:
         """The findings of all roots by file. Runs in a thread: files that are not open are read for their lines."""
-        kept = {root: analyses[root] for root in roots({r: a.tree.files for r, a in analyses.items()})}
-        findings = by_file(
-            (RootFindings(r, frozenset((*a.tree.files, *a.tree.inputs)), a.findings) for r, a in kept.items()),
-            self._every_root,
-        )
+        reached: dict[str, list[str]] = {}
+        for root, analysis in analyses.items():
+            reached.setdefault(root.path, []).extend(analysis.tree.files)
+        tops = frozenset(roots(reached))
+        kept = {root: a for root, a in analyses.items() if root.path in tops or root in explicit}
+        findings = by_file((self._report(root, a, root in stale) for root, a in kept.items()), self._every_root)
         documents = {path: document for a in kept.values() for path, document in a.documents.items()}
         converter = Converter(self._server.texts, documents, related=self._shows_related)
-        return _Round(kept, findings, {path: converter.diagnostics(found) for path, found in findings.items()})
+        return _Round(analyses, findings, {path: converter.diagnostics(found) for path, found in findings.items()})
+
+    def _report(self, root: Root, analysis: Analysis, stale: bool) -> RootFindings:
+        """The findings of one root. Those of an earlier text say nothing of files that changed since."""
+        inputs = analysis.tree.inputs
+        files = frozenset((*analysis.tree.files, *inputs))
+        findings = analysis.findings
+        if stale:
+            files -= {path for path, digest in inputs.items() if self._sources.digest(path) != digest}
+            findings = tuple(f for f in findings if f.location.file in files)
+        return RootFindings(root.label, files, findings)
 
     def _commit(self, round_: _Round) -> None:
-        self._analyses = {root: a for root, a in round_.analyses.items() if root in self._focus}
+        self._analyses = dict(round_.analyses)
+        wanted = set(self._wanted())
+        self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
+        self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
         self._findings = round_.findings
-        for path in self._focus:
-            if self._of(path) is None:
-                self._dirty.setdefault(path, self._edits)  # no root includes it any more
-        clean = {path: list[types.Diagnostic]() for path in self._focus if path not in self._dirty}
+        current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
+        clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
         self.publisher.update({**clean, **round_.diagnostics}, self._edited)
 
     @property

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 _WATCHED = (
-    "**/package.xml",
-    "**/*.{launch,test,launch.xml}",
+    "**/*.xml",
+    "**/*.{launch,test,machine}",
     "**/*.{yaml,yml}",
     "**/*.{py,msg,srv,action}",
     "**/{scripts,nodes,bin}/**",
@@ -53,6 +53,7 @@ def register(server: PreflightServer) -> None:
         ls.spawn(_register(ls))
         if ls.session is not None:
             await ls.session.workspace()  # detect the environment while the user still reads
+            ls.session.indexing.changed(None)
 
     @server.feature(types.SHUTDOWN)
     async def shutdown(ls: PreflightServer, params: None) -> None:

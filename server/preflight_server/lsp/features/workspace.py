@@ -8,6 +8,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
+from preflight_analysis.environment.detect import SETTINGS_FILE
 
 from preflight_server.lsp.settings import Settings, as_mapping
 from preflight_server.lsp.text_store import to_path
@@ -20,7 +21,9 @@ _log = logging.getLogger(__name__)
 WORKSPACE_TRUST = "rosPreflight/workspaceTrust"
 """Our own notification, `{"trusted": bool}`: the user's decision came or changed after `initialize`."""
 
-_OF_THE_ENVIRONMENT = frozenset({"package.xml", "manifest.xml", "CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"})
+_OF_THE_ENVIRONMENT = frozenset({"package.xml", "manifest.xml", "CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"}) | {
+    SETTINGS_FILE
+}
 
 
 async def _settings(ls: PreflightServer, pushed: Any) -> Settings:
@@ -44,10 +47,10 @@ def register(server: PreflightServer) -> None:
         came_or_went = (types.FileChangeType.Created, types.FileChangeType.Deleted)
         if any(os.path.basename(path) in _OF_THE_ENVIRONMENT for path, _ in changes):
             ls.session.environment_changed()
-        elif any(kind in came_or_went for _, kind in changes):
-            ls.session.files_changed(None)  # an executable that was missing may be there now
         elif changes:
-            ls.session.files_changed([path for path, _ in changes])
+            # An executable that was missing may be there now.
+            new = any(kind in came_or_went for _, kind in changes)
+            ls.session.files_changed([path for path, _ in changes], came_or_went=new)
 
     @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
     async def did_change_configuration(ls: PreflightServer, params: types.DidChangeConfigurationParams) -> None:

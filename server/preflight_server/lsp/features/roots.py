@@ -1,0 +1,63 @@
+"""Our own requests about the root in whose context a file is shown.
+
+- `rosPreflight/roots`, `{"uri"}` → `{"shown": Root | null, "roots": [Root]}`: the roots that reach a file. A root is
+  `{"uri", "args": {name: value}, "declared": [{"name", "default", "doc", "required"}]}`.
+- `rosPreflight/selectRoot`, `{"uri", "root": {"uri", "args"} | null}` → `{"shown": Root, "message": string | null}`:
+  show the file in another context; null goes back to the usual one. `message` says why that could not be done.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from preflight_analysis.workspace.index import Root
+
+from preflight_server.lsp.session import Session
+from preflight_server.lsp.settings import as_mapping
+from preflight_server.lsp.text_store import to_path, to_uri
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+ROOTS = "rosPreflight/roots"
+SELECT_ROOT = "rosPreflight/selectRoot"
+
+
+def _to_json(session: Session, root: Root) -> dict[str, Any]:
+    facts = session.indexing.index.files.get(root.path)
+    declared = [
+        {"name": a.name, "default": a.default, "doc": a.doc, "required": a.required}
+        for a in (facts.args if facts else ())
+        if a.value is None
+    ]
+    return {"uri": to_uri(root.path), "args": dict(root.args), "declared": declared}
+
+
+def _from_json(given: Any) -> Root | None:
+    root = as_mapping(given)
+    path = to_path(str(root.get("uri", "")))
+    args = {str(name): str(value) for name, value in as_mapping(root.get("args")).items()}
+    return Root.of(path, args) if path is not None else None
+
+
+def register(server: PreflightServer) -> None:
+    """Register the handlers."""
+
+    @server.feature(ROOTS)
+    async def roots(ls: PreflightServer, params: Any) -> dict[str, Any]:
+        path = to_path(str(as_mapping(params).get("uri", "")))
+        if ls.session is None or path is None:
+            return {"shown": None, "roots": []}
+        found = [_to_json(ls.session, root) for root in ls.session.roots_of(path)]
+        return {"shown": found[0], "roots": found}
+
+    @server.feature(SELECT_ROOT)
+    async def select_root(ls: PreflightServer, params: Any) -> dict[str, Any]:
+        given = as_mapping(params)
+        path = to_path(str(given.get("uri", "")))
+        if ls.session is None or path is None:
+            return {"shown": None, "message": "there is no such file"}
+        wanted = given.get("root")
+        root = _from_json(wanted)
+        message = await ls.session.select(path, root) if wanted is None or root else "the root is no file"
+        return {"shown": _to_json(ls.session, ls.session.roots_of(path)[0]), "message": message}

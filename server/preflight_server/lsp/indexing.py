@@ -1,0 +1,121 @@
+"""The workspace index, made in the background and kept up to date."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import os
+import threading
+import time
+from collections.abc import Collection, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+from preflight_analysis.workspace.index import Root, WorkspaceIndex
+from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.project_settings import ProjectSettings, read_project_settings
+from preflight_analysis.workspace.workspace import Workspace
+
+from preflight_server.lsp.progress import Progress
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
+
+_log = logging.getLogger(__name__)
+
+_REPORT_EVERY = 0.1
+"""Seconds between two reports of the progress."""
+
+
+class Indexing:
+    """Everything but the making itself happens on the event loop. `index` is a snapshot, replaced as a whole."""
+
+    def __init__(self, server: PreflightServer, session: Session) -> None:
+        self._server = server
+        self._session = session
+        self.index = WorkspaceIndex()
+        self._project = ProjectSettings()
+        self._changed: set[str] = set()
+        self._everything = False
+        self._task: asyncio.Task[None] | None = None
+        self._cancel = threading.Event()
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="index")
+
+    @property
+    def named(self) -> tuple[Root, ...]:
+        """The roots that the project's settings name."""
+        return self._project.roots
+
+    def changed(self, paths: Iterable[str] | None) -> None:
+        """These files changed, in the editor or on the disk; None: look at everything anew."""
+        if paths is None:
+            self._everything = True
+        else:
+            self._changed.update(paths)
+        if self._task is None or self._task.done():
+            self._task = self._server.spawn(self._rounds())
+
+    def close(self) -> None:
+        """Stop, and wait for the end."""
+        self._cancel.set()
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+    async def _rounds(self) -> None:
+        while (self._changed or self._everything) and not self._cancel.is_set():
+            workspace = await self._session.workspace()
+            await self._session.settled()
+            if self.index.complete:
+                await self._session.quiet()
+            changed = None if self._everything or not self.index.complete else frozenset(self._changed)
+            self._changed, self._everything = set(), False
+            if changed is None:
+                await self._read_settings()
+            index = await self._make(workspace, changed)
+            if index is not None:
+                self.index = index
+                self._session.index_changed()
+
+    async def _make(self, workspace: Workspace, changed: Collection[str] | None) -> WorkspaceIndex | None:
+        progress = Progress(self._server, "Indexing launch files") if changed is None else None
+        loop = asyncio.get_running_loop()
+        reported = 0.0
+
+        def report(done: int, total: int, path: str) -> None:
+            nonlocal reported
+            if progress is not None and time.monotonic() - reported > _REPORT_EVERY:
+                reported = time.monotonic()
+                text, share = f"{done} of {total}: {os.path.basename(path)}", 100 * done // max(total, 1)
+                with contextlib.suppress(RuntimeError):  # the loop has ended
+                    loop.call_soon_threadsafe(progress.report, text, min(share, 100))
+
+        def work() -> WorkspaceIndex | None:
+            return build_index(
+                workspace,
+                self._session.folder,
+                self.named,
+                previous=self.index,
+                changed=changed,
+                report=report,
+                cancelled=self._cancel.is_set,
+            )
+
+        index = None
+        try:
+            index = await loop.run_in_executor(self._pool, work)
+        except Exception:
+            _log.exception("indexing broke; the index is left as it is")
+        finally:
+            if progress is not None:
+                progress.end(f"{len(index.files)} launch files" if index is not None else "")
+        return index
+
+    async def _read_settings(self) -> None:
+        if (folder := self._session.folder) is None:
+            return
+        self._project = await self._session.in_pool(lambda: read_project_settings(folder))
+        for problem in self._project.problems:
+            text = f"{self._project.path}:{problem.line}: {problem.message}"
+            self._server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, text))

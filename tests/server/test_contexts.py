@@ -1,0 +1,116 @@
+"""In whose context a file is shown: the roots that the index of the workspace finds, the user's choice, settings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, editing
+
+pytestmark = pytest.mark.ros
+
+FRAGMENT = '<launch>\n  <arg name="rate"/>\n  <param name="rate" value="$(arg rate)"/>\n</launch>\n'
+
+
+def lay(desk: Desk) -> tuple[Path, Path, Path]:
+    """A fragment that two launch files include, with different arguments."""
+    fragment = desk.workspace / "fragment.launch"
+    fragment.write_text(FRAGMENT)
+    roots = []
+    for name, rate in (("fast", "50"), ("slow", "2")):
+        root = desk.workspace / f"{name}.launch"
+        root.write_text(f'<launch><include file="{fragment}"><arg name="rate" value="{rate}"/></include></launch>\n')
+        roots.append(root)
+    return fragment, roots[0], roots[1]
+
+
+async def shown_value(editor: Editor, path: Path) -> str:
+    found = await editor.hover(path, editor.at(path, "$(arg rate)", 3))
+    return str(getattr(found.contents, "value", "")) if found else ""
+
+
+async def ask(editor: Editor, method: str, params: Any) -> Any:
+    return await editor.client.protocol.send_request_async(method, params)
+
+
+async def test_a_file_is_shown_as_its_roots_include_it(desk: Desk) -> None:
+    fragment, fast, slow = lay(desk)
+    async with editing(desk) as editor:
+        editor.open(fragment)
+        await editor.until(lambda: editor.rules(fragment) == [])
+        answer = await ask(editor, "rosPreflight/roots", {"uri": fragment.as_uri()})
+        assert sorted(root.uri for root in answer.roots) == [fast.as_uri(), slow.as_uri()]
+        assert answer.shown == answer.roots[0]
+        assert "50" in await shown_value(editor, fragment)
+
+
+async def test_the_user_selects_root_and_arguments(desk: Desk) -> None:
+    fragment, _, slow = lay(desk)
+    async with editing(desk) as editor:
+        editor.open(fragment)
+        await editor.until(lambda: editor.rules(fragment) == [])
+        select = {"uri": fragment.as_uri(), "root": {"uri": slow.as_uri(), "args": {}}}
+        answer = await ask(editor, "rosPreflight/selectRoot", select)
+        assert (answer.shown.uri, answer.message) == (slow.as_uri(), None)
+        assert "2" in await shown_value(editor, fragment)
+        select["root"] = {"uri": fragment.as_uri(), "args": {"rate": "77"}}
+        await ask(editor, "rosPreflight/selectRoot", select)
+        assert "77" in await shown_value(editor, fragment)
+        select["root"] = None
+        await ask(editor, "rosPreflight/selectRoot", select)
+        assert "50" in await shown_value(editor, fragment)
+
+
+async def test_a_root_that_does_not_reach_the_file_is_refused(desk: Desk) -> None:
+    fragment, _, _ = lay(desk)
+    other = desk.workspace / "other.launch"
+    other.write_text("<launch/>\n")
+    async with editing(desk) as editor:
+        editor.open(fragment)
+        await editor.until(lambda: editor.rules(fragment) == [])
+        select = {"uri": fragment.as_uri(), "root": {"uri": other.as_uri(), "args": {}}}
+        answer = await ask(editor, "rosPreflight/selectRoot", select)
+        assert "does not include" in answer.message
+        assert "50" in await shown_value(editor, fragment)
+
+
+async def test_the_settings_name_roots_with_arguments(desk: Desk) -> None:
+    fragment, _, _ = lay(desk)
+    named = desk.workspace / ".ros-preflight.yaml"
+    named.write_text("roots:\n  - file: fragment.launch\n    args: {rate: 33}\n")
+    async with editing(desk) as editor:
+        editor.open(fragment)
+        await editor.until(lambda: editor.rules(fragment) == [])
+        answer = await ask(editor, "rosPreflight/roots", {"uri": fragment.as_uri()})
+        assert (answer.shown.uri, answer.shown.args.rate) == (fragment.as_uri(), "33")
+        assert "33" in await shown_value(editor, fragment)
+
+
+async def test_a_file_that_comes_and_goes_is_taken_into_the_index(desk: Desk) -> None:
+    fragment = desk.workspace / "fragment.launch"
+    fragment.write_text(FRAGMENT)
+    async with editing(desk) as editor:
+        editor.open(fragment)
+        await editor.until(lambda: editor.rules(fragment) == ["ARG003"])
+        _, fast, _ = lay(desk)
+        editor.watched(fast)
+        await editor.until(lambda: editor.rules(fragment) == [])
+
+
+async def test_the_settings_are_told_what_is_wrong_with_them(desk: Desk) -> None:
+    (desk.workspace / ".ros-preflight.yaml").write_text("roots:\n  - fiel: x.launch\n")
+    async with editing(desk) as editor:
+        editor.open(desk.launch_file)
+        found = await editor.until(lambda: [m.message for m in editor.client.messages])
+        assert any(".ros-preflight.yaml:2: 'fiel' does not belong" in message for message in found)
+
+
+async def test_indexing_shows_its_progress(desk: Desk) -> None:
+    for number in range(300):
+        (desk.workspace / f"f{number}.launch").write_text(FRAGMENT)
+    async with editing(desk) as editor:
+        values = await editor.until(lambda: next(iter(editor.progress_of("Indexing launch files").values()), None))
+        await editor.until(lambda: values[-1]["kind"] == "end")
+        assert "launch files" in values[-1]["message"]
