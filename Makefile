@@ -42,10 +42,10 @@ bench: setup ## editing latency, a large workspace and the time of a trace, as r
 	$(BIN)/python bench/trace.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
-corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslaunch has them
+corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslaunch has them, values and errors
 	@mkdir -p out
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
-	$(BIN)/python ../shared/tools/compare_ros1.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
+	$(BIN)/python tests/against_roslaunch.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
 
 vsix: ## the VS Code extension, out/ros-preflight.vsix
 	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package

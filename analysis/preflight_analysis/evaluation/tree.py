@@ -179,6 +179,10 @@ class Problem:
         return self.origin[-1]
 
 
+DEFAULT_MACHINE_TIMEOUT = 10.0
+"""In seconds, for the process on another machine to register."""
+
+
 @dataclass(frozen=True, slots=True)
 class Machine:
     """A `<machine>` declaration."""
@@ -189,6 +193,16 @@ class Machine:
     user: str | None
     timeout: float | None
     origin: Origin
+    ssh_port: int = 22
+    password: str | None = None
+    assignable: bool = True
+
+    @property
+    def settings(self) -> tuple[object, ...]:
+        """What has to be the same where a machine is declared twice."""
+        timeout = self.timeout or DEFAULT_MACHINE_TIMEOUT
+        login = (self.user or "", self.password or "", self.ssh_port)
+        return self.name, self.address, self.env_loader or "", *login, timeout, self.assignable
 
 
 @dataclass(frozen=True, slots=True)

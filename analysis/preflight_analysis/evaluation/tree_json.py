@@ -17,10 +17,16 @@ SCHEMA = "ros-preflight/tree/1"
 
 
 def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Iterable[Finding]) -> dict[str, Any]:
-    """The contract's object. `errors` are the findings that would stop the launcher; the other ones are of `check`.
+    """The contract's object. `errors` are the findings that would stop the launcher, what it meets first in front; the
+    other ones are of `check`.
 
     Lines and columns are counted from 1, columns in code points. A float that JSON has no number for is a string.
     """
+    met: dict[Location, int] = {}
+    for number, problem in enumerate(tree.problems):
+        if problem.fatal:
+            met.setdefault(problem.location, number)
+    errors = sorted((f for f in findings if f.stops_launch), key=lambda f: met.get(f.location, len(met)))
     return {
         "schema": SCHEMA,
         "file": tree.file,
@@ -43,11 +49,7 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
             for name, machine in tree.machines.items()
         },
         "unknown": [{"what": unknown.what, "reason": unknown.reason} for unknown in tree.unknowns],
-        "errors": [
-            {"rule": f.rule, "message": f.message, **place_json(f.location, documents)}
-            for f in findings
-            if f.stops_launch
-        ],
+        "errors": [{"rule": f.rule, "message": f.message, **place_json(f.location, documents)} for f in errors],
     }
 
 

@@ -9,7 +9,7 @@ from preflight_analysis.evaluation import values
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.schema_ros1 import TAGS
 
 T = TypeVar("T")
@@ -22,13 +22,17 @@ class Attributes:
         self.state, self.scope, self.action = state, scope, action
         self.all_known = True
         """Whether everything asked for so far could be resolved."""
+        self._found: dict[str, Resolved] = {}
 
     def get(self, name: str) -> Resolved | None:
-        """The resolved value, None where there is no such attribute."""
+        """The resolved value, None where there is no such attribute. It is resolved the first time it is asked for:
+        ask in the order in which roslaunch does, so that the first problem noted is the one that it stops at."""
+        if name in self._found:
+            return self._found[name]
         value = self.action.value(name)
         if value is None:
             return None
-        result = resolve(self.state, self.scope, value)
+        result = self._found[name] = resolve(self.state, self.scope, value)
         self.all_known = self.all_known and result.known
         return result
 
@@ -38,14 +42,20 @@ class Attributes:
         return found.text if found else None
 
     def require(self, *names: str) -> list[Resolved] | None:
-        """All of them, or None where one is missing, which is noted: roslaunch stops there."""
-        missing = [n for n in names if self.action.value(n) is None]
-        if missing:
-            self.state.problem(
-                "missing-attribute", self.scope.origin(self.action.kind_span), tag=self.action.kind, names=missing
-            )
-            return None
-        return [found for found in (self.get(n) for n in names) if found is not None]
+        """All of them, or None where one is missing, which is noted: roslaunch stops at the first."""
+        results = []
+        for name in names:
+            found = self.get(name)
+            if found is None:
+                self.missing(name)
+            else:
+                results.append(found)
+        return results if len(results) == len(names) else None
+
+    def missing(self, name: str) -> None:
+        """Note an attribute that roslaunch needs."""
+        origin = self.scope.origin(self.action.kind_span)
+        self.state.problem("missing-attribute", origin, tag=self.action.kind, name=name, names=[name])
 
     def convert(self, name: str, default: T, converter: Callable[[str], T]) -> T:
         """The attribute through `converter`, which raises `BadValueError`; `default` where absent, unknown or bad."""
@@ -58,20 +68,11 @@ class Attributes:
             self.bad_value(name, found.text, str(error))
             return default
 
-    def refused(self) -> bool:
-        """Whether the tag has an attribute or a child on which roslaunch stops; the first is noted."""
-        kind, tag = self.action.kind, TAGS[self.action.kind]
-        for attribute in self.action.attributes:
-            if attribute.name in tag.refused:
-                origin, allowed = self.scope.origin(attribute.name_span), list(tag.attributes)
-                self.state.problem("unknown-attribute", origin, name=attribute.name, tag=kind, allowed=allowed)
-                return True
-        for child in self.action.children:
-            if child.kind in tag.refused:
-                origin, allowed = self.scope.origin(child.kind_span), list(tag.children)
-                self.state.problem("unknown-element", origin, tag=child.kind, parent=kind, allowed=allowed)
-                return True
-        return False
+    def refuse(self, attribute: ActionAttribute) -> None:
+        """Note an attribute on which roslaunch stops, where others that it does not know get a warning."""
+        kind = self.action.kind
+        origin, allowed = self.scope.origin(attribute.name_span), list(TAGS[kind].attributes)
+        self.state.problem("unknown-attribute", origin, name=attribute.name, tag=kind, allowed=allowed)
 
     def bad_value(self, name: str, value: str, expected: str, choices: tuple[str, ...] = ()) -> None:
         """Note a value that roslaunch refuses."""

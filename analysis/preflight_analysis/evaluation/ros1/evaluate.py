@@ -210,19 +210,21 @@ def _too_deep(state: State, scope: Scope, action: Action) -> bool:
 
 
 def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass_all: bool) -> dict[str, ArgValue]:
-    """The arguments given to an included file. They are evaluated in the includer's scope and do not see each other."""
+    """The arguments given to an included file. They are evaluated in the includer's file and do not
+    see each other."""
     passed: dict[str, ArgValue] = {}
     seen: dict[str, Location] = {}
     if pass_all:
         passed = dict(scope.args)
+    without: list[tuple[str, Span]] = []
     for child in action.children:
         kind = child.kind.lower()
         if kind == "env":
             evaluate_env(state, inside, child)
             continue
-        if kind != "arg" or not applies(state, scope, child):
+        if kind != "arg" or not applies(state, inside, child):
             continue
-        attributes = Attributes(state, scope, child)
+        attributes = Attributes(state, inside, child)
         required = attributes.require("name")
         if required is None:
             continue
@@ -230,6 +232,7 @@ def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass
         name_attribute = child.attribute("name")
         span = name_attribute.value.span if name_attribute else child.kind_span
         value, default = attributes.get("value"), attributes.get("default")
+        attributes.get("doc")
         if value is not None and default is not None:
             names_given = ["value", "default"]
             state.problem("attributes-exclude", scope.origin(child.kind_span), tag="arg", names=names_given)
@@ -241,12 +244,15 @@ def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass
         given = value if value is not None else default
         if given is None:
             if name not in passed:
-                state.problem("include-arg-no-value", scope.origin(span), name=name)
+                without.append((name, span))
                 passed[name] = ArgValue(None, scope.origin(span))
         elif value is not None or name not in passed:
             passed[name] = ArgValue(given.text if given.known else None, scope.origin(span))
         now = passed.get(name)
         state.uses.append(Use("argument", Location(scope.file, span), name, now.text if now else None))
+    # roslaunch looks at all of them first.
+    for name, span in without:
+        state.problem("include-arg-no-value", scope.origin(span), name=name)
     return passed
 
 
@@ -301,7 +307,7 @@ def _root_args(scope: Scope, launch_file: LaunchFile) -> dict[str, Arg]:
 
 
 def _check_machines(state: State) -> None:
-    for node in state.nodes:
+    for node in sorted(state.nodes, key=lambda node: node.kind == "test"):
         if node.machine and node.machine not in state.machines and not node.unknowns:
             attribute = node.action.attribute("machine")
             span = attribute.value.span if attribute else node.action.kind_span

@@ -11,9 +11,11 @@ from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, i
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam, set_param
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
+from preflight_analysis.evaluation.ros1.substitute import Resolved
 from preflight_analysis.evaluation.ros1.tags import clear_params, evaluate_env, evaluate_remap, namespace_of
 from preflight_analysis.evaluation.tree import Executable, LaunchNode, Unknown, Use
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.schema_ros1 import TAGS
 
 
 def evaluate_node(state: State, scope: Scope, action: Action, default_machine: str | None) -> None:
@@ -22,52 +24,39 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
         return
     is_test = action.kind == "test"
     attributes = Attributes(state, scope, action)
-    if is_test and not _test_attributes(attributes):
+    name = _test_name(attributes) if is_test else attributes.get("name")
+    if name is None:
+        if not is_test:
+            attributes.require("name", "pkg", "type")
         return
-    required = attributes.require("pkg", "type", *(("test-name",) if is_test else ("name",)))
-    if required is None:
-        return
-    package, executable, name = (found.text for found in required)
-    if is_test:
-        name = attributes.text("name") or name
-    if "/" in name:
-        state.problem(
-            "invalid-name",
-            scope.origin(_span(action, "name")),
-            what="node",
-            name=name,
-            reason="a node's name cannot contain a namespace, use the attribute ns",
-        )
-        return
-    if not names.is_legal(name) and attributes.all_known:
-        reason = "a name is a letter, then letters, digits and underscores"
-        origin = scope.origin(_span(action, "name"))
-        state.problem("invalid-name", origin, fatal=False, what="node", name=name, reason=reason)
-    for attribute, text in (("pkg", package), ("type", executable)):
-        if not text.strip():
-            attributes.bad_value(attribute, text, "not empty")
-            return
     ns = namespace_of(state, scope, action, attributes)
     if ns is None:
         return
     inside = scope.child(ns.text)
-    clear_params(state, scope, action, attributes, inside, ns.text, node=name)
-    options = _options(attributes)
-    if options is None:
+    clear_params(state, scope, action, attributes, inside, ns.text, node=name.text)
+    if names.is_private(name.text):
+        _invalid_name(attributes, name.text, "a node's name cannot be private")
         return
-    full = names.canonicalize(re.sub("//+", "/", names.join(inside.ns, name)))
+    required = attributes.require("pkg", "type")
+    if required is None:
+        return
+    package, executable = (found.text for found in required)
+    options = _options(attributes)
+    full = names.canonicalize(re.sub("//+", "/", names.join(inside.ns, name.text)))
     unknown_before = len(state.unknowns)
     private, remaps, env = _children(state, scope, inside, action, full)
     for param in (*scope.private_params, *private.private_params):
         below = param.name[1:] if names.is_private(param.name) else param.name
         set_param(state, replace(param, name=names.canonicalize(private.ns + below), owner=full))
+    if not _valid(attributes, name, options):
+        return
     unknowns = state.unknowns[unknown_before:]
     if not attributes.all_known:
         unknown = Unknown(f"node {full}", "an attribute of it is not known", Location(scope.file, action.kind_span))
         unknowns.append(unknown)
         state.unknowns.append(unknown)
     origin = scope.origin(action.head_span)
-    if not is_test and not _claim_name(state, full, origin[-1], scope, action):
+    if not is_test and name.text and not _claim_name(state, full, origin[-1], scope, action):
         return
     resolved = state.executables.find(package, executable) if attributes.all_known else Executable(None)
     if resolved.path is not None:
@@ -110,35 +99,68 @@ class _Options:
     clear: bool
 
 
-def _options(attributes: Attributes) -> _Options | None:
-    state, scope, action = attributes.state, attributes.scope, attributes.action
+def _options(attributes: Attributes) -> _Options:
+    for name in ("machine", "args", "output", "respawn", "respawn_delay", "cwd", "launch-prefix", "required"):
+        attributes.get(name)
     required = attributes.convert("required", False, values.to_flag)
     respawn = attributes.convert("respawn", False, values.to_flag)
     delay = attributes.convert("respawn_delay", 0.0, plain_number)
-    if respawn and required:
-        state.problem(
-            "attributes-exclude", scope.origin(action.kind_span), tag=action.kind, names=["respawn", "required"]
-        )
-        return None
+    cwd = attributes.text("cwd")
+    clear = bool(attributes.text("clear_params")) and attributes.convert("clear_params", False, values.to_flag)
+    folder = "ROS_HOME" if cwd == "ros_home" else cwd
+    return _Options(required, respawn, delay, attributes.text("output") or "log", folder, clear)
+
+
+def _valid(attributes: Attributes, name: Resolved, options: _Options) -> bool:
+    """What roslaunch checks last, when the children are done."""
+    if options.respawn and options.required:
+        origin = attributes.scope.origin(attributes.action.kind_span)
+        given = ["respawn", "required"]
+        attributes.state.problem("attributes-exclude", origin, tag=attributes.action.kind, names=given)
+        return False
+    if name.known and "/" in name.text:
+        _invalid_name(attributes, name.text, "a node's name cannot contain a namespace, use the attribute ns")
+        return False
+    if name.known and not names.is_legal(name.text):
+        reason = "a name is a letter, then letters, digits and underscores"
+        _invalid_name(attributes, name.text, reason, fatal=False)
+    for attribute in ("pkg", "type"):
+        found = attributes.get(attribute)
+        if found is not None and not found.text.strip():
+            attributes.bad_value(attribute, found.text, "not empty")
+            return False
     output = attributes.get("output")
     if output is not None and output.known and output.text not in ("log", "screen"):
         attributes.bad_value("output", output.text, "log or screen", ("log", "screen"))
-        return None
-    cwd = attributes.get("cwd")
-    folder = "ROS_HOME" if cwd is not None and cwd.text == "ros_home" else cwd.text if cwd is not None else None
-    if cwd is not None and cwd.known and folder not in ("ROS_HOME", "node"):
-        attributes.bad_value("cwd", cwd.text, "ROS_HOME or node", ("ROS_HOME", "node"))
-        return None
-    clear = attributes.convert("clear_params", False, values.to_flag)
-    return _Options(required, respawn, delay, output.text if output else "log", folder, clear)
-
-
-def _test_attributes(attributes: Attributes) -> bool:
-    if attributes.refused():
         return False
+    cwd = attributes.get("cwd")
+    if cwd is not None and cwd.known and options.cwd not in ("ROS_HOME", "node"):
+        attributes.bad_value("cwd", cwd.text, "ROS_HOME or node", ("ROS_HOME", "node"))
+        return False
+    return True
+
+
+def _invalid_name(attributes: Attributes, name: str, reason: str, *, fatal: bool = True) -> None:
+    origin = attributes.scope.origin(_span(attributes.action, "name"))
+    attributes.state.problem("invalid-name", origin, fatal=fatal, what="node", name=name, reason=reason)
+
+
+def _test_name(attributes: Attributes) -> Resolved | None:
+    """The name of a test, after what only tests have."""
+    name = attributes.get("name")
+    refused = [attributes.action.attribute(refused) for refused in TAGS["test"].refused]
+    for attribute in filter(None, refused):
+        attributes.refuse(attribute)
+        return None
+    test_name = attributes.get("test-name")
+    if test_name is None:
+        attributes.require("test-name", "pkg", "type")
+        return None
+    attributes.get("time-limit")
+    attributes.get("retry")
     attributes.convert("time-limit", None, lambda text: positive_number(text) if text else None)
     attributes.convert("retry", None, lambda text: integer(text) if text else None)
-    return True
+    return name if name is not None and name.text else test_name
 
 
 def _children(state: State, scope: Scope, inside: Scope, action: Action, full: str) -> tuple[Scope, Scope, Scope]:

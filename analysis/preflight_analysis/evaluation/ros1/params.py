@@ -39,7 +39,7 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
     if not applies(state, scope, action):
         return
     attributes = Attributes(state, scope, action)
-    given = [source for source in SOURCES if action.value(source) is not None]
+    given = [source for source in SOURCES if attributes.get(source) is not None]
     if len(given) != 1:
         kind = "attributes-exclude" if given else "missing-attribute"
         state.problem(kind, scope.origin(action.kind_span), tag="param", names=given or list(SOURCES))
@@ -141,10 +141,10 @@ def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str |
         return
     attributes = Attributes(state, scope, action)
     command, ns, file, param = (attributes.text(n) for n in ("command", "ns", "file", "param"))
+    substitute = attributes.convert("subst_value", False, values.to_flag)
     if not attributes.all_known:
         state.unknown("<rosparam>", "an attribute is not known", scope, action.kind_span)
         return
-    substitute = attributes.convert("subst_value", False, values.to_flag)
     command = command or "load"
     if command not in COMMANDS:
         attributes.bad_value("command", command, "load, dump or delete", COMMANDS)

@@ -10,6 +10,9 @@ from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved
 from preflight_analysis.evaluation.tree import Machine, Remap, Use
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.schema_ros1 import TAGS
+
+_REFUSED_MACHINE = tuple(name for name in TAGS["machine"].refused if name != "env")
 
 
 def evaluate_remap(state: State, scope: Scope, action: Action, *, inside_node: bool) -> Remap | None:
@@ -89,36 +92,45 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
     """A `<machine>` (http://wiki.ros.org/roslaunch/XML/machine); its name where it is the default for what follows."""
     if not applies(state, scope, action):
         return None
-    attributes = Attributes(state, scope, action)
-    if attributes.refused():
+    # A scope of its own: anonymous names made in it are not seen by what follows.
+    attributes = Attributes(state, scope.child(), action)
+    # Before ROS Fuerte these had a meaning; empty ones are let pass.
+    old = [attribute for name in _REFUSED_MACHINE if (attribute := action.attribute(name)) and attributes.text(name)]
+    if old:
+        attributes.refuse(old[0])
         return None
     found = attributes.require("name", "address")
     if found is None:
         return None
+    for name in ("env-loader", "ssh-port", "user", "password", "default", "timeout"):
+        attributes.get(name)
+    ssh_port = attributes.convert("ssh-port", 22, lambda text: integer(text or "22"))
     default = (attributes.text("default") or "false").lower()
     if default not in ("true", "false", "never"):
         attributes.bad_value("default", default, "true, false or never", ("true", "false", "never"))
         return None
-    attributes.convert("ssh-port", 22, lambda text: integer(text or "22"))
+    for child in action.children:
+        if child.kind == "env":
+            origin = scope.origin(child.kind_span)
+            state.problem("unknown-element", origin, tag=child.kind, parent=action.kind, allowed=[])
+            return None
     timeout = attributes.convert("timeout", None, positive_number)
     machine = Machine(
         found[0].text,
         found[1].text,
         attributes.text("env-loader"),
-        attributes.text("user"),
+        attributes.text("user") or None,
         timeout,
         scope.origin(action.head_span),
+        ssh_port,
+        attributes.text("password"),
+        default != "never",
     )
-    old = state.machines.get(machine.name)
-    if old is not None and (old.address, old.user, old.env_loader) != (
-        machine.address,
-        machine.user,
-        machine.env_loader,
-    ):
+    first = state.machines.setdefault(machine.name, machine)
+    if first.settings != machine.settings:
         reason = "it is declared twice, with different attributes"
         state.problem("invalid-name", scope.origin(action.kind_span), what="machine", name=machine.name, reason=reason)
         return None
-    state.machines.setdefault(machine.name, machine)
     return machine.name if default == "true" else None
 
 
@@ -146,8 +158,8 @@ def clear_params(
     """The attribute `clear_params`: parameters below the namespace are deleted before the launch."""
     if not attributes.text("clear_params") or not attributes.convert("clear_params", False, values.to_flag):
         return
-    if node is None and not ns:
-        state.problem("missing-attribute", scope.origin(action.kind_span), tag=action.kind, names=["ns"])
+    if not (ns if node is None else node):
+        attributes.missing("ns" if node is None else "name")
         return
     cleared = inside.ns if node is None else names.as_namespace(names.join(inside.ns, node))
     state.clear_params.append(cleared)
