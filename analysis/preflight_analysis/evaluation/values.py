@@ -7,8 +7,9 @@ them; the differential tests have the surprising cases (`1_000` and `1e3` are st
 from __future__ import annotations
 
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+from preflight_analysis.launch.schema_ros1 import TAGS
 
-TYPES = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml")
+TYPES = TAGS["param"].attributes["type"].choices
 
 
 class BadValueError(ValueError):

@@ -1,57 +1,243 @@
 """The roslaunch XML language as data: http://wiki.ros.org/roslaunch/XML, one entry a tag.
 
-`required` attributes are those without which roslaunch stops. `children` are the tags that it reads there.
+Validation, completion and hover read it. The default of an attribute is what roslaunch takes where it is left out;
+`choices` are offered and, where roslaunch takes nothing else, required.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
 
-CONDITIONS = ("if", "unless")
 ANNOTATIONS = ("topics", "services", "params", "actions")
 """Our own tags in a `<node>`; roslaunch skips them with a warning, which is why a comment may hold them too."""
+
+Kind = Literal[
+    "text",
+    "prose",
+    "condition",
+    "flag",
+    "choice",
+    "integer",
+    "number",
+    "package",
+    "executable",
+    "launch-file",
+    "yaml-file",
+    "file",
+    "argument",
+    "parameter",
+    "variable",
+    "machine",
+    "namespace",
+    "remap-from",
+    "remap-to",
+]
+"""What an attribute's value is. `prose`: a sentence for people; `condition`: true, false, 1 or 0; `flag`: true or false; `choice`: one of `choices`;
+`executable`: of the package in `pkg`; `argument`, `parameter`, `variable` (of the environment), `machine`: its name;
+`remap-from`, `remap-to`: the name of a topic, service or action."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """An attribute of a tag. `required`: without it roslaunch stops."""
+
+    name: str
+    doc: str
+    kind: Kind = "text"
+    choices: tuple[str, ...] = ()
+    default: str | None = None
+    required: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Tag:
-    """What a tag may have. Names in the order in which they should be offered."""
+    """What a tag may have, in the order in which it should be offered. `attributes` includes the conditions;
+    `children` are the tags that roslaunch reads there; `text` tells whether it reads the text between the tags."""
 
-    required: tuple[str, ...] = ()
-    optional: tuple[str, ...] = ()
+    doc: str
+    attributes: Mapping[str, Attribute]
     children: tuple[str, ...] = ()
     text: bool = False
     refused: tuple[str, ...] = ()
     """Attributes and children on which roslaunch stops, where others that it does not know get a warning."""
 
     @property
-    def attributes(self) -> tuple[str, ...]:
-        """All attributes, the conditions included."""
-        return (*self.required, *self.optional, *CONDITIONS)
+    def required(self) -> tuple[str, ...]:
+        """The attributes without which roslaunch stops."""
+        return tuple(a.name for a in self.attributes.values() if a.required)
 
 
-_SCOPE = ("arg", "env", "group", "include", "machine", "node", "param", "remap", "rosparam", "test")
-_NODE = ("remap", "param", "rosparam", "env")
-_NODE_OPTIONAL = ("args", "ns", "output", "respawn", "respawn_delay", "required", "launch-prefix", "machine", "cwd")
+def _flag(name: str, doc: str) -> Attribute:
+    return Attribute(name, doc, "flag", ("true", "false"), "false")
 
-TAGS: dict[str, Tag] = {
-    "launch": Tag(optional=("deprecated",), children=_SCOPE),
-    "group": Tag(optional=("ns", "clear_params"), children=_SCOPE),
-    "node": Tag(("pkg", "type", "name"), (*_NODE_OPTIONAL, "clear_params"), _NODE),
-    "test": Tag(
-        ("pkg", "type", "test-name"),
-        ("name", "args", "ns", "launch-prefix", "machine", "cwd", "clear_params", "time-limit", "retry", "required"),
-        _NODE,
+
+def _required(attribute: Attribute) -> Attribute:
+    return replace(attribute, required=True)
+
+
+_CONDITIONS = (
+    Attribute("if", "Read the tag only if this is true (or 1).", "condition", ("true", "false")),
+    Attribute("unless", "Read the tag only if this is false (or 0).", "condition", ("true", "false")),
+)
+
+
+def _tag(
+    doc: str,
+    *attributes: Attribute,
+    children: tuple[str, ...] = (),
+    text: bool = False,
+    refused: tuple[str, ...] = (),
+) -> Tag:
+    return Tag(doc, {a.name: a for a in (*attributes, *_CONDITIONS)}, children, text, refused)
+
+
+_SCOPE = ("node", "include", "arg", "param", "rosparam", "remap", "group", "env", "machine", "test")
+_NODE = ("param", "rosparam", "remap", "env")
+
+_PKG = Attribute("pkg", "The package of the node.", "package", required=True)
+_TYPE = Attribute("type", "The executable: a file of this name in the package.", "executable", required=True)
+_NAME = Attribute("name", "The name of the node, without a namespace.")
+_ARGS = Attribute("args", "Command-line arguments for the node.")
+_NS = Attribute("ns", "Start the node in this namespace.", "namespace")
+_CLEAR = _flag("clear_params", "Delete all parameters in the node's private namespace before it starts.")
+_PREFIX = Attribute("launch-prefix", "A command to put before the node's own, such as `gdb -ex run --args`.")
+_MACHINE = Attribute("machine", "Start the node on this machine, which a `<machine>` tag declares.", "machine")
+_CWD = Attribute(
+    "cwd",
+    "The node's working directory: `ROS_HOME`, or `node` for the folder of its executable.",
+    "choice",
+    ("ROS_HOME", "node"),
+    "ROS_HOME",
+)
+_REQUIRED = _flag("required", "End the whole launch when the node ends.")
+
+TAGS: Mapping[str, Tag] = {
+    "launch": _tag(
+        "The root of every launch file.",
+        Attribute("deprecated", "Tell users that the file should no longer be used, with this message.", "prose"),
+        children=_SCOPE,
+    ),
+    "group": _tag(
+        "Tags that share a namespace, a condition, and remaps, environment and arguments of their own.",
+        Attribute("ns", "Put everything in the group into this namespace.", "namespace"),
+        _flag("clear_params", "Delete all parameters in the group's namespace before the launch; needs `ns`."),
+        children=_SCOPE,
+    ),
+    "node": _tag(
+        "Starts a node.",
+        _PKG,
+        _TYPE,
+        _required(_NAME),
+        _ARGS,
+        _NS,
+        Attribute("output", "Where the node's output goes.", "choice", ("log", "screen"), "log"),
+        _flag("respawn", "Start the node again whenever it ends."),
+        Attribute("respawn_delay", "Seconds to wait before the node is started again.", "number", default="0"),
+        _REQUIRED,
+        _PREFIX,
+        _MACHINE,
+        _CWD,
+        _CLEAR,
+        children=_NODE,
+    ),
+    "test": _tag(
+        "Runs a test node; only `rostest` does, `roslaunch` leaves it out.",
+        _PKG,
+        _TYPE,
+        Attribute("test-name", "The name of the test in the results.", required=True),
+        replace(_NAME, doc="The name of the node, without a namespace; that of the test where it is left out."),
+        _ARGS,
+        _NS,
+        _PREFIX,
+        _MACHINE,
+        _CWD,
+        _CLEAR,
+        Attribute("time-limit", "Seconds after which the test has failed.", "number", default="60"),
+        Attribute("retry", "How often to try again before the test has failed.", "integer", default="0"),
+        _REQUIRED,
+        children=_NODE,
         refused=("respawn", "respawn_delay", "output"),
     ),
-    "include": Tag(("file",), ("ns", "clear_params", "pass_all_args"), ("arg", "env")),
-    "arg": Tag(("name",), ("default", "value", "doc")),
-    "param": Tag(("name",), ("value", "type", "textfile", "binfile", "command")),
-    "rosparam": Tag((), ("command", "file", "param", "ns", "subst_value"), (), text=True),
-    "remap": Tag(("from", "to")),
-    "env": Tag(("name", "value")),
-    "machine": Tag(
-        ("name", "address"),
-        ("env-loader", "ssh-port", "user", "password", "default", "timeout"),
+    "include": _tag(
+        "Reads another launch file. It sees only the arguments that are passed to it.",
+        Attribute("file", "The launch file to read.", "launch-file", required=True),
+        Attribute("ns", "Put everything in the file into this namespace.", "namespace"),
+        _flag("clear_params", "Delete all parameters in the namespace before the launch; needs `ns`."),
+        _flag("pass_all_args", "Pass on all arguments of this file as well."),
+        children=("arg", "env"),
+    ),
+    "arg": _tag(
+        "Declares an argument of this file; inside of an `<include>`: passes one on.",
+        Attribute("name", "The name of the argument, for `$(arg name)`.", "argument", required=True),
+        Attribute("default", "The value where none is passed. Without `default` and `value` one has to be."),
+        Attribute("value", "The value, which nobody can override."),
+        Attribute("doc", "What it is for, shown by `roslaunch --ros-args`.", "prose"),
+    ),
+    "param": _tag(
+        "Sets a parameter; inside of a `<node>` a private one.",
+        Attribute("name", "The name of the parameter, relative to the namespace.", "parameter", required=True),
+        Attribute("value", "The value."),
+        Attribute(
+            "type",
+            "The type of the value; `auto` goes by what the text looks like.",
+            "choice",
+            ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml"),
+            "auto",
+        ),
+        Attribute("textfile", "Set it to the text of this file.", "file"),
+        Attribute("binfile", "Set it to the bytes of this file.", "file"),
+        Attribute("command", "Set it to what this command prints."),
+    ),
+    "rosparam": _tag(
+        "Sets parameters from YAML, in a file or between the tags.",
+        Attribute(
+            "command",
+            "`load` parameters, `dump` them to a file or `delete` them.",
+            "choice",
+            ("load", "dump", "delete"),
+            "load",
+        ),
+        Attribute("file", "The YAML file.", "yaml-file"),
+        Attribute("param", "The name of the parameter under which the YAML is put.", "parameter"),
+        Attribute("ns", "Put the parameters into this namespace.", "namespace"),
+        _flag("subst_value", "Resolve `$(...)` in the YAML text."),
+        text=True,
+    ),
+    "remap": _tag(
+        "Gives a topic, service or action another name, for the nodes that come later in the same scope.",
+        Attribute("from", "The name that the node uses.", "remap-from", required=True),
+        Attribute("to", "The name that it gets instead.", "remap-to", required=True),
+    ),
+    "env": _tag(
+        "Sets an environment variable for the nodes that come later in the same scope.",
+        Attribute("name", "The name of the variable.", "variable", required=True),
+        Attribute("value", "Its value.", required=True),
+    ),
+    "machine": _tag(
+        "Declares a machine on which nodes can be started.",
+        Attribute("name", "The name for the attribute `machine` of nodes.", required=True),
+        Attribute("address", "The host's name or address.", required=True),
+        Attribute("env-loader", "A script on the machine that sets up the environment and runs what follows."),
+        Attribute("ssh-port", "The port of its SSH server.", "integer", default="22"),
+        Attribute("user", "The user to log in as."),
+        Attribute("password", "The password; keys are safer."),
+        Attribute(
+            "default",
+            "`true`: nodes that come later start here unless they say otherwise; `never`: this machine is not used "
+            "for nodes that name none.",
+            "choice",
+            ("true", "false", "never"),
+            "false",
+        ),
+        Attribute("timeout", "Seconds to wait for a node to start.", "number", default="10"),
         refused=("ros-root", "ros-package-path", "ros-ip", "ros-hostname", "env"),
     ),
 }
+
+
+def one_of(choices: tuple[str, ...]) -> str:
+    """The choices in words: `load, dump or delete`."""
+    *others, last = choices
+    return f"{', '.join(others)} or {last}" if others else last

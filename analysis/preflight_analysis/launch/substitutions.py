@@ -6,13 +6,24 @@ http://wiki.ros.org/roslaunch/XML#substitution_args. There is no escape; `$(` th
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Literal, Substitution, Value
 
-COMMANDS_ROS1 = ("arg", "find", "env", "optenv", "anon", "dirname", "eval")
+SUBSTITUTIONS: Mapping[str, tuple[str, str]] = {
+    "arg": ("NAME", "The value of an argument of this file."),
+    "find": ("PACKAGE", "The folder of a package; with a path after it, that file in the package."),
+    "env": ("NAME", "An environment variable, which must be set."),
+    "optenv": ("NAME DEFAULT", "An environment variable, or the default where it is not set."),
+    "anon": ("ID", "A name that is made unique; the same for the same id in this file."),
+    "dirname": ("", "The folder of this launch file."),
+    "eval": ("EXPRESSION", "A Python expression, in which arguments are known by their names. It must be the whole value."),
+}
+"""What each command takes, and what it stands for."""
+
+COMMANDS_ROS1 = tuple(SUBSTITUTIONS)
 
 
 class SubstitutionSyntaxError(ValueError):

@@ -74,7 +74,7 @@ def facts_of(launch_file: LaunchFile) -> FileFacts:
     """The facts of a file, whether well-formed or not."""
     root = launch_file.root
     mentions = tuple(_mentions(root, None)) if root is not None else ()
-    args = tuple(_declaration(action) for action in _declarations(root)) if root is not None else ()
+    args = tuple(declaration(action) for action in _declarations(root)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
     return FileFacts(launch_file.path, launch_file.document.digest, args, mentions, has_nodes)
 
@@ -87,7 +87,8 @@ def _declarations(action: Action) -> Iterator[Action]:
             yield from _declarations(child)
 
 
-def _declaration(action: Action) -> ArgDeclaration:
+def declaration(action: Action) -> ArgDeclaration:
+    """What an `<arg>` tag that has a name declares."""
     texts = {a.name: a.value.text for a in action.attributes}
     span = next(a.value.span for a in action.attributes if a.name == "name")
     return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), texts.get("doc"), span)

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
 from preflight_analysis.launch.model import Action, ActionAttribute
-from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.launch.schema_ros1 import TAGS, one_of
 
 T = TypeVar("T")
 
@@ -74,6 +74,14 @@ class Attributes:
         origin, allowed = self.scope.origin(attribute.name_span), list(TAGS[kind].attributes)
         self.state.problem("unknown-attribute", origin, name=attribute.name, tag=kind, allowed=allowed)
 
+    def chosen(self, name: str, text: str) -> bool:
+        """Whether `text` is among the choices that the language has for the attribute; if not, that is noted."""
+        choices = TAGS[self.action.kind.lower()].attributes[name].choices
+        if text not in choices:
+            self.bad_value(name, text, one_of(choices), choices)
+            return False
+        return True
+
     def bad_value(self, name: str, value: str, expected: str, choices: tuple[str, ...] = ()) -> None:
         """Note a value that roslaunch refuses."""
         attribute = self.action.attribute(name)
@@ -132,6 +140,6 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
         try:
             return values.to_bool(found.text) == (name == "if")
         except values.BadValueError as error:
-            attributes.bad_value(name, found.text, str(error), ("true", "false"))
+            attributes.bad_value(name, found.text, str(error), TAGS[action.kind.lower()].attributes[name].choices)
             return False
     return True

@@ -130,14 +130,10 @@ def _valid(attributes: Attributes, name: Resolved, options: _Options) -> bool:
             attributes.bad_value(attribute, found.text, "not empty")
             return False
     output = attributes.get("output")
-    if output is not None and output.known and output.text not in ("log", "screen"):
-        attributes.bad_value("output", output.text, "log or screen", ("log", "screen"))
+    if output is not None and output.known and not attributes.chosen("output", output.text):
         return False
     cwd = attributes.get("cwd")
-    if cwd is not None and cwd.known and options.cwd not in ("ROS_HOME", "node"):
-        attributes.bad_value("cwd", cwd.text, "ROS_HOME or node", ("ROS_HOME", "node"))
-        return False
-    return True
+    return cwd is None or not cwd.known or attributes.chosen("cwd", options.cwd or "")
 
 
 def _invalid_name(attributes: Attributes, name: str, reason: str, *, fatal: bool = True) -> None:

@@ -22,7 +22,6 @@ from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.substitutions import parse_value
 
 SOURCES = ("value", "textfile", "binfile", "command")
-COMMANDS = ("load", "dump", "delete")
 
 
 def set_param(state: State, param: Param) -> None:
@@ -146,8 +145,7 @@ def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str |
         state.unknown("<rosparam>", "an attribute is not known", scope, action.kind_span)
         return
     command = command or "load"
-    if command not in COMMANDS:
-        attributes.bad_value("command", command, "load, dump or delete", COMMANDS)
+    if not attributes.chosen("command", command):
         return
     if command == "delete" and file is not None:
         state.problem("attributes-exclude", scope.origin(action.kind_span), tag="rosparam", names=["command", "file"])

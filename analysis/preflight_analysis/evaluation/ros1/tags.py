@@ -106,8 +106,7 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
         attributes.get(name)
     ssh_port = attributes.convert("ssh-port", 22, lambda text: integer(text or "22"))
     default = (attributes.text("default") or "false").lower()
-    if default not in ("true", "false", "never"):
-        attributes.bad_value("default", default, "true, false or never", ("true", "false", "never"))
+    if not attributes.chosen("default", default):
         return None
     for child in action.children:
         if child.kind == "env":
