@@ -53,7 +53,7 @@ def shown(marked: str) -> str:
         ("<launch><node pkg=$0/></launch>", "nothing"),
         ("<launch><node pkg='$0'/></launch>", "value '' launch <node pkg"),
         ("<launch><node pkg='a$0b'/></launch>", "value 'ab' launch <node pkg"),
-        ("<launch><node pkg=\"$0\n  <node/>\n</launch>", "value '' launch <node pkg"),
+        ('<launch><node pkg="$0\n  <node/>\n</launch>', "value '' launch <node pkg"),
         ("<launch><node pkg=\"$0 type='b'/>\n</launch>", "value '' launch <node pkg"),
         ('<launch><include file="$(find $0\n</launch>', "value '$(find ' launch <include file"),
         ('<launch><include file="$(find $0/>\n</launch>', "value '$(find ' launch <include file"),

@@ -19,7 +19,10 @@ SUBSTITUTIONS: Mapping[str, tuple[str, str]] = {
     "optenv": ("NAME DEFAULT", "An environment variable, or the default where it is not set."),
     "anon": ("ID", "A name that is made unique; the same for the same id in this file."),
     "dirname": ("", "The folder of this launch file."),
-    "eval": ("EXPRESSION", "A Python expression, in which arguments are known by their names. It must be the whole value."),
+    "eval": (
+        "EXPRESSION",
+        "A Python expression, in which arguments are known by their names. It must be the whole value.",
+    ),
 }
 """What each command takes, and what it stands for."""
 
