@@ -1,0 +1,24 @@
+"""Whatever is edited, what is remembered equals a fresh look at the same texts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import random_edits
+from preflight_analysis.environment.packages import find_packages
+from preflight_analysis.workspace.workspace import Workspace
+
+ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
+
+
+@pytest.mark.parametrize("seed", [0, 10, 20])
+def test_random_edits_leave_nothing_behind(seed: int) -> None:
+    packages = find_packages([str(ROBOT)]).packages
+    assert random_edits.run(ROBOT, packages, seed, 800) == 800
+
+
+def test_a_workspace_that_does_not_look_again_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Workspace, "_unchanged", lambda *_: True)
+    with pytest.raises(random_edits.Broken, match="seed 0"):
+        random_edits.run(ROBOT, find_packages([str(ROBOT)]).packages, 0, 300)
