@@ -31,7 +31,8 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
 def test_a_package_in_a_tag_that_is_not_taken_is_not_looked_for() -> None:
     check("""
         <launch>
-          <node pkg="nowhere" type="t" name="n" if="false"/>
+          <arg name="more" default="false"/>
+          <node pkg="nowhere" type="t" name="n" if="$(arg more)"/>
           <node pkg="p" type="t" name="m"/>
         </launch>
     """)

@@ -150,6 +150,7 @@ def test_a_common_leaf_name_alone_is_no_evidence() -> None:
     check("""
         <launch>
           <param name="/camera_driver/frame_id" value="front"/>
+                       ^^^^^^^^^^^^^^^^^^^^^^^ hint[PRM007] no node of this launch is called '/camera_driver'
           <node pkg="p" type="t" name="laser"/>
         </launch>
         //- interfaces
@@ -188,3 +189,149 @@ def test_parameters_that_are_not_yaml() -> None:
     findings = findings_of("<launch><rosparam>{a: [1}</rosparam></launch>")
     assert [finding.rule for finding in findings] == ["PRM004"]
     assert check("<launch><rosparam>{a: [1]}</rosparam></launch>") == []
+
+
+def test_a_parameter_set_twice_where_the_lost_value_is_easily_missed() -> None:
+    first, *_ = check("""
+        <launch>
+          <param name="use_sim_time" value="true"/>
+                       ^^^^^^^^^^^^ warning[PRM006] an include that comes later sets it again, to 'false'
+          <param name="n/rate" value="1"/>
+                       ^^^^^^ warning[PRM006] it is set again below, to '2'
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="2"/>
+            <param name="limit" value="3"/>
+            <rosparam>{limit: 4}</rosparam>
+                       ^^^^^ warning[PRM006] in a <node> each <param> comes after the <rosparam>s, and sets it, to '3'
+            <param name="tolerance" value="0.2"/>
+                         ^^^^^^^^^ warning[PRM006] '/n/tolerance' is set to '0.2' here, which does not count
+            <param name="tolerance" value="0.1"/>
+          </node>
+          <group>
+            <param name="~frame" value="map"/>
+            <node pkg="p" type="t" name="m"><rosparam param="frame">odom</rosparam></node>
+                                            ^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM006] a <param> of a ~name
+          </group>
+          <param name="m/gain" value="1"/>
+                       ^^^^^^ warning[PRM006] the file that is loaded later sets it again, to '2'
+          <rosparam file="/gains.yaml"/>
+          <include file="/inc.launch"/>
+        </launch>
+        //- /inc.launch
+        <launch><param name="use_sim_time" value="false"/></launch>
+        //- /gains.yaml
+        m: {gain: 2}
+    """)
+    assert first.related[0].location.file == "/inc.launch"
+
+
+def test_parameters_that_are_overridden_on_purpose() -> None:
+    check("""
+        <launch>
+          <arg name="sim" default="true"/>
+          <param name="use_sim_time" value="false"/>
+          <param name="use_sim_time" value="true" if="$(arg sim)"/>
+          <include file="/inc.launch"/>
+          <param name="speed" value="2"/>
+          <param name="mode" value="1"/>
+          <include file="/mode.launch" if="$(arg sim)"/>
+          <param name="~rate" value="1"/>
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="2"/>
+            <rosparam file="/defaults.yaml"/>
+            <param name="gain" value="3"/>
+            <param name="same" value="3"/>
+            <param name="same" value="3"/>
+          </node>
+        </launch>
+        //- /inc.launch
+        <launch><param name="speed" value="1"/></launch>
+        //- /mode.launch
+        <launch><param name="mode" value="2"/></launch>
+        //- /defaults.yaml
+        {rate: 5, gain: 1}
+    """)
+
+
+def test_settings_that_may_be_layers_are_hints() -> None:
+    check("""
+        <launch>
+          <rosparam param="a">{x: 1, y: 2}</rosparam>
+                               ^ hint[PRM006] '/a/x' is set to '1' here, which does not count: a <rosparam> after it
+          <rosparam param="a">{x: 3}</rosparam>
+          <include file="/one.launch"/>
+          <include file="/two.launch"/>
+        </launch>
+        //- /one.launch
+        <launch><param name="speed" value="1"/></launch>
+                             ^^^^^ hint[PRM006] another included file sets it again, to '2'
+        //- /two.launch
+        <launch><param name="speed" value="2"/></launch>
+    """)
+
+
+def test_a_key_that_stands_twice_in_a_dictionary() -> None:
+    check("""
+        <launch>
+          <rosparam file="/a.yaml"/>
+          <rosparam>{rate: 1, rate: 1}</rosparam>
+        </launch>
+        //- /a.yaml
+        costmap:
+        ^^^^^^^ warning[PRM006] 'costmap' stands twice in this dictionary: the later one counts, all of this is dropped
+          width: 3
+        costmap:
+          height: 4
+        lists: [{a: 1}, {a: 2}]
+    """)
+
+
+def test_a_parameter_for_a_node_that_is_called_otherwise() -> None:
+    text = """
+        <launch>
+          <param name="/talkr/rate" value="10"/>
+                       ^^^^^^^^^^^ warning[PRM007] no node is called '/talkr', for which parameter '/talkr/rate' is set
+          <node pkg="p" type="t" name="talker"/>
+          <group ns="robot"><node pkg="p" type="t" name="n"/></group>
+          <param name="robto/n/rate" value="1"/>
+                       ^^^^^^^^^^^^ warning[PRM007] did you mean '/robot'?
+          <param name="base/rate" value="1"/>
+                       ^^^^^^^^^ hint[PRM007] no node of this launch is called '/base' or is in that namespace
+        </launch>
+    """
+    first, *_ = check(text)
+    assert 'name="/talker/rate"' in apply(text, first.fixes[0].edits)["/main.launch"]
+
+
+def test_parameters_that_need_no_node() -> None:
+    check("""
+        <launch>
+          <param name="/use_sim_time" value="true"/>
+          <param name="/robot_description_kinematics/arm" value="x"/>
+          <param name="robot/rate" value="1"/>
+          <rosparam>{controller: {p: 1}, nodes: {x: 1}, node2: {x: 1}}</rosparam>
+          <param name="arm_controller/type" value="position"/>
+          <param name="arm_controller/joint" value="elbow"/>
+          <param name="leg_controller/joint" value="knee"/>
+          <node pkg="p" type="t" name="spawner" args="leg_controller"/>
+          <node pkg="p" type="t" name="node"/>
+          <node pkg="p" type="t" name="node1" ns="robot"><param name="below/rate" value="1"/></node>
+        </launch>
+    """)
+
+
+def test_parameters_of_a_launch_file_without_nodes() -> None:
+    check('<launch><param name="talkr/rate" value="10"/></launch>')
+
+
+def test_a_parameter_that_the_nodes_are_known_to_read_or_not_to_read_needs_no_guess() -> None:
+    findings = findings_of("""
+        <launch>
+          <param name="/talkr/rate" value="10"/>
+          <param name="/base/speed" value="10"/>
+          <node pkg="p" type="t" name="talker"/>
+        </launch>
+        //- interfaces
+        {"/talker": {"params": {"~rate": 5, "/base/speed": 1}}}
+    """)
+    assert [finding.rule for finding in findings] == ["PRM001"]

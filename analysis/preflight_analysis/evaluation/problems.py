@@ -47,6 +47,7 @@ KINDS: dict[str, str] = {
     "command-failed": "command, reason, stderr (list of lines): it was run and had no success. fatal",
     "command-missing": "command, reason: its program is not there. fatal",
     "command-not-run": "command, reason",
+    "yaml-key-twice": "name, second (Location): a key stands twice in one dictionary, the later one counts",
     # nodes
     "duplicate-node": "name, first (Location). fatal",
     "machine-undefined": "name, declared (list). fatal",

@@ -35,6 +35,8 @@ class YamlValue:
 
     value: Any
     keys: dict[tuple[str, ...], Span]
+    twice: tuple[tuple[str, Span, Span], ...] = ()
+    """Keys that stand twice in one dictionary, with another value the second time: where the first is and the next."""
 
 
 class _Loader(yaml.SafeLoader):
@@ -93,7 +95,8 @@ def _parse(text: str) -> YamlValue:
         try:
             node = loader.get_single_node()
             keys: dict[tuple[str, ...], Span] = {}
-            _collect_keys(node, (), keys, [0])
+            twice: list[tuple[str, Span, Span]] = []
+            _collect_keys(node, (), keys, [0], twice)
             value = loader.construct_document(node) if node is not None else None
         finally:
             loader.dispose()
@@ -106,22 +109,35 @@ def _parse(text: str) -> YamlValue:
         raise YamlError(f"the character {error.character!r} is not allowed", error.position) from error
     except (yaml.YAMLError, ValueError, TypeError, RecursionError, OverflowError) as error:
         raise YamlError(str(error) or type(error).__name__) from error
-    return YamlValue(value, keys)
+    return YamlValue(value, keys, tuple(twice))
 
 
 def _collect_keys(
-    node: yaml.Node | None, path: tuple[str, ...], keys: dict[tuple[str, ...], Span], seen: list[int]
+    node: yaml.Node | None,
+    path: tuple[str, ...],
+    keys: dict[tuple[str, ...], Span],
+    seen: list[int],
+    twice: list[tuple[str, Span, Span]],
 ) -> None:
     seen[0] += 1
     if seen[0] > MAX_VALUES:
         raise YamlError(f"it unfolds to more than {MAX_VALUES} values")
     if isinstance(node, yaml.MappingNode):
+        here: dict[str, tuple[Span, yaml.Node]] = {}
         for key, value in node.value:
             if isinstance(key, yaml.ScalarNode):
                 below = (*path, key.value)
                 if key.tag != "tag:yaml.org,2002:merge":
-                    keys[below] = Span(key.start_mark.index, key.end_mark.index)
-                _collect_keys(value, below, keys, seen)
+                    span = keys[below] = Span(key.start_mark.index, key.end_mark.index)
+                    first = here.get(key.value)
+                    if first is not None and not _same_scalar(first[1], value):
+                        twice.append((key.value, first[0], span))
+                    here[key.value] = (span, value)
+                _collect_keys(value, below, keys, seen, twice)
     elif isinstance(node, yaml.SequenceNode):
         for item in node.value:
-            _collect_keys(item, path, keys, seen)
+            _collect_keys(item, path, keys, seen, twice)
+
+
+def _same_scalar(one: yaml.Node, other: yaml.Node) -> bool:
+    return isinstance(one, yaml.ScalarNode) and isinstance(other, yaml.ScalarNode) and one.value == other.value

@@ -34,3 +34,15 @@ def insert_child(action: Action, document: Document, child: str) -> Edit:
         return Edit(Location(document.path, Span(blank, end)), f">{body}{newline}{base}</{action.kind}>")
     tail = "" if _REST_IS_BLANK.match(text, end) else newline + base
     return Edit(Location(document.path, Span(end, end)), body + tail)
+
+
+def remove_tag(document: Document, span: Span) -> Edit:
+    """The edit that removes the element at `span`, with its whole line if nothing else stands on it."""
+    text = document.text
+    line, _ = document.lines.position(span.start)
+    start = document.lines.line_start(line)
+    rest = _REST_IS_BLANK.match(text, span.end)
+    if not text[start : span.start].strip(" \t") and rest is not None:
+        end_line, _ = document.lines.position(span.end)
+        return Edit(Location(document.path, Span(start, document.lines.line_start(end_line + 1))), "")
+    return Edit(Location(document.path, span), "")

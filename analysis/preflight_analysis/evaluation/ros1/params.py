@@ -237,6 +237,10 @@ def _load(
         refuse("only a dictionary can be loaded into the root namespace")
         return
     origin = scope.origin(action.head_span)
+    for key, first, second in loaded.twice:
+        where, other = (text.location(span) or origin[-1] for span in (first, second))
+        at = (*origin, where) if where.file != scope.file else (*scope.chain, where)
+        state.problem("yaml-key-twice", at, fatal=False, name=key, second=other)
     try:
         for path, name, leaf in _leaves(full, value, ()):
             span = loaded.keys.get(path)

@@ -1,0 +1,88 @@
+"""LCH023: a remap that another one of the same name puts out of effect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, Remap
+from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags, removal
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    nodes = context.tree.nodes
+    tags = Tags(context.launch_files)
+    effective = {remap.origin[-1] for node in nodes for remap in node.remaps}
+    seen: set[Location] = set()
+    for node in nodes:
+        for remap in node.remaps:
+            for old, winner in pairwise((*remap.replaces, remap)):
+                if old.origin[-1] not in effective and old.origin[-1] not in seen:
+                    seen.add(old.origin[-1])
+                    yield from _hidden(rule, context, tags, old, winner)
+        yield from _same_name(rule, node)
+
+
+def _hidden(rule: Rule, context: Context, tags: Tags, old: Remap, winner: Remap) -> Iterator[Finding]:
+    """A remap that reaches no node of the launch, each maps the name elsewhere.
+
+    Under conditions it may in another launch, and one that a scope further in replaces may be meant as its default.
+    """
+    if old.origin[:-1] != winner.origin[:-1] or not tags.siblings(old.origin[-1], winner.origin[-1]):
+        return
+    if tags.conditional(old.origin[-1]) or tags.conditional(winner.origin[-1]):
+        return
+    same = old.target == winner.target
+    if same:
+        message = f"'{old.source}' is remapped to '{old.target}' twice here"
+    else:
+        message = f"this remap has no effect: a later one here maps '{old.source}' to '{winner.target}' instead"
+    yield rule.finding(
+        message,
+        old.origin[-1],
+        severity="hint" if same else None,
+        related=(Related("the one that counts", winner.origin[-1]), *include_chain(old.origin)),
+        fixes=removal(context, tags, old.origin[-1], "Remove this remap"),
+    )
+
+
+def _same_name(rule: Rule, node: LaunchNode) -> Iterator[Finding]:
+    """Remaps whose names are written differently and come to the same: `/scan` and `scan` of a node in `/`."""
+    by_name: dict[str, list[Remap]] = {}
+    for remap in node.remaps:
+        by_name.setdefault(names.resolve(remap.source, node.name), []).append(remap)
+    for name, remaps in by_name.items():
+        for first, second in pairwise(remaps):
+            targets = {names.resolve(remap.target, node.name) for remap in (first, second)}
+            severity: Severity | None = "hint" if len(targets) == 1 else None
+            outcome = "" if len(targets) == 1 else "; which of them wins depends on the client library"
+            yield rule.finding(
+                f"'{first.source}' and '{second.source}' are both '{name}' for {node.name}{outcome}",
+                second.source_location,
+                severity=severity,
+                related=(
+                    Related(f"'{first.source}' is remapped here", first.source_location),
+                    *include_chain(second.origin),
+                ),
+            )
+
+
+RULE = Rule(
+    id="LCH023",
+    name="remap-hidden",
+    severity="warning",
+    what="Reports a remap that has no effect because a later one in the same scope is of the same name, and two remaps "
+    "of a node that are written differently and mean the same name (`scan` and `/scan` in the root namespace). A remap "
+    "around a node that the node's own replaces is taken for a default, and one under a condition for an alternative.",
+    why="Of several remaps of a name the last one counts, without a word. Where two are written differently "
+    "`roslaunch` hands both to the node, and its client library picks one.",
+    example='<remap from="scan" to="front/scan"/>\n<remap from="scan" to="rear/scan"/>\n'
+    '<node pkg="slam" type="mapper" name="mapper"/>',
+    instead='<remap from="scan" to="front/scan"/>\n<node pkg="slam" type="mapper" name="mapper"/>',
+    check=_check,
+)

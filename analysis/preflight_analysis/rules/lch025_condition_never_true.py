@@ -1,0 +1,184 @@
+"""LCH025: a condition that is never true, and tests that compare what cannot be equal."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import expression, values
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
+from preflight_analysis.launch.substitutions import is_eval
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import CONDITIONS, has_condition
+
+
+@dataclass(frozen=True, slots=True)
+class _Fixed:
+    """An argument that its file fixes with `value=`: nobody can set it."""
+
+    value: object
+    location: Location
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for launch_file in context.launch_files.values():
+        if launch_file.root is None:
+            continue
+        conditions = [
+            (action, attribute)
+            for action in launch_file.root.walk()
+            for name in CONDITIONS
+            if (attribute := action.attribute(name)) is not None
+        ]
+        fixed = _fixed_args(launch_file) if conditions else {}
+        for action, attribute in conditions:
+            if any(action.attribute(name) is None for name in CONDITIONS):  # both together stop the launch: LCH007
+                yield from _constant(rule, launch_file, fixed, action, attribute)
+            yield from _unequal(rule, launch_file, attribute.value)
+
+
+def _constant(
+    rule: Rule, launch_file: LaunchFile, fixed: Mapping[str, _Fixed], action: Action, attribute: ActionAttribute
+) -> Iterator[Finding]:
+    used: list[str] = []
+    value = attribute.value
+    try:
+        result = values.to_bool(_text(value, fixed, used))
+    except (_VariesError, values.BadValueError):
+        return
+    if result == (attribute.name == "if"):
+        return
+    because = f": argument '{used[0]}' is always '{fixed[used[0]].value}' here" if used else ""
+    yield rule.finding(
+        f"this <{action.kind}> is never evaluated, its {attribute.name} is always {str(result).lower()}{because}",
+        Location(launch_file.path, value.span),
+        severity="hint",
+        related=(Related(f"'{name}' is fixed here", fixed[name].location) for name in used),
+    )
+
+
+class _VariesError(ValueError):
+    """The value is not the same in each launch, or it is not known here."""
+
+
+def _text(value: Value, fixed: Mapping[str, _Fixed], used: list[str]) -> str:
+    """What the value comes to in every launch; `used` gets the fixed arguments in it. Raises `_VariesError`."""
+    if value.problem is not None:
+        raise _VariesError
+    if value.is_literal:
+        return value.text
+
+    def known(name: str) -> Any:
+        if name not in fixed:
+            raise _VariesError
+        used.append(name)
+        return fixed[name].value
+
+    if is_eval(value.text):
+        functions = {"arg": lambda name: values.convert(known(name), "auto")}
+        functions |= dict.fromkeys(("env", "optenv", "find", "anon", "dirname"), _varies)
+        inner = value.text[len("$(eval ") : -1]
+        try:
+            return str(expression.evaluate(inner, lambda name: values.convert(known(name), "auto"), functions))
+        except (expression.EvaluationError, expression.NotAllowedError) as error:
+            raise _VariesError from error
+    text = value.text
+    for part in value.substitutions:
+        if part.command != "arg":
+            raise _VariesError
+        text = text.replace(part.text, known(part.arguments))
+    return text
+
+
+def _varies(*_: object) -> object:
+    raise _VariesError
+
+
+def _fixed_args(launch_file: LaunchFile) -> dict[str, _Fixed]:
+    """Arguments declared once in the file, with a literal value and no condition."""
+    found: dict[str, _Fixed] = {}
+    several: set[str] = set()
+    for action in launch_file.root.walk() if launch_file.root is not None else ():
+        if action.kind == "include":
+            continue
+        for child in action.children:
+            name, value = child.value("name"), child.value("value")
+            if child.kind != "arg" or action.kind == "include" or name is None:
+                continue
+            literal = value is not None and value.is_literal and child.value("default") is None
+            if name.text in found or not literal or has_condition(child) or action is not launch_file.root:
+                several.add(name.text)
+            elif value is not None:
+                found[name.text] = _Fixed(value.text, Location(launch_file.path, child.head_span))
+    return {name: fixed for name, fixed in found.items() if name not in several}
+
+
+def _unequal(rule: Rule, launch_file: LaunchFile, value: Value) -> Iterator[Finding]:
+    """Comparisons of an argument with a text that it never is, since `$(eval)` turns the argument into a number or
+    a truth value first."""
+    if not is_eval(value.text):
+        return
+    source = value.text[len("$(eval ") : -1].strip()
+    try:
+        tree = ast.parse(source, mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Compare) and len(node.ops) == 1 and isinstance(node.ops[0], (ast.Eq, ast.NotEq))):
+            continue
+        left, right = node.left, node.comparators[0]
+        name = _argument(left) or _argument(right)
+        constant = right if _argument(left) else left
+        if name is None or not isinstance(constant, ast.Constant) or not isinstance(constant.value, str):
+            continue
+        converted = values.convert(constant.value, "auto")
+        if isinstance(converted, str):
+            continue
+        outcome = "always" if isinstance(node.ops[0], ast.NotEq) else "never"
+        kind = "a truth value" if isinstance(converted, bool) else "a number"
+        written = ast.get_source_segment(source, constant) or ""
+        plain = str(converted).lower() if isinstance(converted, bool) else str(converted)
+        yield rule.finding(
+            f"'{ast.get_source_segment(source, node)}' is {outcome} true: $(eval) makes {kind} of argument '{name}' "
+            f"before it is compared with a text; compare with {plain}",
+            Location(launch_file.path, value.span),
+            fixes=_compare_with(launch_file, value, written, plain),
+        )
+
+
+def _argument(node: ast.expr) -> str | None:
+    """The argument that `arg('name')` or a bare name stands for."""
+    if isinstance(node, ast.Name):
+        return None if node.id in expression.NAMES else node.id
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "arg" and len(node.args) == 1:
+        argument = node.args[0]
+        return argument.value if isinstance(argument, ast.Constant) and isinstance(argument.value, str) else None
+    return None
+
+
+def _compare_with(launch_file: LaunchFile, value: Value, written: str, plain: str) -> tuple[Fix, ...]:
+    text = launch_file.document.text[value.span.start : value.span.end]
+    if not written or text.count(written) != 1:
+        return ()
+    start = value.span.start + text.index(written)
+    place = Location(launch_file.path, type(value.span)(start, start + len(written)))
+    return (Fix(f"Compare with {plain}", (Edit(place, plain),), True),)
+
+
+RULE = Rule(
+    id="LCH025",
+    name="condition-never-true",
+    severity="warning",
+    what="Reports a comparison in the `$(eval ...)` of a condition that has the same result whatever the arguments "
+    "are: an argument compared with `'true'` or `'1'` as text. A tag that is never evaluated for another reason (a "
+    'literal `if="false"`, an argument that the file itself fixes) is a hint, since many comment tags out so.',
+    why="`$(eval)` makes `True` of the argument's text `true`, and 1 of `1`, before it is compared: it is never equal "
+    "to the text `'true'`, and the tag is never evaluated, whatever is passed.",
+    example="<group if=\"$(eval arg('simulation') == 'true')\">\n</group>",
+    instead='<group if="$(arg simulation)">\n</group>',
+    check=_check,
+)

@@ -1,0 +1,82 @@
+"""LCH026: clear_params that deletes nothing of what it seems to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.evaluation.tree import LaunchTree, Param, Use
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tag, Tags
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    tree = context.tree
+    uses = [use for use in tree.uses if use.kind == "clear_params" and use.value is not None]
+    if not uses:
+        return
+    tags = Tags(context.launch_files)
+    for use in uses:
+        tag = tags.at(use.origin[-1])
+        namespace = use.value or "/"
+        if tag is None or tag.action.kind in ("node", "test"):
+            # A node's own parameters are loaded before its tag as often as in it: nobody expects them to go.
+            continue
+        below = [param for param in tree.params.values() if param.name.startswith(namespace)]
+        if not below and not _lives(tree, namespace):
+            if tree.complete:
+                yield rule.finding(
+                    f"nothing of this launch is below '{namespace}': there is nothing here to clear parameters for",
+                    use.location,
+                    related=include_chain(use.origin),
+                )
+            continue
+        kept = [param for param in below if _set_before(param.origin, use, tag)]
+        if kept:
+            yield _kept(rule, use, namespace, kept)
+
+
+def _lives(tree: LaunchTree, namespace: str) -> bool:
+    return any(node.name.startswith(namespace) or node.name == namespace.rstrip("/") for node in tree.nodes)
+
+
+def _set_before(origin: Origin, use: Use, tag: Tag) -> bool:
+    """Whether a parameter is set earlier in the launch than the tag, and not inside of it."""
+    here = (*use.origin[:-1], Location(use.location.file, tag.action.span))
+    for mine, other in zip(origin, here, strict=False):
+        if mine.file != other.file:
+            return False
+        if mine.span.end <= other.span.start:
+            return True
+        if mine.span != other.span:
+            return False
+    return False
+
+
+def _kept(rule: Rule, use: Use, namespace: str, kept: list[Param]) -> Finding:
+    shown = quoted(param.name for param in kept[:3])
+    more = f" and {len(kept) - 3} more" if len(kept) > 3 else ""
+    return rule.finding(
+        f"{shown}{more} set before this will not be cleared: roslaunch deletes '{namespace}' before it sets anything",
+        use.location,
+        related=(*(Related(f"'{p.name}' is set here", p.origin[-1]) for p in kept[:3]), *include_chain(use.origin)),
+    )
+
+
+RULE = Rule(
+    id="LCH026",
+    name="dead-clear-params",
+    severity="hint",
+    what="Reports `clear_params` of a group or include in whose namespace the launch has neither a node nor a "
+    "parameter, and of one in which an earlier tag of the same launch sets parameters, which stay.",
+    why="`roslaunch` deletes the namespaces first, whatever the order of the tags, and sets parameters afterwards: "
+    "only what an earlier launch left behind is deleted.",
+    example='<param name="/arm/rate" value="10"/>\n<group ns="arm" clear_params="true">\n'
+    '  <node pkg="arm" type="driver" name="driver"/>\n</group>',
+    instead='<group ns="arm" clear_params="true">\n  <param name="rate" value="10"/>\n'
+    '  <node pkg="arm" type="driver" name="driver"/>\n</group>',
+    check=_check,
+    every_root=True,
+)

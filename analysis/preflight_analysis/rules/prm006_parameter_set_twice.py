@@ -1,0 +1,165 @@
+"""PRM006: a parameter is set to one value and then to another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import takewhile
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import CommandValue, Param
+from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tag, Tags, has_condition
+
+
+@dataclass(frozen=True, slots=True)
+class _Setting:
+    """One of the tags that set a parameter, and the includes that lead to it."""
+
+    param: Param
+    tag: Tag
+    chain: tuple[Location, ...]
+
+    @property
+    def loads_file(self) -> bool:
+        """Whether it is one of the many that a file holds, not written for its own sake."""
+        return self.is_rosparam and self.tag.action.value("file") is not None
+
+    @property
+    def is_rosparam(self) -> bool:
+        """Whether it stands in a `<rosparam>`."""
+        return self.tag.action.kind.lower() == "rosparam"
+
+    @property
+    def in_node(self) -> bool:
+        """Whether it stands in a node's tag."""
+        return bool(self.tag.above) and self.tag.above[0].kind in ("node", "test")
+
+    @property
+    def is_private(self) -> bool:
+        """Whether it is meant for the nodes around which it stands: a `<param>` of a `~name`."""
+        name = self.tag.action.value("name")
+        return not self.is_rosparam and name is not None and names.is_private(name.text.strip())
+
+    @property
+    def place(self) -> Location:
+        """Where the name is written."""
+        return self.param.name_location or self.param.origin[-1]
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _keys_twice(rule, context)
+    tags: Tags | None = None
+    for param in context.tree.params.values():
+        if not param.overrides:
+            continue
+        tags = tags or Tags(context.launch_files)
+        winner = _setting(tags, param)
+        if winner is None:
+            continue
+        for old in param.overrides:
+            loser = _setting(tags, old)
+            if loser is None or (type(old.value), old.value) == (type(param.value), param.value):
+                continue
+            found = _surprise(tags, loser, winner)
+            if found is not None:
+                severity, why = found
+                yield rule.finding(
+                    f"'{param.name}' is set to {_shown(old.value)} here, which does not count: {why}, to "
+                    f"{_shown(param.value)}",
+                    loser.place,
+                    severity=severity,
+                    related=(Related("the one that counts", winner.place), *include_chain(old.origin)),
+                )
+
+
+def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        yield problem_finding(
+            rule,
+            problem,
+            f"'{problem.data['name']}' stands twice in this dictionary: the later one counts, all of this is dropped",
+            related=(Related("the one that counts", problem.data["second"]),),
+        )
+
+
+def _setting(tags: Tags, param: Param) -> _Setting | None:
+    for at in range(len(param.origin) - 1, -1, -1):
+        tag = tags.at(param.origin[at])
+        if tag is not None:
+            return _Setting(param, tag, param.origin[:at])
+    return None
+
+
+def _surprise(tags: Tags, loser: _Setting, winner: _Setting) -> tuple[Severity, str] | None:
+    """Why it is not what was meant that the one value is lost; None where it may well be.
+
+    What a file of many parameters says is there to be overridden, and so is what an included file says. A setting
+    under a condition is an alternative to the one that it overrides.
+    """
+    common = sum(1 for a, b in takewhile(lambda pair: pair[0] == pair[1], zip(loser.chain, winner.chain, strict=False)))
+    if loser.loads_file or _is_alternative(tags, loser, winner, common):
+        return None
+    if len(winner.chain) == common < len(loser.chain):
+        return None
+    if len(loser.chain) == common < len(winner.chain):
+        return "warning", "an include that comes later sets it again"
+    if len(winner.chain) > common:
+        return "hint", "another included file sets it again"
+    return _in_one_file(loser, winner)
+
+
+def _is_alternative(tags: Tags, loser: _Setting, winner: _Setting, common: int) -> bool:
+    """Whether the winner has a condition that the loser does not have as well."""
+    around = {id(action) for action in loser.tag.above}
+    steps = [tag for place in winner.chain[common:] if (tag := tags.at(place)) is not None]
+    own = (action for tag in (winner.tag, *steps) for action in (tag.action, *tag.above) if id(action) not in around)
+    return any(map(has_condition, own))
+
+
+def _in_one_file(loser: _Setting, winner: _Setting) -> tuple[Severity, str] | None:
+    node = next((action for action in loser.tag.above if action.kind in ("node", "test")), None)
+    in_winners_node = node is not None and any(action is node for action in winner.tag.above)
+    if loser.is_private and not in_winners_node and not loser.in_node:
+        return None  # a `~param` around the nodes, as a default that one of them replaces
+    if winner.tag.action.head_span > loser.tag.action.head_span:
+        if winner.loads_file:
+            return "warning", "the file that is loaded later sets it again"
+        if loser.is_rosparam:
+            return "hint", f"a <{winner.tag.action.kind}> after it sets it again"
+        return "warning", "it is set again below"
+    if in_winners_node:
+        return "warning", "in a <node> each <param> comes after the <rosparam>s, and sets it"
+    return "warning", "a <param> of a ~name around a <node> comes after the <rosparam>s in it, and sets it"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, CommandValue):
+        return "what a command prints"
+    if isinstance(value, (bytes, list)):
+        return "another value" if isinstance(value, bytes) else f"a list of {len(value)}"
+    text = str(value).lower() if isinstance(value, bool) else str(value)
+    return f"'{text}'" if len(text) <= 40 else f"'{text[:37]}...'"
+
+
+RULE = Rule(
+    id="PRM006",
+    name="parameter-set-twice",
+    severity="warning",
+    what="Reports a parameter that is set to a value which then does not count, in one of the ways that are easily "
+    "missed: twice in one tag or file, before an include or a file that sets it again, in a `<rosparam>` of a node "
+    "that has a `<param>` of the name, or as a key that stands twice in one YAML dictionary. A parameter file that is "
+    "overridden is what such files are for; of it nothing is said, nor of included files, nor of tags under a "
+    "condition.",
+    why="Whoever reads or changes the value that does not count sees no effect. Of several settings the last one "
+    "counts, and `roslaunch` says nothing; but in a `<node>` each `<param>` comes after each `<rosparam>`, and a "
+    '`<param name="~...">` around the node after those too.',
+    example='<param name="use_sim_time" value="true"/>\n<!-- sets use_sim_time to false -->\n'
+    '<include file="$(find robot)/launch/robot.launch"/>',
+    instead='<include file="$(find robot)/launch/robot.launch"/>\n<param name="use_sim_time" value="true"/>',
+    check=_check,
+    problems=("yaml-key-twice",),
+)

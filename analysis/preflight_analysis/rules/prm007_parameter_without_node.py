@@ -1,0 +1,159 @@
+"""PRM007: a parameter under a name that no node of the launch has."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container, Iterable, Iterator, Mapping
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import LaunchTree, Param
+from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import is_for_tools
+
+_DIGITS = re.compile(r"\d+")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    tree = context.tree
+    if not tree.nodes:
+        return
+    nodes = {node.name: node for node in tree.nodes}
+    homes = _children(nodes)
+    read = _read(context.graph)
+    known = _known(context.graph)
+    for prefix, params in _homeless(tree, homes, read).items():
+        parent, _, leaf = prefix.rpartition("/")
+        near = _near(leaf, homes.get(parent, ()))
+        if near is None:
+            if not tree.complete or not _is_alone(context, prefix, params):
+                continue
+            place = _place(params[0])
+            yield rule.finding(
+                f"no node of this launch is called '{prefix}' or is in that namespace, for which {_what(params)}",
+                place,
+                severity="hint",
+                confidence="possible",
+                related=include_chain(params[0].origin),
+            )
+            continue
+        meant = f"{parent}/{near}"
+        if meant in known:
+            continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
+        related = (Related(f"{meant} is started here", node_location(nodes[meant])),) if meant in nodes else ()
+        yield rule.finding(
+            f"no node is called '{prefix}', for which {_what(params)}; did you mean '{meant}'?",
+            _place(params[0]),
+            confidence="likely",
+            related=(*related, *include_chain(params[0].origin)),
+            fixes=_fixes(context, params, leaf, near),
+        )
+
+
+def _children(nodes: Iterable[str]) -> dict[str, set[str]]:
+    """For each namespace in which nodes live the names in it: of nodes, and of namespaces with nodes."""
+    found: dict[str, set[str]] = {}
+    for name in nodes:
+        parent, _, leaf = name.rpartition("/")
+        while leaf and leaf not in found.setdefault(parent, set()):
+            found[parent].add(leaf)
+            parent, _, leaf = parent.rpartition("/")
+    return found
+
+
+def _homeless(tree: LaunchTree, homes: Mapping[str, set[str]], read: Container[str]) -> dict[str, list[Param]]:
+    """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
+    found: dict[str, list[Param]] = {}
+    names = {node.name for node in tree.nodes}
+    for param in tree.params.values():
+        prefix = ""
+        for part in param.name.split("/")[1:-1]:
+            if part not in homes.get(prefix, ()):
+                if not is_for_tools(param.name) and param.name not in read:
+                    found.setdefault(f"{prefix}/{part}", []).append(param)
+                break
+            prefix = f"{prefix}/{part}"
+            if prefix in names:
+                break
+    return found
+
+
+def _near(leaf: str, others: Iterable[str]) -> str | None:
+    """The name that is a typo away. Names that differ by a plural or a number were written so."""
+    near = nearest(leaf, others)
+    if near is None or near.rstrip("s") == leaf.rstrip("s") or _DIGITS.findall(near) != _DIGITS.findall(leaf):
+        return None
+    return near
+
+
+def _is_alone(context: Context, prefix: str, params: list[Param]) -> bool:
+    """Whether `<param>` tags set the parameters by that name, and nothing else in the launch speaks of it.
+
+    Files of parameters are full of names that are no nodes' (controllers, planners, sensors), and so are dictionaries
+    whose name is in the arguments of a node or has a `type`. An anonymous name is LCH022's.
+    """
+    tree, leaf = context.tree, prefix.rpartition("/")[2]
+    if f"{prefix}/type" in tree.params or leaf.startswith("robot_description"):
+        return False
+    if not all(f"{leaf}/" in _written(context, param) for param in params):
+        return False
+    if any(leaf in node.args or node.name.startswith(f"{prefix}_ANON") for node in tree.nodes):
+        return False
+    return not any(leaf in param.value for param in tree.params.values() if isinstance(param.value, (str, list)))
+
+
+def _written(context: Context, param: Param) -> str:
+    """The parameter's name as it stands in the `name` of a tag."""
+    location = param.name_location
+    document = context.documents.get(location.file) if location is not None else None
+    if location is None or document is None:
+        return ""
+    return document.text[location.span.start : location.span.end]
+
+
+def _what(params: list[Param]) -> str:
+    more = f" and {len(params) - 1} more are" if len(params) > 1 else " is"
+    return f"parameter '{params[0].name}'{more} set"
+
+
+def _place(param: Param) -> Location:
+    return param.name_location or param.origin[-1]
+
+
+def _fixes(context: Context, params: list[Param], leaf: str, near: str) -> tuple[Fix, ...]:
+    """The name corrected wherever it is written together with a parameter's."""
+    found = [fix for param in params for fix in rename(context, _place(param), leaf, near)]
+    if len(found) < len(params):
+        return ()
+    return (Fix(found[0].title, tuple(edit for fix in found for edit in fix.edits), True),)
+
+
+def _read(graph: Graph | None) -> frozenset[str]:
+    return frozenset(read.name for read in graph.param_reads) if graph is not None else frozenset()
+
+
+def _known(graph: Graph | None) -> frozenset[str]:
+    """The nodes of which it is known what they read."""
+    if graph is None:
+        return frozenset()
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
+    return frozenset(node.name for node, interface in pairs if interface.complete)
+
+
+RULE = Rule(
+    id="PRM007",
+    name="parameter-without-node",
+    severity="warning",
+    what="Reports a parameter below a name that is neither a node's nor a namespace in which one is, and names the "
+    "node with a like name. Without one it is a hint, and only where a tag sets the parameter for itself and nothing "
+    "else in the launch mentions the name. Launch files without nodes and parameters at the top are left alone.",
+    why="The node that was meant goes on with its default, and nothing says that it did not get the value.",
+    example='<param name="/talkr/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
+    instead='<param name="/talker/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
+    check=_check,
+    every_root=True,
+)

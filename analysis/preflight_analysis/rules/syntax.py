@@ -1,0 +1,81 @@
+"""From places in a tree back to the tags that made them: scopes, conditions, and what is written literally."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Fix
+from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.rules.rule import Context
+
+CONDITIONS = ("if", "unless")
+
+
+@dataclass(frozen=True, slots=True)
+class Tag:
+    """A tag and those around it, the innermost first."""
+
+    action: Action
+    above: tuple[Action, ...]
+
+    @property
+    def conditional(self) -> bool:
+        """Whether the tag itself or one around it has a condition."""
+        return any(has_condition(action) for action in (self.action, *self.above))
+
+
+class Tags:
+    """The tags of launch files by the place of their start tag, each file read when it is first asked for."""
+
+    def __init__(self, launch_files: Mapping[str, LaunchFile]) -> None:
+        self._launch_files = launch_files
+        self._known: dict[str, dict[int, Tag]] = {}
+
+    def at(self, location: Location) -> Tag | None:
+        """The tag whose start tag begins at the place."""
+        by_start = self._known.get(location.file)
+        if by_start is None:
+            launch_file = self._launch_files.get(location.file)
+            root = launch_file.root if launch_file is not None else None
+            by_start = {tag.action.head_span.start: tag for tag in _tags(root, ())} if root is not None else {}
+            self._known[location.file] = by_start
+        return by_start.get(location.span.start)
+
+    def of(self, origin: Iterable[Location]) -> Tag | None:
+        """The innermost tag of an origin, whose last steps may lie in a parameter file."""
+        return next((tag for location in reversed(tuple(origin)) if (tag := self.at(location)) is not None), None)
+
+    def siblings(self, one: Location, other: Location) -> bool:
+        """Whether both tags stand directly in the same element."""
+        first, second = self.at(one), self.at(other)
+        if first is None or second is None or not first.above or not second.above:
+            return False
+        return first.above[0] is second.above[0]
+
+    def conditional(self, location: Location) -> bool:
+        """Whether the tag itself has a condition."""
+        tag = self.at(location)
+        return tag is not None and has_condition(tag.action)
+
+
+def removal(context: Context, tags: Tags, location: Location, title: str) -> tuple[Fix, ...]:
+    """A fix that removes the tag whose start tag begins at the place."""
+    document, tag = context.documents.get(location.file), tags.at(location)
+    if document is None or tag is None:
+        return ()
+    return (Fix(title, (remove_tag(document, tag.action.span),)),)
+
+
+def has_condition(action: Action) -> bool:
+    """Whether the tag has `if` or `unless`."""
+    return any(action.attribute(name) is not None for name in CONDITIONS)
+
+
+def _tags(action: Action, above: tuple[Action, ...]) -> Iterator[Tag]:
+    yield Tag(action, above)
+    inside = (action, *above)
+    for child in action.children:
+        yield from _tags(child, inside)
