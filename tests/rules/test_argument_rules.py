@@ -6,12 +6,12 @@ from preflight_check import apply, check
 def test_an_undeclared_argument_is_reported_in_its_own_file() -> None:
     text = """
         <launch>
-          <arg name="camera" default="left"/>
           <include file="/inc.launch"/>
         </launch>
         //- /inc.launch
         <launch>
           <arg name="camera" default="front"/>
+          <param name="a" value="$(arg camera)"/>
           <node pkg="p" type="t" name="$(arg camra)"/>
                                        ^^^^^^^^^^^^ error[ARG001] 'camra' is not declared; did you mean 'camera'
         </launch>
@@ -66,7 +66,7 @@ def test_an_argument_that_the_included_file_does_not_declare() -> None:
           </include>
         </launch>
         //- /inc.launch
-        <launch><arg name="frames" default="odom"/></launch>
+        <launch><arg name="frames" default="odom"/><param name="a" value="$(arg frames)"/></launch>
     """
     (finding,) = check(text)
     assert '<arg name="frames" value="map"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
@@ -79,7 +79,7 @@ def test_pass_all_args_passes_what_nobody_declares() -> None:
           <include file="/inc.launch" pass_all_args="true"/>
         </launch>
         //- /inc.launch
-        <launch><arg name="frames" default="odom"/></launch>
+        <launch><arg name="frames" default="odom"/><param name="a" value="$(arg frames)"/></launch>
     """)
 
 
@@ -89,6 +89,7 @@ def test_an_argument_declared_twice() -> None:
           <arg name="a" default="1"/>
           <arg name="a" default="2"/>
                      ^ error[ARG005] argument 'a' is declared already
+          <param name="b" value="$(arg a)"/>
         </launch>
     """)
     assert finding.related[0].message == "declared here"
@@ -100,6 +101,7 @@ def test_of_two_declarations_under_conditions_one_counts() -> None:
           <arg name="real" default="true"/>
           <arg name="a" default="1" if="$(arg real)"/>
           <arg name="a" default="2" unless="$(arg real)"/>
+          <param name="b" value="$(arg a)"/>
         </launch>
     """)
 
@@ -123,4 +125,89 @@ def test_an_argument_that_is_passed_without_a_value() -> None:
         </launch>
         //- /inc.launch
         <launch><arg name="a" default="2"/></launch>
+    """)
+
+
+def test_an_argument_that_its_file_never_uses() -> None:
+    text = """
+        <launch>
+          <arg name="rate" default="10"/>
+                     ^^^^ hint[ARG008] argument 'rate' is declared and never used in this file
+          <!-- <param name="rate" value="$(arg rate)"/> -->
+          <arg name="used" default="1"/>
+          <arg name="quoted" default="2"/>
+          <group if="$(eval used == 1 or arg('quoted') == 2)">
+            <arg name="inner" value="1"/>
+                       ^^^^^ hint[ARG008] argument 'inner' is declared and never used in this file
+          </group>
+        </launch>
+    """
+    rate, _ = check(text)
+    assert apply(text, rate.fixes[0].edits)["/main.launch"].startswith("<launch>\n  <!--")
+
+
+def test_an_argument_that_only_what_is_not_taken_uses_is_used() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="fast" default="false"/>
+          <group if="$(arg fast)"><param name="rate" value="$(arg rate)"/></group>
+        </launch>
+    """)
+
+
+def test_an_argument_that_reaches_an_include_with_all_others_is_used() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <include file="/inc.launch" pass_all_args="true"/>
+        </launch>
+        //- /inc.launch
+        <launch><param name="rate" value="$(arg rate)"/></launch>
+    """)
+
+
+def test_an_argument_that_only_a_parameter_file_uses_is_used() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="inline" default="10"/>
+          <rosparam command="load" file="/rates.yaml" subst_value="true"/>
+          <rosparam subst_value="true">b: $(arg inline)</rosparam>
+        </launch>
+        //- /rates.yaml
+        a: $(arg rate)
+    """)
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+                     ^^^^ hint[ARG008] argument 'rate' is declared and never used
+          <rosparam command="load" file="/rates.yaml"/>
+        </launch>
+        //- /rates.yaml
+        a: rate
+    """)
+
+
+def test_an_argument_may_be_used_by_a_parameter_file_that_is_not_known() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="fast" default="false"/>
+          <group if="$(arg fast)"><rosparam command="load" file="/rates.yaml" subst_value="true"/></group>
+        </launch>
+    """)
+
+
+def test_an_unused_argument_that_an_include_passes_is_left_alone() -> None:
+    check("""
+        <launch>
+          <include file="/inc.launch"><arg name="rate" value="1"/></include>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="rate"/>
+          <arg name="other" default="1"/>
+                     ^^^^^ hint[ARG008] argument 'other' is declared and never used
+        </launch>
     """)

@@ -113,3 +113,24 @@ def test_without_ros_a_package_that_is_not_there_is_no_error(launch: Path) -> No
         environment = Environment(1, "noetic", {}, (share,), packages, {}, (), (), python)
         findings = Workspace(environment, Sources(), share).static(str(launch)).findings
         assert [f.severity for f in findings] == severities
+
+
+def test_two_different_executables_of_one_name(launch: Path) -> None:
+    old = launch.parent / "nodes" / "old"
+    old.mkdir()
+    (old / "listener").write_text("#!/bin/sh\n# another one\n")
+    (old / "listener").chmod(0o755)
+    (finding,) = judge(launch, "listener")
+    assert (finding.rule, finding.severity) == ("PKG003", "warning")
+    assert (
+        "has 2 different executables 'listener'; 'nodes/listener' is run here, 'nodes/old/listener'" in finding.message
+    )
+
+
+def test_a_link_to_an_executable_or_a_copy_of_it_is_no_second_one(launch: Path) -> None:
+    for name in ("links", "copies"):
+        (launch.parent / name).mkdir()
+    (launch.parent / "links" / "listener").symlink_to(launch.parent / "nodes" / "listener")
+    (launch.parent / "copies" / "listener").write_text("#!/bin/sh\n")
+    (launch.parent / "copies" / "listener").chmod(0o755)
+    assert judge(launch, "listener") == []

@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from preflight_check import apply, check, findings_of
 
 
@@ -335,3 +338,87 @@ def test_a_parameter_that_the_nodes_are_known_to_read_or_not_to_read_needs_no_gu
         {"/talker": {"params": {"~rate": 5, "/base/speed": 1}}}
     """)
     assert [finding.rule for finding in findings] == ["PRM001"]
+
+
+def test_a_file_that_a_parameter_names_and_that_is_not_there() -> None:
+    check("""
+        <launch>
+          <param name="map" value="$(find p)/maps/office.yaml"/>
+                                   ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/maps/office.yaml' in parameter 'map'
+          <param name="info" value="file://$(find p)/left.yaml"/>
+                                    ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/left.yaml' in parameter 'info'
+          <param name="mesh" value="package://p/arm.dae"/>
+                                    ^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/arm.dae' in parameter 'mesh'
+          <param name="list" value="$(find p)/a.yaml:$(find p)/b.yaml"/>
+                                    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/b.yaml'
+          <rosparam file="/p/a.yaml"/>
+          <rosparam subst_value="true">pose: $(find p)/pose.yaml</rosparam>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/pose.yaml' in parameter 'pose'
+          <node pkg="p" type="t" name="n" args="-d $(find p)/all.rviz _a:=$(find p)/b.csv"/>
+                                                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/all.rviz'
+                                                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/b.csv'
+        </launch>
+        //- /p/a.yaml
+        a: 1
+    """)
+
+
+def test_a_file_that_is_there_or_need_not_be() -> None:
+    check("""
+        <launch>
+          <param name="here" value="$(dirname)/p/a.yaml"/>
+          <rosparam file="/p/a.yaml"/>
+          <param name="output_file" value="$(find p)/new.yaml"/>
+          <param name="trajectory" value="$(find p)/logs/new.csv"/>
+          <param name="images" value="$(find p)/left_%04d.png"/>
+          <param name="camera" value="package://p/${NAME}.yaml"/>
+          <param name="mesh" value="package://elsewhere/arm.dae"/>
+          <param name="model" value="model://ground/ground.sdf"/>
+          <param name="folder" value="$(find p)/maps"/>
+          <param name="version" value="/p/1.0"/>
+          <param name="other" value="/srv/maps/office.yaml"/>
+          <param name="text" value="see $(find p)/README.md"/>
+          <node pkg="rosbag" type="record" name="rec" args="-O $(find p)/run.dat"/>
+          <node pkg="p" type="map_saver" name="saver" args="-f $(find p)/map.yaml"/>
+          <node pkg="p" type="t" name="n" args="--log-file=$(find p)/n.txt -o $(find p)/n.csv"/>
+        </launch>
+        //- /p/a.yaml
+        a: 1
+        //- /rosbag/package.xml
+        <package/>
+    """)
+
+
+def test_a_file_that_is_not_there_is_shown_where_it_is_written() -> None:
+    text = """
+        <launch>
+          <include file="/inc.launch"><arg name="map" value="$(find p)/ofice.yaml"/></include>
+                                                             ^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/ofice.yaml' in
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="map" default=""/>
+          <arg name="copy" value="$(arg map)"/>
+          <node pkg="p" type="t" name="n"><param name="map" value="$(arg copy)"/></node>
+        </launch>
+    """
+    (finding,) = check(text)
+    assert finding.related[0].message == "parameter 'map' is given here"
+    assert finding.related[0].location.file == "/inc.launch"
+
+
+def test_the_file_that_was_meant_may_be_in_another_folder(tmp_path: Path) -> None:
+    share = tmp_path / "camera"
+    (share / "config" / "calibration").mkdir(parents=True)
+    (share / "config" / "calibration" / "left_7cd1.yaml").touch()
+    launch = share / "camera.launch"
+    launch.write_text(
+        '<launch><arg name="serial" default="7cd1"/>'
+        '<param name="info" value="file://$(find camera)/config/left_$(arg serial).yaml"/></launch>'
+    )
+    packages = {"camera": Package("camera", str(share), f"{share}/package.xml")}
+    environment = Environment(1, "noetic", {}, (), packages, {}, (), (), None)
+    (finding,) = Workspace(environment, Sources(), str(share)).static(str(launch)).findings
+    assert finding.message.endswith("did you mean 'camera/config/calibration/left_7cd1.yaml'?")
+    assert finding.confidence == "likely"
+    assert [(edit.text) for edit in finding.fixes[0].edits] == ["/config/calibration/"]

@@ -18,7 +18,9 @@ EMPTY = "<launch>\n</launch>\n"
 
 
 def including(path: Path, *files: Path, text: str = "") -> Path:
-    path.write_text("<launch>\n" + "".join(f'  <include file="{file}"/>\n' for file in files) + text + "</launch>\n")
+    path.write_text(
+        "<launch>\n" + "".join(f'  <include file="$(dirname)/{file.name}"/>\n' for file in files) + text + "</launch>\n"
+    )
     return path
 
 
@@ -57,14 +59,16 @@ async def test_an_included_file_is_judged_where_it_is_included(desk: Desk) -> No
     inner = desk.workspace / "inner.launch"
     inner.write_text('<launch>\n  <arg name="a"/>\n  <param name="p" value="$(arg a)"/>\n</launch>\n')
     outer = desk.workspace / "outer.launch"
-    outer.write_text(f'<launch><include file="{inner}"><arg name="a" value="1"/></include></launch>')
+    outer.write_text(f'<launch><include file="$(dirname)/{inner.name}"><arg name="a" value="1"/></include></launch>')
     async with editing(desk) as editor:
         editor.open(inner)
         await editor.until(lambda: editor.rules(inner) == [])
         outer.unlink()
         editor.watched(outer, kind=types.FileChangeType.Deleted)
         await editor.until(lambda: editor.rules(inner) == ["ARG003"], 20)
-        editor.open(outer, f'<launch><include file="{inner}"><arg name="a" value="1"/></include></launch>')
+        editor.open(
+            outer, f'<launch><include file="$(dirname)/{inner.name}"><arg name="a" value="1"/></include></launch>'
+        )
         await editor.until(lambda: editor.rules(inner) == [])
         editor.close(outer)
         await editor.until(lambda: editor.rules(inner) == ["ARG003"])
@@ -74,7 +78,7 @@ async def test_an_edit_of_an_open_included_file_counts_before_it_is_saved(desk: 
     inner = desk.workspace / "inner.launch"
     inner.write_text(EMPTY)
     outer = desk.workspace / "outer.launch"
-    outer.write_text(f'<launch><include file="{inner}"><arg name="a" value="1"/></include></launch>')
+    outer.write_text(f'<launch><include file="$(dirname)/{inner.name}"><arg name="a" value="1"/></include></launch>')
     async with editing(desk) as editor:
         editor.open(outer)
         await editor.having(outer, "ARG004")

@@ -110,3 +110,15 @@ class LaunchFile:
     root: Action | None
     document: Document
     extra_roots: tuple[Span, ...] = ()
+
+
+def action_at(launch_file: LaunchFile, offset: int) -> Action | None:
+    """The innermost tag around `offset`; between two tags that touch, the one that begins there."""
+    action = launch_file.root
+    if action is None or not action.span.contains(offset):
+        return None
+    while True:
+        inside = [c for c in action.children if c.span.contains(offset)]
+        if not inside:
+            return action
+        action = inside[-1]

@@ -7,20 +7,9 @@ from pathlib import Path
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Include, LaunchNode, LaunchTree, Param, Remap, Use
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import action_at as action_at  # noqa: PLC0414 - it belongs to what stands at an offset
 from preflight_analysis.workspace.workspace import Analysis
-
-
-def action_at(launch_file: LaunchFile, offset: int) -> Action | None:
-    """The innermost tag around `offset`; between two tags that touch, the one that begins there."""
-    action = launch_file.root
-    if action is None or not action.span.contains(offset):
-        return None
-    while True:
-        inside = [c for c in action.children if c.span.contains(offset)]
-        if not inside:
-            return action
-        action = inside[-1]
 
 
 def use_at(tree: LaunchTree, file: str, offset: int) -> Use | None:

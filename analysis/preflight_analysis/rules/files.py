@@ -6,8 +6,9 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
@@ -27,8 +28,7 @@ def check_missing_files(what: str) -> Check:
             fixes: tuple[Fix, ...] = ()
             if near is not None:
                 message += f"; did you mean '{shown(near, context)}'?"
-                if Path(near).parent == Path(path).parent:
-                    fixes = rename(context, problem.location, Path(path).name, Path(near).name)
+                fixes = correct_path(context, problem.location, path, near)
             yield problem_finding(rule, problem, message, fixes=fixes)
 
     return check
@@ -44,7 +44,7 @@ def nearest_file(path: str, environment: Environment) -> str | None:
     near = nearest(wanted.name, siblings)
     if near is not None:
         return str(siblings[near])
-    share = _package_folder(path, environment)
+    share = package_folder(path, environment)
     if share is None:
         return None
     elsewhere = {entry.name: entry for entry in _files(share, deep=True) if entry.suffix == wanted.suffix}
@@ -52,7 +52,31 @@ def nearest_file(path: str, environment: Environment) -> str | None:
     return str(elsewhere[near]) if near is not None else None
 
 
-def _package_folder(path: str, environment: Environment) -> Path | None:
+def correct_path(context: Context, location: Location, path: str, near: str) -> tuple[Fix, ...]:
+    """A fix that makes what is written at `location`, and came to `path`, lead to `near`.
+
+    None if the text does not hold what differs: the name of the file, or of its folders below the package.
+    """
+    old, new = Path(path), Path(near)
+    if old.parent == new.parent:
+        return rename(context, location, old.name, new.name)
+    share = package_folder(path, context.environment)
+    document = context.documents.get(location.file)
+    if share is None or document is None or old.name != new.name or old.parent == share:
+        return ()
+    folders = f"/{old.parent.relative_to(share)}/"
+    below = new.parent.relative_to(share)
+    written = document.text[location.span.start : location.span.end]
+    if written.count(folders) != 1:
+        return ()
+    start = location.span.start + written.index(folders)
+    text = "/" if below == Path() else f"/{below}/"
+    edit = Edit(Location(location.file, Span(start, start + len(folders))), text)
+    return (Fix(f"Replace '{folders}' by '{text}'", (edit,), True),)
+
+
+def package_folder(path: str, environment: Environment) -> Path | None:
+    """The folder of the innermost package around `path`."""
     holders = [p.share for p in environment.packages.values() if path.startswith(p.share.rstrip("/") + "/")]
     return Path(max(holders, key=len)) if holders else None
 

@@ -9,6 +9,7 @@ from typing import Protocol
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.suppression import Suppression
@@ -32,6 +33,7 @@ class Context:
 
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
     None when they were. `executables` lists those of a package; without it the disk is walked where one is missing.
+    `sources` reads files that the tree does not know, a package.xml that a fix changes for instance.
     """
 
     root: str
@@ -42,6 +44,7 @@ class Context:
     graph: Graph | None = None
     why_not_run: str | None = None
     executables: ExecutableNames | None = None
+    sources: Files | None = None
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]

@@ -71,7 +71,15 @@ class Workspace:
             return known
         tree = self.tree(path, args)
         documents, launch_files = self._documents(tree)
-        context = Context(path, tree, documents, launch_files, self.environment)
+        context = Context(
+            path,
+            tree,
+            documents,
+            launch_files,
+            self.environment,
+            executables=self._executables,
+            sources=self.sources,
+        )
         findings = tuple(run_rules(context))
         analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, None, findings, None)
         with self._lock:
@@ -107,6 +115,8 @@ class Workspace:
             analysis.environment,
             graph,
             why_not_run,
+            self._executables,
+            self.sources,
         )
         return replace(analysis, graph=graph, findings=tuple(run_rules(context)), why_not_run=why_not_run)
 

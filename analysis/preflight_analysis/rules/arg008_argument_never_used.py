@@ -1,0 +1,138 @@
+"""ARG008: an argument that its file declares and does not use."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
+_EVAL = re.compile(r"\$\(\s*eval\b(.*)", re.DOTALL)
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_FALSE = ("false", "0", "")
+
+
+@dataclass(frozen=True, slots=True)
+class _Arguments:
+    """What a file does with arguments, conditions or not. `substituted` are files that it loads with subst_value."""
+
+    declared: Mapping[str, tuple[Action, ...]]
+    used: frozenset[str]
+    passes_all: bool
+    substituted: tuple[Value, ...]
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    passed: dict[str, set[str]] = {}
+    origins: dict[str, Origin] = {}
+    for include in context.tree.includes:
+        if include.path is not None:
+            passed.setdefault(include.path, set()).update(include.args)
+            origins.setdefault(include.path, include.origin)
+    for path, launch_file in context.launch_files.items():
+        # What is malformed may hide the rest of the file.
+        if launch_file.document.problems or launch_file.document.entities:
+            continue
+        arguments = _arguments(launch_file)
+        unused = arguments.declared.keys() - arguments.used
+        if not unused or arguments.passes_all:
+            continue
+        in_texts = _used_in_texts(context, path, arguments.substituted)
+        if in_texts is None:
+            continue
+        # An include that passes it would break without the declaration: it is part of what the files agreed on.
+        for name in sorted(unused - in_texts - passed.get(path, set())):
+            tags = arguments.declared[name]
+            value = tags[0].value("name")
+            span = value.span if value is not None else tags[0].head_span
+            origin = (*origins.get(path, ()), Location(path, span))
+            edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
+            yield rule.finding(
+                f"argument '{name}' is declared and never used in this file",
+                Location(path, span),
+                related=include_chain(origin),
+                fixes=(Fix(f"Remove the declaration of '{name}'", edits),),
+            )
+
+
+@per_file
+def _arguments(launch_file: LaunchFile) -> _Arguments:
+    declared: dict[str, list[Action]] = {}
+    used: set[str] = set()
+    substituted: list[Value] = []
+    passes_all = False
+    if launch_file.root is not None:
+        for action in launch_file.root.walk():
+            for attribute in action.attributes:
+                if "$" in attribute.value.text:
+                    used |= _references(attribute.value.text)
+            if action.kind == "include":
+                passes_all |= not _is_false(action.value("pass_all_args"))
+            elif action.kind == "rosparam" and not _is_false(action.value("subst_value")):
+                used |= _references(action.body.text)
+                file = action.value("file")
+                if file is not None:
+                    substituted.append(file)
+        for action in _declarations(launch_file.root):
+            name = action.value("name")
+            if name is not None and name.is_literal and name.text:
+                declared.setdefault(name.text, []).append(action)
+    tags = {name: tuple(actions) for name, actions in declared.items()}
+    return _Arguments(tags, frozenset(used), passes_all, tuple(substituted))
+
+
+def _declarations(action: Action) -> Iterator[Action]:
+    for child in action.children:
+        if child.kind == "arg":
+            yield child
+        elif child.kind == "group":
+            yield from _declarations(child)
+
+
+def _references(text: str) -> set[str]:
+    """The arguments that a text speaks of; of an expression any name in it, a string too (`arg('name')`)."""
+    found = set(_REFERENCE.findall(text))
+    for expression in _EVAL.findall(text):
+        found.update(_NAME.findall(expression))
+    return found
+
+
+def _used_in_texts(context: Context, path: str, files: Iterable[Value]) -> set[str] | None:
+    """The arguments that YAML files loaded with subst_value use; None if one of those files is not known here."""
+    wanted = {value.span for value in files}
+    if not wanted:
+        return set()
+    found: dict[object, set[str]] = {}
+    for use in context.tree.uses:
+        if use.kind == "file" and use.location.file == path and use.location.span in wanted:
+            document = context.documents.get(use.name)
+            if document is not None:
+                found.setdefault(use.location.span, set()).update(_references(document.text))
+    return set().union(*found.values()) if found.keys() == wanted else None
+
+
+def _is_false(value: Value | None) -> bool:
+    return value is None or value.text.strip().lower() in _FALSE
+
+
+RULE = Rule(
+    id="ARG008",
+    name="argument-never-used",
+    severity="hint",
+    what="Points out an `<arg>` that its own file does not use: in no `$(arg ...)`, no `$(eval ...)`, no text or file "
+    'with `subst_value="true"`, under whatever conditions, and by no include with `pass_all_args`. One that an '
+    "include passes is left alone: without the declaration that include would fail.",
+    why="Whoever sets it on the command line believes that it has an effect. An argument is known only in the file "
+    "that declares it; what that file includes gets it only if it is passed.",
+    example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',
+    instead='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch">\n'
+    '  <arg name="rate" value="$(arg rate)"/>\n</include>',
+    check=_check,
+    every_root=True,
+)

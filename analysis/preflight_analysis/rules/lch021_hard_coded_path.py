@@ -1,0 +1,118 @@
+"""LCH021: a path that exists on one machine."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.model import Action, LaunchFile, Literal
+from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_END = r"[^\s'\":;,<>|)]*"
+_HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
+_ROS = re.compile(r"/opt/ros/[a-z]+/")
+_END = r"[^\s'\":;,<>|)]*"
+_ABSOLUTE = re.compile(rf"(?:(?<=file://)|(?<![\w./$)}}-]))/(?!/){_END}")
+_TILDE = re.compile(rf"(?<![^\s'\":;,=])~[a-z_][\w-]*/{_END}\.[A-Za-z]\w*")
+_NOT_PATHS = frozenset(
+    ("name", "ns", "from", "to", "pkg", "type", "test-name", "doc", "deprecated", "if", "unless", "machine", "param")
+)
+_SYSTEM = ("/usr/", "/etc/", "/opt/", "/dev/", "/tmp/", "/proc/", "/sys/", "/var/", "/run/", "/bin/", "/lib/")  # noqa: S108
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    origins = {include.path: include.origin for include in reversed(context.tree.includes)}
+    for path, launch_file in context.launch_files.items():
+        for start, text in _absolute_paths(launch_file):
+            what = _what(text, context)
+            if what is None:
+                continue
+            location = Location(path, Span(start, start + len(text)))
+            in_package = _in_package(text, context)
+            fixes = (Fix(f"Replace by '{in_package}'", (Edit(location, in_package),), True),) if in_package else ()
+            instead = f"; use '{in_package}'" if in_package else ""
+            yield rule.finding(
+                f"'{text}' is {what}{instead}",
+                location,
+                severity="hint" if text.startswith("/opt/") else None,
+                confidence="certain" if in_package else "likely",
+                related=include_chain((*origins.get(path, ()), location)),
+                fixes=fixes,
+            )
+
+
+@per_file
+def _absolute_paths(launch_file: LaunchFile) -> tuple[tuple[int, str], ...]:
+    """What is written like an absolute path where a path may stand, outside of substitutions, with its offset."""
+    if launch_file.root is None:
+        return ()
+    return tuple(found for action in launch_file.root.walk() for found in _of_tag(action, launch_file.document.text))
+
+
+def _of_tag(action: Action, document: str) -> Iterator[tuple[int, str]]:
+    # What a <machine> says are paths over there.
+    if action.kind in ("machine", "remap"):
+        return
+    for attribute in action.attributes:
+        if attribute.name in _NOT_PATHS or "/" not in attribute.value.text:
+            continue
+        for part in attribute.value.parts:
+            if not isinstance(part, Literal):
+                continue
+            written = document[part.span.start : part.span.end]
+            # What follows a substitution directly is the rest of its path.
+            follows = part.span.start > attribute.value.span.start
+            for pattern in (_TILDE, _ABSOLUTE):
+                for match in pattern.finditer(written):
+                    if len(match[0]) > 1 and not (follows and match.start() == 0):
+                        yield part.span.start + match.start(), match[0]
+
+
+def _what(text: str, context: Context) -> str | None:
+    """What makes the path one of this machine alone; None for all others, and for names that look like paths."""
+    if _HOME.match(text) or text.startswith("~"):
+        return "in the home folder of one user: it is not there on another machine"
+    if _ROS.match(text):
+        return "where one distribution of ROS is installed: it is not there on another one"
+    workspace = context.environment.workspace
+    if workspace and text.startswith(workspace.rstrip("/") + "/") and os.path.exists(text):
+        return "where this workspace is on this machine"
+    if not text.startswith(_SYSTEM) and os.path.isfile(text) and _in_package(text, context):
+        return "where this package is on this machine"
+    return None
+
+
+def _in_package(text: str, context: Context) -> str | None:
+    """The same file by `$(find ...)`, if the path has the folder of a known package in which that file exists."""
+    packages = context.environment.packages
+    for package in packages.values():
+        share = package.share.rstrip("/")
+        if text.startswith(share + "/"):
+            return f"$(find {package.name}){text[len(share) :]}"
+    parts = text.split("/")
+    for at in range(len(parts) - 1, 0, -1):
+        known = packages.get(parts[at])
+        below = "/".join(parts[at + 1 :])
+        if known is not None and below and os.path.exists(os.path.join(known.share, below)):
+            return f"$(find {known.name})/{below}"
+    return None
+
+
+RULE = Rule(
+    id="LCH021",
+    name="hard-coded-path",
+    severity="info",
+    what="Points out paths below `/home/...`, `/Users/...`, `/root`, `~user` and `/opt/ros/...`, and other absolute "
+    "paths into the workspace, in the values of attributes. Where the file belongs to a package that is known here it "
+    "says how to write it with `$(find ...)`. What a `<machine>` says is left alone.",
+    why="The launch file works for the one who wrote it: for other users, on the robot, or after an upgrade of ROS the "
+    "path leads nowhere.",
+    example='<param name="model" value="/home/bob/catkin_ws/src/vision/models/net.pt"/>',
+    instead='<param name="model" value="$(find vision)/models/net.pt"/>',
+    check=_check,
+)

@@ -1,0 +1,63 @@
+"""PKG003: several files that a node's type could mean."""
+
+import filecmp
+import os
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import Executable
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for node in context.tree.nodes:
+        if len(node.resolved.candidates) < 2:
+            continue
+        first, *others = _different(node.resolved)
+        if others:
+            package = node.resolved.package_path or ""
+            rest = ", ".join(f"'{os.path.relpath(path, package)}'" for path in others)
+            yield rule.finding(
+                f"package '{node.package}' has {len(others) + 1} different executables '{node.executable}'; "
+                f"'{os.path.relpath(first, package)}' is run here, {rest} would be where the folders are listed in "
+                "another order",
+                attribute_location(node, "type"),
+                related=include_chain(node.origin),
+            )
+
+
+def _different(found: Executable) -> list[str]:
+    """What is run, and the other files of the same folder tree that are not the same thing under another path.
+
+    What a devel or install space has was made from the package's source folder: no second executable.
+    """
+    share = f"{(found.package_path or '').rstrip('/')}/"
+    first = found.candidates[0]
+    kept = [first]
+    for path in found.candidates[1:]:
+        if path.startswith(share) == first.startswith(share) and not any(_same(path, other) for other in kept):
+            kept.append(path)
+    return kept
+
+
+def _same(path: str, other: str) -> bool:
+    try:
+        return os.path.samefile(path, other) or filecmp.cmp(path, other, shallow=False)
+    except OSError:
+        return False
+
+
+RULE = Rule(
+    id="PKG003",
+    name="executable-ambiguous",
+    severity="warning",
+    what="Reports a node whose package has several executable files of that name with different content. A link to "
+    "the same file, a copy, and what a devel or install space was built to are not counted.",
+    why="`roslaunch` runs the first one that it meets and says nothing. Which one that is depends on the order in "
+    "which the file system lists the folders, so it may be another one on the robot.",
+    example="scripts/talker.py\nscripts/old/talker.py",
+    instead="scripts/talker.py\nscripts/old/talker_2019.py",
+    check=_check,
+)

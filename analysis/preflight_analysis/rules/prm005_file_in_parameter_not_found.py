@@ -1,0 +1,213 @@
+"""PRM005: a parameter or argument of a node names a file that is not there."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
+from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.launch.model import action_at
+from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
+from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.problems import include_chain, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+_LONGEST = 4096
+"""A path has fewer characters, a robot description has more."""
+_EXTENSION = re.compile(r"\.[A-Za-z][A-Za-z0-9_]{0,9}\Z")
+_LIST = re.compile(r"[,;:]")
+_PATTERN = re.compile(r"[*?!\[\]{}$%<>|&\"'()\s#]")
+"""Characters of wildcards and of texts that are filled in later (`left_%04d.png`, `${NAME}.yaml`, `!!NOT_SET!!`)."""
+_PACKAGE_URI = re.compile(r"package://([^/]+)/(.*)\Z")
+_WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+_WRITTEN = frozenset(
+    re.findall(
+        r"\w+",
+        "backup bag bags cache cached capture captured create database db debug dest destination dump dumped "
+        "export exported generate generated history log logfile logger logging logs out outfile output "
+        "outputs record recorded recorder recording report result results save saved saver snapshot stat "
+        "statistics stats storage store stored target temp tmp trace warehouse write writer written ",
+    )
+)
+"""Words in the name of a parameter, option, node or folder that say: this file is made when the node runs."""
+_MADE_WHEN_RUN = (".bag", ".log", ".db", ".pid", ".sock", ".sqlite", ".tmp")
+_MOST_STEPS = 20
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    """A text that may name files: `what` it is for people, and where it is given."""
+
+    text: str
+    what: str
+    location: Location
+    origin: Origin
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    values: Mapping[Location, list[Use]] | None = None
+    for named in (*_in_params(context), *_in_arguments(context)):
+        for path in _missing(named.text, context):
+            values = _argument_uses(context.tree) if values is None else values
+            location = _where_written(context, named.location, path, values)
+            related = include_chain((*named.origin[:-1], location))
+            if location != named.location:
+                related = (Related(f"{named.what} is given here", named.location), *related)
+            near = nearest_file(path, context.environment)
+            hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
+            fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
+            message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
+            yield rule.finding(message, location, confidence="likely", related=related, fixes=fixes)
+
+
+def _in_params(context: Context) -> Iterator[_Named]:
+    for param in context.tree.params.values():
+        value = param.value
+        if isinstance(value, CommandValue):
+            for word in _words(value.command)[1:]:
+                yield _Named(word, "the command", _value_location(context, param, "command"), param.origin)
+            continue
+        texts = [text for text in value if isinstance(text, str)] if isinstance(value, list) else [value]
+        if not all(isinstance(text, str) and "/" in text for text in texts):
+            continue
+        name = param.name.rpartition("/")[2]
+        if _made_when_run(name) or (param.owner is not None and _made_when_run(param.owner.rpartition("/")[2])):
+            continue
+        for text in texts:
+            if len(text) < _LONGEST and "\n" not in text:
+                yield _Named(text, f"parameter '{name}'", _value_location(context, param, "value"), param.origin)
+
+
+def _in_arguments(context: Context) -> Iterator[_Named]:
+    for node in context.tree.nodes:
+        if "/" not in node.args or node.unknowns or _elsewhere(context.tree, node):
+            continue
+        if _made_when_run(node.executable) or _made_when_run(node.name.rpartition("/")[2]):
+            continue
+        before = ""
+        for word in _words(node.args):
+            option, _, value = word.rpartition("=")
+            option = option or (before if before.startswith("-") else "")
+            before = word
+            if option not in ("-o", "-O") and not _made_when_run(option):
+                what = f"the arguments of '{node.executable}'"
+                yield _Named(value, what, attribute_location(node, "args"), node.origin)
+
+
+def _elsewhere(tree: LaunchTree, node: LaunchNode) -> bool:
+    """Whether the node runs on another machine, which has its own files."""
+    machine = tree.machines.get(node.machine or "")
+    return machine is not None and machine.address not in ("localhost", "127.0.0.1")
+
+
+def _words(text: str) -> list[str]:
+    try:
+        return shlex.split(text)
+    except ValueError:
+        return text.split()
+
+
+def _made_when_run(name: str) -> bool:
+    return any(word.lower() in _WRITTEN for word in _WORD.findall(name))
+
+
+def _missing(text: str, context: Context) -> Iterator[str]:
+    """The files that `text` names and that should be there: below a package or the workspace, with an extension."""
+    for path in _paths(text, context.environment):
+        extension = _EXTENSION.search(path)
+        if extension is None or extension[0].lower() in _MADE_WHEN_RUN or _PATTERN.search(path):
+            continue
+        normal = os.path.normpath(path)
+        if normal in context.documents or os.path.exists(normal):
+            continue
+        share = package_folder(normal, context.environment)
+        workspace = context.environment.workspace
+        inside = str(share) if share is not None else workspace
+        if inside is None or not normal.startswith(inside.rstrip("/") + "/"):
+            continue
+        below = normal[len(inside) :]
+        if not _made_when_run(below) and not _is_built(below, inside, context):
+            yield normal
+
+
+def _is_built(below: str, share: str, context: Context) -> bool:
+    """Whether the package's CMakeLists.txt speaks of the file: then building the package makes it."""
+    executables = context.executables
+    package = next((p.name for p in context.environment.packages.values() if p.share.rstrip("/") == share), None)
+    return executables is not None and package is not None and executables.is_build_target(package, below.strip("/"))
+
+
+def _paths(text: str, environment: Environment) -> Iterable[str]:
+    if found := _PACKAGE_URI.match(text):
+        package = environment.packages.get(found[1])
+        return (os.path.join(package.share, found[2]),) if package is not None else ()
+    plain = text.removeprefix("file://")
+    pieces = _LIST.split(plain) if "/" in plain else ()
+    return [piece for piece in pieces if piece.startswith("/")]
+
+
+def _value_location(context: Context, param: Param, attribute: str) -> Location:
+    """The value in the launch file; the key, for one that a YAML text gives."""
+    tag = param.origin[-1]
+    launch_file = context.launch_files.get(tag.file)
+    action = action_at(launch_file, tag.span.start + 1) if launch_file is not None else None
+    if action is not None and action.kind.lower() == "param" and (value := action.value(attribute)) is not None:
+        return Location(tag.file, value.span)
+    return param.name_location or tag
+
+
+def _argument_uses(tree: LaunchTree) -> Mapping[Location, list[Use]]:
+    """The uses of arguments by the place of the whole value they stand in, and with it what that came to."""
+    found: dict[Location, list[Use]] = {}
+    pending: list[Use] = []
+    for use in tree.uses:
+        if use.kind == "arg":
+            pending.append(use)
+        elif use.kind == "value":
+            # The parts of a value are noted right before the value itself.
+            found.setdefault(use.location, []).extend(pending)
+            pending = []
+    return found
+
+
+def _where_written(context: Context, at: Location, path: str, uses: Mapping[Location, list[Use]]) -> Location:
+    """The place that has the file's name: from `at` back over the arguments that gave the value; else `at` itself."""
+    name = os.path.basename(path)
+    place, seen = at, set[Location]()
+    while place not in seen and len(seen) < _MOST_STEPS:
+        seen.add(place)
+        document = context.documents.get(place.file)
+        if document is None or name in document.text[place.span.start : place.span.end]:
+            return place if document is not None else at
+        use = next((u for u in uses.get(place, ()) if u.origin and u.value is not None and name in u.value), None)
+        launch_file = context.launch_files.get(use.origin[-1].file) if use is not None else None
+        if use is None or launch_file is None:
+            return at
+        action = action_at(launch_file, use.origin[-1].span.start)
+        value = (action.value("value") or action.value("default")) if action is not None else None
+        if value is None:
+            return at
+        place = Location(launch_file.path, value.span)
+    return at
+
+
+RULE = Rule(
+    id="PRM005",
+    name="file-in-parameter-not-found",
+    severity="warning",
+    what="Reports a file that does not exist in the value of a parameter, in the arguments of a node or in a command: "
+    "a path with an extension below a package or the workspace, also as `file://` or `package://`. It names the "
+    "nearest file. Names that speak of something that is written (`output`, `log`, `record`, ...), patterns and "
+    "files that the package builds are left alone.",
+    why="`roslaunch` takes the value for any text. The node ends when it opens the file, or goes on without: a camera "
+    "without its calibration, a planner without its limits.",
+    example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
+    instead='<param name="camera_info_url" value="file://$(find camera)/config/calibration/left.yaml"/>',
+    check=_check,
+)
