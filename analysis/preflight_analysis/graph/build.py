@@ -29,6 +29,8 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface]) -> Graph:
     actions: list[Connection] = []
     reads: list[ParamRead] = []
     for node, interface in zip(tree.nodes, merged, strict=True):
+        if not interface.endpoints and not interface.params:
+            continue
         remaps = _effective_remaps(node)
         for endpoint in interface.endpoints:
             if endpoint.role in _TOPIC_ROLES:

@@ -32,27 +32,33 @@ class _Reads:
     """Full names of the nodes of which it is not known what they read."""
 
     def covers(self, name: str) -> bool:
-        """Whether somebody asks for the parameter, for something below it, or for a whole namespace that holds it."""
-        if name in self.names or name in self.prefixes or name.rpartition("/")[2] in self.searched:
-            return True
-        parts = name.split("/")
-        return any("/".join(parts[:end]) in self.names for end in range(2, len(parts))) or "/" in self.names
+        """Whether somebody asks for the parameter, or for something below it."""
+        return name in self.names or name in self.prefixes or name.rpartition("/")[2] in self.searched
+
+    def covers_all(self, namespaces: Iterable[str]) -> bool:
+        """Whether somebody asks for one of these namespaces as a whole, and so for all in it."""
+        return "/" in self.names or not self.names.isdisjoint(namespaces)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    if graph is None:
+    if graph is None or not any(_tells_params(interface) for interface in graph.interfaces):
         return
-    reads = _collect(graph)
+    # By namespace: parameters are many, loaded from YAML by the hundred, and the places where they are few.
+    groups = _by_namespace(graph.tree.params.values())
+    reads = _collect(graph, groups)
     nodes = {node.name: node for node in graph.tree.nodes}
-    unread = [p for p in graph.tree.params.values() if not reads.covers(p.name) and not is_for_tools(p.name)]
     orphans: list[Param] = []
-    for param in unread:
-        holder = _holder(param.name, nodes)
+    for namespace, params in groups.items():
+        around = list(_namespaces(f"{namespace}/"))
+        holder = next((nodes[name] for name in around if name in nodes), None)
+        if (holder is not None and holder.name in reads.opaque) or reads.covers_all(around):
+            continue
+        unread = [p for p in params if not reads.covers(p.name) and not is_for_tools(p.name)]
         if holder is None:
-            orphans.append(param)
-        elif holder.name not in reads.opaque:
-            yield _private(rule, context, reads, param, holder)
+            orphans += unread
+        else:
+            yield from (_private(rule, context, reads, param, holder) for param in unread)
     if any(use.use.access in ("search", "list") for use in graph.param_reads):
         return
     for param, read in _misplaced(orphans, reads):
@@ -70,12 +76,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-def _collect(graph: Graph) -> _Reads:
+def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
     names: set[str] = set()
     searched: set[str] = set()
     unset: dict[str, ParamRead] = {}
     opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not _tells_params(i)}
-    filled = frozenset(graph.tree.params) | _above(graph.tree.params)
+    filled = _above(f"{namespace}/" for namespace in namespaces)
     for read in graph.param_reads:
         if read.use.access == "list":
             opaque.add(read.node.name)
@@ -83,7 +89,7 @@ def _collect(graph: Graph) -> _Reads:
             searched.add(read.use.name.strip("~/").partition("/")[0])
         elif read.use.access in ("get", "has"):
             names.add(read.name.rstrip("/") or "/")
-            if not read.use.builtin and read.name not in filled:
+            if not read.use.builtin and read.name not in graph.tree.params and read.name not in filled:
                 unset.setdefault(read.name, read)
         else:
             names.add(read.name)
@@ -95,21 +101,28 @@ def _tells_params(interface: Interface) -> bool:
     return interface.complete and (interface.source != "annotation" or bool(interface.params))
 
 
+def _namespaces(name: str) -> Iterator[str]:
+    """The namespaces that hold a name, the innermost first: `/a/b` and `/a` of `/a/b/c`."""
+    while name := name.rpartition("/")[0]:
+        yield name
+
+
 def _above(names: Iterable[str]) -> frozenset[str]:
-    """The namespaces that hold the names: `/a` and `/a/b` of `/a/b/c`."""
-    return frozenset(
-        "/".join(parts[:end]) for parts in (name.split("/") for name in names) for end in range(2, len(parts))
-    )
+    """The namespaces that hold any of the names."""
+    found: set[str] = set()
+    for name in names:
+        for namespace in _namespaces(name):
+            if namespace in found:
+                break  # and so are those above it
+            found.add(namespace)
+    return frozenset(found)
 
 
-def _holder(name: str, nodes: dict[str, LaunchNode]) -> LaunchNode | None:
-    """The node in whose private namespace the parameter is; the innermost if nodes' names nest."""
-    parts = name.split("/")
-    for end in range(len(parts) - 1, 1, -1):
-        node = nodes.get("/".join(parts[:end]))
-        if node is not None:
-            return node
-    return None
+def _by_namespace(params: Iterable[Param]) -> dict[str, list[Param]]:
+    groups: dict[str, list[Param]] = {}
+    for param in params:
+        groups.setdefault(param.name.rpartition("/")[0], []).append(param)
+    return groups
 
 
 def _private(rule: Rule, context: Context, reads: _Reads, param: Param, holder: LaunchNode) -> Finding:
@@ -157,15 +170,12 @@ def _misplaced(params: Iterable[Param], reads: _Reads) -> Iterator[tuple[Param, 
     A leaf name alone (`rate`, `frame_id`) is no evidence: either two or more of a namespace's names agree, or the
     namespaces' own names are alike, or it is a typo of a name in the same namespace.
     """
-    groups: dict[str, list[Param]] = {}
-    for param in params:
-        groups.setdefault(param.name.rpartition("/")[0], []).append(param)
     by_namespace: dict[str, dict[str, ParamRead]] = {}
     for name, read in reads.unset.items():
         if read.node.name not in reads.opaque:
             namespace, _, leaf = name.rpartition("/")
             by_namespace.setdefault(namespace, {})[leaf] = read
-    for namespace, group in groups.items():
+    for namespace, group in _by_namespace(params).items():
         leaves = {param.name.rpartition("/")[2]: param for param in group}
         for leaf, param in leaves.items():
             near = nearest(leaf, by_namespace.get(namespace, ()))
