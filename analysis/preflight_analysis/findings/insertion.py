@@ -7,7 +7,7 @@ import re
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import Action, ActionAttribute
 
 _BLANKS = re.compile(r"[ \t]*")
 _REST_IS_BLANK = re.compile(r"[ \t]*(?:[\r\n]|\Z)")
@@ -34,6 +34,18 @@ def insert_child(action: Action, document: Document, child: str) -> Edit:
         return Edit(Location(document.path, Span(blank, end)), f">{body}{newline}{base}</{action.kind}>")
     tail = "" if _REST_IS_BLANK.match(text, end) else newline + base
     return Edit(Location(document.path, Span(end, end)), body + tail)
+
+
+def insert_attribute(action: Action, document: Document, name: str, value: str = "") -> Edit:
+    """The edit that gives the tag another attribute, behind those that it has."""
+    end = action.attributes[-1].span.end if action.attributes else action.kind_span.end
+    return Edit(Location(document.path, Span(end, end)), f' {name}="{value}"')
+
+
+def remove_attribute(attribute: ActionAttribute, document: Document) -> Edit:
+    """The edit that removes the attribute and the blanks before it."""
+    start = len(document.text[: attribute.span.start].rstrip())
+    return Edit(Location(document.path, Span(start, attribute.span.end)), "")
 
 
 def remove_tag(document: Document, span: Span) -> Edit:

@@ -8,17 +8,22 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Comment, Document, Element, Node
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Edit, Finding
+from preflight_analysis.findings.insertion import remove_tag
 
 _MARK = re.compile(r"preflight:\s*ignore\b(?:\[(?P<ids>[^\]]*)\])?")
 
 
 @dataclass(frozen=True, slots=True)
 class Suppression:
-    """One rule that one comment silences. `first_line` to `last_line`, counted from 0, are the lines it covers."""
+    """One rule that one comment silences. `first_line` to `last_line`, counted from 0, are the lines it covers.
+
+    `removal` is the edit that takes it back: the whole comment if it names no other rule.
+    """
 
     rule: str
     location: Location
+    removal: Edit
     first_line: int
     last_line: int
 
@@ -46,7 +51,8 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
     malformed: list[Malformed] = []
     for comment in _comments(document.children):
         content = comment.content
-        for mark in _MARK.finditer(content.text):
+        marks = list(_MARK.finditer(content.text))
+        for mark in marks:
             ids = list(re.finditer(r"[^\s,]+", mark["ids"] or ""))
             if not ids:
                 malformed.append(Malformed(Location(document.path, content.slice_span(*mark.span()))))
@@ -54,10 +60,18 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
             last, _ = document.lines.position(comment.span.end)
             # Behind something else on its line a comment speaks of that, not of the next line.
             alone = not document.text[document.lines.line_start(first) : comment.span.start].strip()
-            for each in ids:
-                start = mark.start("ids") + each.start()
-                span = content.slice_span(start, start + len(each.group()))
-                found.append(Suppression(each.group(), Location(document.path, span), first, last + alone))
+            for at, each in enumerate(ids):
+                base = mark.start("ids")
+                span = content.slice_span(base + each.start(), base + each.end())
+                removal = remove_tag(document, comment.span)
+                if len(ids) > 1:
+                    # With the comma that parts it from the next one, or from the one before.
+                    ends = (each.start(), ids[at + 1].start()) if at + 1 < len(ids) else (ids[at - 1].end(), each.end())
+                    removal = Edit(Location(document.path, content.slice_span(base + ends[0], base + ends[1])), "")
+                elif len(marks) > 1:
+                    removal = Edit(Location(document.path, content.slice_span(*mark.span())), "")
+                place = Location(document.path, span)
+                found.append(Suppression(each.group(), place, removal, first, last + alone))
     return tuple(found), tuple(malformed)
 
 

@@ -1,17 +1,53 @@
 """LCH009: a name that ROS does not allow."""
 
+from __future__ import annotations
+
+import re
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags
+
+_ILLEGAL = re.compile(r"[^A-Za-z0-9_/]+")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    tags = Tags(context.launch_files)
     for problem in problems_of(rule, context):
         data = problem.data
         message = f"{data['what']} name '{data['name']}' is not allowed: {data['reason']}"
-        yield problem_finding(rule, problem, message, severity=None if problem.fatal else "warning")
+        severity: Severity | None = None if problem.fatal else "warning"
+        yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
+
+
+def _fixes(context: Context, tags: Tags, problem: Problem) -> Iterator[Fix]:
+    """The name without what is not allowed in it, if it is written as it is; a namespace in it becomes `ns`."""
+    location = problem.location
+    document = context.documents.get(location.file)
+    written = document.text[location.span.start : location.span.end] if document is not None else ""
+    if document is None or names.canonicalize(written) != problem.data["name"]:
+        return
+    legal = _legal(written)
+    if problem.data["what"] == "node" and "/" in legal:
+        ns, _, name = legal.rstrip("/").rpartition("/")
+        tag = tags.around(location)
+        if tag is None or tag.action.attribute("ns") is not None or not ns or not names.is_legal(name):
+            return
+        edits = (Edit(location, name), insert_attribute(tag.action, document, "ns", ns))
+        yield Fix(f'Use ns="{ns}" and name="{name}"', edits, True)
+    elif legal and legal != written and names.is_legal(legal):
+        yield Fix(f"Replace '{written}' by '{legal}'", (Edit(location, legal),), True)
+
+
+def _legal(written: str) -> str:
+    mark = "~" if written.startswith("~") else ""
+    plain = _ILLEGAL.sub("_", written[len(mark) :].strip()).replace("//", "/")
+    return mark + (plain.lstrip("0123456789_") if not mark else plain)
 
 
 RULE = Rule(

@@ -1,16 +1,44 @@
 """LCH016: two nodes of one name."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    taken = {node.name for node in context.tree.nodes}
     for problem in problems_of(rule, context):
-        message = f"there is another node with the name '{problem.data['name']}'"
-        yield problem_finding(rule, problem, message, related=(Related("the first one", problem.data["first"]),))
+        name, first = str(problem.data["name"]), problem.data["first"]
+        if first is None:
+            yield problem_finding(rule, problem, f"'{name}' is the name of roslaunch's own node")
+            continue
+        location = problem.location
+        twice = first.file == location.file and first.span.start <= location.span.start < first.span.end
+        how = ": this tag is read twice, the includes need different namespaces" if twice else ""
+        yield problem_finding(
+            rule,
+            problem,
+            f"there is another node with the name '{name}'{how}",
+            related=(Related("the first one", first),),
+            fixes=() if twice else _fixes(context, problem, taken),
+        )
+
+
+def _fixes(context: Context, problem: Problem, taken: set[str]) -> tuple[Fix, ...]:
+    """The name with a number that makes it the only one."""
+    full = str(problem.data["name"])
+    namespace, leaf = names.parent(full), full.rpartition("/")[2]
+    number = 2
+    while f"{namespace}{leaf}_{number}" in taken:
+        number += 1
+    taken.add(f"{namespace}{leaf}_{number}")
+    return rename(context, problem.location, leaf, f"{leaf}_{number}")
 
 
 RULE = Rule(

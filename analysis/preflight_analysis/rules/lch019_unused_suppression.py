@@ -26,7 +26,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _unused(rule: Rule, suppression: Suppression) -> Finding:
-    return rule.finding(f"no finding of {suppression.rule} is silenced here", suppression.location)
+    fix = Fix(f"Remove the suppression of {suppression.rule}", (suppression.removal,), True)
+    return rule.finding(f"no finding of {suppression.rule} is silenced here", suppression.location, fixes=(fix,))
 
 
 RULE = Rule(

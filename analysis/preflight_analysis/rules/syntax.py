@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile
@@ -21,11 +21,6 @@ class Tag:
     action: Action
     above: tuple[Action, ...]
 
-    @property
-    def conditional(self) -> bool:
-        """Whether the tag itself or one around it has a condition."""
-        return any(has_condition(action) for action in (self.action, *self.above))
-
 
 class Tags:
     """The tags of launch files by the place of their start tag, each file read when it is first asked for."""
@@ -36,17 +31,18 @@ class Tags:
 
     def at(self, location: Location) -> Tag | None:
         """The tag whose start tag begins at the place."""
-        by_start = self._known.get(location.file)
-        if by_start is None:
-            launch_file = self._launch_files.get(location.file)
-            root = launch_file.root if launch_file is not None else None
-            by_start = {tag.action.head_span.start: tag for tag in _tags(root, ())} if root is not None else {}
-            self._known[location.file] = by_start
-        return by_start.get(location.span.start)
+        return self._of_file(location.file).get(location.span.start)
 
-    def of(self, origin: Iterable[Location]) -> Tag | None:
-        """The innermost tag of an origin, whose last steps may lie in a parameter file."""
-        return next((tag for location in reversed(tuple(origin)) if (tag := self.at(location)) is not None), None)
+    def named_at(self, location: Location) -> Tag | None:
+        """The tag whose name stands at the place."""
+        return self.at(Location(location.file, Span(location.span.start - 1, location.span.end)))
+
+    def around(self, location: Location) -> Tag | None:
+        """The tag in whose start tag the place is."""
+        by_start = self._of_file(location.file)
+        starts = [start for start in by_start if start <= location.span.start]
+        tag = by_start[max(starts)] if starts else None
+        return tag if tag is not None and location.span.end <= tag.action.head_span.end else None
 
     def siblings(self, one: Location, other: Location) -> bool:
         """Whether both tags stand directly in the same element."""
@@ -59,6 +55,15 @@ class Tags:
         """Whether the tag itself has a condition."""
         tag = self.at(location)
         return tag is not None and has_condition(tag.action)
+
+    def _of_file(self, file: str) -> dict[int, Tag]:
+        by_start = self._known.get(file)
+        if by_start is None:
+            launch_file = self._launch_files.get(file)
+            root = launch_file.root if launch_file is not None else None
+            by_start = {tag.action.head_span.start: tag for tag in _tags(root, ())} if root is not None else {}
+            self._known[file] = by_start
+        return by_start
 
 
 def removal(context: Context, tags: Tags, location: Location, title: str) -> tuple[Fix, ...]:

@@ -85,6 +85,7 @@ class Attributes:
     def bad_value(self, name: str, value: str, expected: str, choices: tuple[str, ...] = ()) -> None:
         """Note a value that roslaunch refuses."""
         attribute = self.action.attribute(name)
+        known = TAGS[self.action.kind.lower()].attributes.get(name)
         span = attribute.value.span if attribute else self.action.kind_span
         self.state.problem(
             "bad-value",
@@ -93,7 +94,7 @@ class Attributes:
             attribute=name,
             value=value,
             expected=expected,
-            choices=choices,
+            choices=choices or (known.choices if known else ()),
         )
 
 
