@@ -34,9 +34,9 @@ Kind = Literal[
     "remap-from",
     "remap-to",
 ]
-"""What an attribute's value is. `prose`: a sentence for people; `condition`: true, false, 1 or 0; `flag`: true or false; `choice`: one of `choices`;
-`executable`: of the package in `pkg`; `argument`, `parameter`, `variable` (of the environment), `machine`: its name;
-`remap-from`, `remap-to`: the name of a topic, service or action."""
+"""What an attribute's value is. `prose`: a sentence for people; `condition`: true, false, 1 or 0; `flag`: true or
+false; `choice`: one of `choices`; `executable`: of the package in `pkg`; `argument`, `parameter`, `variable` (of the
+environment), `machine`: its name; `remap-from`, `remap-to`: the name of a topic, service or action."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ SUBSTITUTIONS: Mapping[str, tuple[str, str]] = {
     "dirname": ("", "The folder of this launch file."),
     "eval": (
         "EXPRESSION",
-        "A Python expression, in which arguments are known by their names. It must be the whole value.",
+        "A Python expression that knows the arguments by name. It must be the whole value.",
     ),
 }
 """What each command takes, and what it stands for."""
