@@ -133,7 +133,7 @@ def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run
     sources = Sources()
     for path, text in fixture.files.items():
         sources.open(path, text)
-    environment = _environment(fixture)
+    environment = environment_of(fixture)
     executables, results = _EveryExecutable(environment), _Results(fixture.commands)
     tree = evaluate(fixture.root, args or {}, sources, executables, environment, "/", results)
     documents: dict[str, Document] = {}
@@ -153,7 +153,7 @@ def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:
         return context
-    graph = build_graph(tree, _interfaces(tree, fixture.interfaces or {}))
+    graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}))
     return Context(fixture.root, tree, documents, launch_files, environment, graph, why_not_run)
 
 
@@ -224,13 +224,13 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())))
 
 
-def _interfaces(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:
+def interfaces_of(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:
     unknown = set(given) - {node.name for node in tree.nodes}
     assert not unknown, f"the fixture has interfaces of nodes that are not there: {unknown}"
     return [interface_from_json(given[node.name]) if node.name in given else NOT_RUN for node in tree.nodes]
 
 
-def _environment(fixture: Fixture) -> Environment:
+def environment_of(fixture: Fixture) -> Environment:
     packages = {"p": Package("p", "/p", "/p/package.xml")}
     for path in fixture.files:
         folder = PurePosixPath(path)

@@ -53,8 +53,8 @@ _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
 _MATH = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 _TYPES: dict[str, Any] = {"list": list, "dict": dict, "map": map, "str": str, "float": float, "int": int}
 _CONSTANTS = {"true": True, "false": False, "True": True, "False": False}
-NAMES = (*_CONSTANTS, *_TYPES, *_MATH)
-"""What is known in every expression, beside the functions of roslaunch and the arguments."""
+NAMES: Mapping[str, bool] = {name: callable(value) for name, value in {**_CONSTANTS, **_TYPES, **_MATH}.items()}
+"""What is known in every expression, beside the functions of roslaunch and the arguments, and whether it is called."""
 _METHODS = frozenset(
     {"capitalize", "count", "endswith", "find", "get", "index", "isalnum", "isalpha", "isdigit", "islower", "isupper"}
     | {"join", "keys", "lower", "lstrip", "partition", "replace", "rfind", "rpartition", "rsplit", "rstrip", "split"}

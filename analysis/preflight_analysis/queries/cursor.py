@@ -79,12 +79,12 @@ def _around(text: str, level: tuple[Node, ...], offset: int) -> Element | Commen
             continue
         if node.span.start >= offset:
             return None
-        if offset < node.span.end or (offset == node.span.end and not _is_closed(text, node)):
+        if offset < node.span.end or (offset == node.span.end and not is_closed(text, node)):
             return node
     return None
 
 
-def _is_closed(text: str, node: Element | Comment) -> bool:
+def is_closed(text: str, node: Element | Comment) -> bool:
     """Whether its end is written, and not only where the scanner gave it up."""
     if isinstance(node, Comment):
         return text.endswith("-->", node.span.start + 4, node.span.end)

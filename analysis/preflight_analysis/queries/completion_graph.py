@@ -1,0 +1,129 @@
+"""Names of topics, services and parameters at a cursor, from what is known of the nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.document import Element
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.queries.completion_items import Item
+from preflight_analysis.queries.cursor import Place
+from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.workspace.workspace import Analysis
+
+_ROLES = {
+    "publisher": "publishes",
+    "subscriber": "subscribes",
+    "service": "offers service",
+    "client": "calls service",
+    "action_server": "offers action",
+    "action_client": "calls action",
+}
+
+
+def namespaces(analysis: Analysis, file: str, place: Place, element: Element, before: str) -> Iterator[Item]:
+    """Those that other nodes are in."""
+    found = {node.namespace.strip("/") for node in analysis.tree.nodes} - {""}
+    for name in sorted(found):
+        text = f"/{name}" if before.startswith("/") else name
+        yield Item("namespace", text, text)
+
+
+def parameters(analysis: Analysis, file: str, place: Place, element: Element, before: str) -> Iterator[Item]:
+    """In a node: its private parameters that its tag does not set yet; elsewhere: those that any node asks for."""
+    graph = analysis.graph
+    if graph is None:
+        return
+    node = _node_tag(place)
+    if node is None:
+        for name in sorted({r.name for r in graph.param_reads if not r.use.builtin and "~" not in r.name}):
+            yield Item("parameter", name, name)
+        return
+    siblings = (child.get("name") for child in node.elements if child.span != element.span)
+    present = {written.value.text for written in siblings if written is not None}
+    seen: set[str] = set()
+    for _, interface in _interfaces(analysis, graph, file, node):
+        for use in interface.params:
+            name = use.name[1:]
+            if not use.name.startswith("~") or use.builtin or use.access == "set" or name in seen or name in present:
+                continue
+            seen.add(name)
+            detail = f"default: {use.default!r}" if use.has_default else "no default" if use.mandatory else ""
+            yield Item("parameter", name, name, detail=detail)
+
+
+def remap_sources(analysis: Analysis, file: str, place: Place, element: Element, before: str) -> Iterator[Item]:
+    """What the nodes that the remap reaches call their topics, services and actions."""
+    for endpoint in _endpoints(analysis, file, place):
+        detail = ", ".join(part for part in (endpoint.type, _ROLES[endpoint.role]) if part)
+        yield Item("endpoint", endpoint.name, endpoint.name, detail=detail)
+
+
+def remap_targets(analysis: Analysis, file: str, place: Place, element: Element, before: str) -> Iterator[Item]:
+    """The names that there are in the graph, first those of the type of what is remapped."""
+    graph = analysis.graph
+    written = element.get("from")
+    if graph is None:
+        return
+    source = written.value.text if written is not None else ""
+    types = {e.type for e in _endpoints(analysis, file, place) if e.name == source and e.type is not None}
+    node = _node_tag(place)
+    namespace = next((n.namespace for n, _ in _interfaces(analysis, graph, file, node)), "/") if node else "/"
+    found: list[tuple[bool, str, Item]] = []
+    for channel in (*graph.topics.values(), *graph.services.values(), *graph.actions.values()):
+        ends = [end for end in (*channel.offers, *channel.wants) if not _made_here(end, file, element)]
+        if not ends or all(end.endpoint.builtin for end in ends):
+            continue
+        name = channel.name
+        if before and not before.startswith("/") and name.startswith(namespace):
+            name = name[len(namespace) :]
+        fits = not types.isdisjoint(channel.types)
+        found.append((not fits, name, Item("endpoint", name, name, _ends(channel), ", ".join(channel.types))))
+    yield from (item for _, _, item in sorted(found, key=lambda each: each[:2]))
+
+
+def _ends(channel: Channel) -> str:
+    return "\n".join(
+        f"- `{end.node.name}` {_ROLES[end.endpoint.role]}" for end in (*channel.offers, *channel.wants)[:20]
+    )
+
+
+def _made_here(end: Connection, file: str, element: Element) -> bool:
+    """Whether the name is only there because this very remap has it, half-typed as it may be."""
+    if end.remap is None:
+        return False
+    place = end.remap.origin[-1]
+    return place.file == file and place.span.start == element.span.start
+
+
+def _node_tag(place: Place) -> Element | None:
+    return next((e for e in reversed(place.parents) if e.tag.lower() in ("node", "test")), None)
+
+
+def _endpoints(analysis: Analysis, file: str, place: Place) -> Iterator[Endpoint]:
+    """What the nodes in reach use, without what every node has, each name once."""
+    graph = analysis.graph
+    scope = _node_tag(place) or place.parent
+    if graph is None or scope is None:
+        return
+    seen: set[str] = set()
+    for _, interface in _interfaces(analysis, graph, file, scope):
+        for endpoint in interface.endpoints:
+            if not endpoint.builtin and endpoint.name not in seen:
+                seen.add(endpoint.name)
+                yield endpoint
+
+
+def _interfaces(analysis: Analysis, graph: Graph, file: str, scope: Element) -> Iterator[tuple[LaunchNode, Interface]]:
+    """The nodes that a tag, or what is in it, starts; for a node's tag also others that run the same executable, as
+    the tag itself may be too new to be known."""
+    package, executable = scope.get("pkg"), scope.get("type")
+    same = (package.value.text, executable.value.text) if package is not None and executable is not None else None
+    others: list[tuple[LaunchNode, Interface]] = []
+    for node, interface in zip(analysis.tree.nodes, graph.interfaces, strict=True):
+        if any(s.file == file and scope.span.start <= s.span.start < scope.span.end for s in node.origin):
+            yield node, interface
+        elif (node.package, node.executable) == same:
+            others.append((node, interface))
+    yield from others

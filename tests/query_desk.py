@@ -1,0 +1,71 @@
+"""A fixture with `$0` in one of its files, analysed, for the queries of an editor: see `preflight_check` for the form.
+
+Executables are those that `executables` gives; the interfaces come from `//- interfaces` or annotations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+from preflight_check import environment_of, interfaces_of, read_fixture
+
+CURSOR = "$0"
+
+
+@dataclass(frozen=True)
+class Executables:
+    """Stands for an index of what is on the disk."""
+
+    by_package: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+    def names(self, package: str) -> tuple[str, ...]:
+        return tuple(self.by_package.get(package, ()))
+
+    def is_build_target(self, package: str, name: str) -> bool:
+        return False
+
+
+@dataclass(frozen=True)
+class AtCursor:
+    """A cursor in an analysed file."""
+
+    analysis: Analysis
+    file: str
+    offset: int
+    sources: Sources
+
+    @property
+    def document(self) -> Document:
+        return self.analysis.documents[self.file]
+
+    @property
+    def launch_file(self) -> LaunchFile:
+        return self.analysis.launch_files[self.file]
+
+    def text(self, span: Span) -> str:
+        return self.document.text[span.start : span.end]
+
+
+def at_cursor(text: str, variables: Mapping[str, str] | None = None) -> AtCursor:
+    """The first file of the fixture is the root; without a `$0` the cursor is at its start."""
+    fixture = read_fixture(text)
+    file = next((path for path, content in fixture.files.items() if CURSOR in content), fixture.root)
+    offset = max(0, fixture.files[file].find(CURSOR))
+    sources = Sources()
+    for path, content in fixture.files.items():
+        sources.open(path, content.replace(CURSOR, ""))
+    environment = replace(environment_of(fixture), variables=variables or {}, workspace="/")
+    workspace = Workspace(environment, sources, "/")
+    analysis = workspace.static(fixture.root)
+    annotated = any(read_annotation(node.action)[0] for node in analysis.tree.nodes)
+    if fixture.interfaces is not None or annotated:
+        interfaces = interfaces_of(analysis.tree, fixture.interfaces or {})
+        analysis = workspace.with_interfaces(analysis, interfaces, None)
+    return AtCursor(analysis, file, offset, sources)
