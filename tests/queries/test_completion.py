@@ -269,8 +269,10 @@ def test_machines() -> None:
 
 NODES = """
 //- interfaces
-{"/cam": {"publishers": {"image": "sensor_msgs/Image"}, "params": {"~rate": 10, "~frame": null, "/use_sim_time": false}},
- "/r/view": {"subscribers": {"picture": "sensor_msgs/Image", "text": "std_msgs/String"}, "services": {"~reset": "std_srvs/Empty"}},
+{"/cam": {"publishers": {"image": "sensor_msgs/Image"},
+          "params": {"~rate": 10, "~frame": null, "/use_sim_time": false}},
+ "/r/view": {"subscribers": {"picture": "sensor_msgs/Image", "text": "std_msgs/String"},
+             "services": {"~reset": "std_srvs/Empty"}},
  "/say": {"publishers": {"words": "std_msgs/String"}}}
 """
 CAMERA = "<node pkg='p' type='cam' name='cam'>{}</node>"
