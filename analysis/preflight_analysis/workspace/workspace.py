@@ -60,6 +60,11 @@ class Workspace:
         self._lock = threading.Lock()
         self._static: dict[tuple[str, tuple[tuple[str, str], ...]], Analysis] = {}
 
+    @property
+    def executables(self) -> ExecutableIndex:
+        """The executables on the disk; a new index after each `refresh`."""
+        return self._executables
+
     def static(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
         """What can be said of `path` launched with `args` without running anything."""
         path = os.path.normpath(path)

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
 from preflight_analysis.queries.hover import hover as query
 
+from preflight_server.lsp.markup import markup
+
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
-_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
-_MARKS = re.compile(r"\*\*|`")
-
 
 def _content(ls: PreflightServer, markdown: str) -> types.MarkupContent:
-    """In the first format of the client's that we have; links mean nothing in plain text."""
     document = ls.client_capabilities.text_document
-    formats = (document.hover.content_format if document and document.hover else None) or [types.MarkupKind.Markdown]
-    if formats[0] == types.MarkupKind.PlainText:
-        return types.MarkupContent(types.MarkupKind.PlainText, _MARKS.sub("", _LINK.sub(r"\1", markdown)))
-    return types.MarkupContent(types.MarkupKind.Markdown, markdown)
+    return markup(markdown, document.hover.content_format if document and document.hover else None)
 
 
 def register(server: PreflightServer) -> None:

@@ -1,0 +1,75 @@
+"""`textDocument/completion`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+from preflight_analysis.queries.completion import TRIGGERS
+from preflight_analysis.queries.completion import complete as query
+from preflight_analysis.queries.completion_items import Item, ItemKind
+
+from preflight_server.lsp.markup import markup
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+_KINDS: Mapping[ItemKind, types.CompletionItemKind] = {
+    "element": types.CompletionItemKind.Class,
+    "end-tag": types.CompletionItemKind.Class,
+    "attribute": types.CompletionItemKind.Property,
+    "value": types.CompletionItemKind.EnumMember,
+    "package": types.CompletionItemKind.Module,
+    "executable": types.CompletionItemKind.File,
+    "folder": types.CompletionItemKind.Folder,
+    "file": types.CompletionItemKind.File,
+    "argument": types.CompletionItemKind.Variable,
+    "command": types.CompletionItemKind.Keyword,
+    "function": types.CompletionItemKind.Function,
+    "constant": types.CompletionItemKind.Constant,
+    "variable": types.CompletionItemKind.Variable,
+    "machine": types.CompletionItemKind.Reference,
+    "namespace": types.CompletionItemKind.Module,
+    "parameter": types.CompletionItemKind.Field,
+    "endpoint": types.CompletionItemKind.Event,
+}
+
+
+def _item(
+    item: Item, order: int, range_: types.Range, options: types.ClientCompletionItemOptions
+) -> types.CompletionItem:
+    snippet = item.snippet if options.snippet_support else None
+    return types.CompletionItem(
+        item.label,
+        kind=_KINDS[item.kind],
+        detail=item.detail or None,
+        documentation=markup(item.doc, options.documentation_format) if item.doc else None,
+        sort_text=f"{order:05}",
+        filter_text=item.filter,
+        insert_text_format=types.InsertTextFormat.Snippet if snippet is not None else None,
+        text_edit=types.TextEdit(range_, snippet if snippet is not None else item.text),
+    )
+
+
+def register(server: PreflightServer) -> None:
+    """Register the handler."""
+
+    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list(TRIGGERS)))
+    async def completion(ls: PreflightServer, params: types.CompletionParams) -> types.CompletionList | None:
+        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        if ls.session is None or view is None:
+            return None
+        workspace = await ls.session.workspace()
+        document, positions = view.analysis.documents[view.path], view.converter.positions(view.path)
+        offset = positions.offset(params.position)
+        trigger = params.context.trigger_character if params.context else None
+        found = await ls.session.in_pool(
+            lambda: query(view.analysis, document, offset, workspace.sources, workspace.executables, trigger)
+        )
+        if found is None:
+            return None
+        client = ls.client_capabilities.text_document
+        asked = client.completion.completion_item if client and client.completion else None
+        options, range_ = asked or types.ClientCompletionItemOptions(), positions.range(found.span)
+        return types.CompletionList(False, [_item(item, n, range_, options) for n, item in enumerate(found.items)])

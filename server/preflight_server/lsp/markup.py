@@ -1,0 +1,18 @@
+"""Markdown of the analysis in a format that the client can show."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from lsprotocol import types
+
+_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
+_MARKS = re.compile(r"\*\*|`")
+
+
+def markup(markdown: str, formats: Sequence[types.MarkupKind] | None) -> types.MarkupContent:
+    """In the first format of the client's that we have; links mean nothing in plain text."""
+    if formats and formats[0] == types.MarkupKind.PlainText:
+        return types.MarkupContent(types.MarkupKind.PlainText, _MARKS.sub("", _LINK.sub(r"\1", markdown)))
+    return types.MarkupContent(types.MarkupKind.Markdown, markdown)
