@@ -20,7 +20,12 @@ T = TypeVar("T")
 
 
 def capabilities(
-    *, encoding: str | None = "utf-16", pull: bool = False, refresh: bool = True, dynamic: bool = True
+    *,
+    encoding: str | None = "utf-16",
+    pull: bool = False,
+    refresh: bool = True,
+    dynamic: bool = True,
+    snippets: bool = True,
 ) -> types.ClientCapabilities:
     """What an editor of today can do; `pull` and `refresh` are the two halves of pulled diagnostics."""
     return types.ClientCapabilities(
@@ -32,6 +37,7 @@ def capabilities(
             did_change_configuration=types.DidChangeConfigurationClientCapabilities(dynamic_registration=dynamic),
             did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=dynamic),
             diagnostics=types.DiagnosticWorkspaceClientCapabilities(refresh_support=refresh),
+            inlay_hint=types.InlayHintWorkspaceClientCapabilities(refresh_support=refresh),
         ),
         text_document=types.TextDocumentClientCapabilities(
             synchronization=types.TextDocumentSyncClientCapabilities(did_save=True),
@@ -41,6 +47,22 @@ def capabilities(
             diagnostic=types.DiagnosticClientCapabilities() if pull else None,
             hover=types.HoverClientCapabilities(content_format=[types.MarkupKind.Markdown]),
             definition=types.DefinitionClientCapabilities(link_support=True),
+            completion=types.CompletionClientCapabilities(
+                completion_item=types.ClientCompletionItemOptions(
+                    snippet_support=snippets, documentation_format=[types.MarkupKind.Markdown]
+                ),
+                context_support=True,
+            ),
+            signature_help=types.SignatureHelpClientCapabilities(
+                signature_information=types.ClientSignatureInformationOptions(
+                    documentation_format=[types.MarkupKind.Markdown],
+                    parameter_information=types.ClientSignatureParameterInformationOptions(label_offset_support=True),
+                    active_parameter_support=True,
+                )
+            ),
+            document_link=types.DocumentLinkClientCapabilities(tooltip_support=True),
+            folding_range=types.FoldingRangeClientCapabilities(line_folding_only=True),
+            inlay_hint=types.InlayHintClientCapabilities(),
             document_symbol=types.DocumentSymbolClientCapabilities(hierarchical_document_symbol_support=True),
             code_action=types.CodeActionClientCapabilities(
                 is_preferred_support=True,
@@ -61,6 +83,7 @@ class Editor:
         self.history: list[types.PublishDiagnosticsParams] = []
         self.registered: list[str] = []
         self.refreshes = 0
+        self.hint_refreshes = 0
         self.progress: dict[types.ProgressToken, list[Any]] = {}
         self.on_progress: Callable[[types.ProgressToken, Any], None] = lambda token, value: None
         self.texts: dict[Path, str] = {}
@@ -72,6 +95,7 @@ class Editor:
         features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._published()
         features[types.CLIENT_REGISTER_CAPABILITY] = self._registered()
         features[types.WORKSPACE_DIAGNOSTIC_REFRESH] = self._refreshed()
+        features[types.WORKSPACE_INLAY_HINT_REFRESH] = self._hints_refreshed()
         features[types.PROGRESS] = self._progressed()
         features[types.WINDOW_WORK_DONE_PROGRESS_CREATE] = self._created()
         register_lsp_features(self.client, features)
@@ -95,6 +119,13 @@ class Editor:
     def _refreshed(self) -> Callable[..., None]:
         def handler(ls: LanguageClient, params: None) -> None:
             self.refreshes += 1
+            self._news.set()
+
+        return handler
+
+    def _hints_refreshed(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: None) -> None:
+            self.hint_refreshes += 1
             self._news.set()
 
         return handler
@@ -234,6 +265,66 @@ class Editor:
         params = types.CodeActionParams(self.id(path), range_, context)
         found = await self.client.text_document_code_action_async(params)
         return [each for each in found or () if isinstance(each, types.CodeAction)]
+
+    async def completion(
+        self, path: Path, where: types.Position, trigger: str | None = None
+    ) -> list[types.CompletionItem]:
+        """The proposals; the server says that they are all."""
+        kind = types.CompletionTriggerKind.TriggerCharacter if trigger else types.CompletionTriggerKind.Invoked
+        context = types.CompletionContext(kind, trigger)
+        params = types.CompletionParams(self.id(path), where, context)
+        found = await self.client.text_document_completion_async(params)
+        assert found is None or isinstance(found, types.CompletionList)
+        assert found is None or not found.is_incomplete
+        return list(found.items) if found else []
+
+    def accept(self, path: Path, item: types.CompletionItem) -> str:
+        """Insert a proposal as an editor does, tab stops as they are written, and return the line that it leads to."""
+        edit = item.text_edit
+        assert isinstance(edit, types.TextEdit)
+        text = self.texts[path]
+        start, end = (offset(text, where, self.encoding) for where in (edit.range.start, edit.range.end))
+        self.replace(path, start, end, edit.new_text)
+        return self.texts[path].split("\n")[edit.range.start.line]
+
+    async def signature(self, path: Path, where: types.Position) -> types.SignatureHelp | None:
+        return await self.client.text_document_signature_help_async(types.SignatureHelpParams(self.id(path), where))
+
+    async def links(self, path: Path) -> list[types.DocumentLink]:
+        return list(await self.client.text_document_document_link_async(types.DocumentLinkParams(self.id(path))) or ())
+
+    async def folds(self, path: Path) -> list[types.FoldingRange]:
+        params = types.FoldingRangeParams(self.id(path))
+        return list(await self.client.text_document_folding_range_async(params) or ())
+
+    async def hints(self, path: Path, range_: types.Range | None = None) -> list[types.InlayHint]:
+        """Those of a range, or of the whole file."""
+        end = position(self.texts[path], len(self.texts[path]), self.encoding)
+        params = types.InlayHintParams(self.id(path), range_ or types.Range(types.Position(0, 0), end))
+        return list(await self.client.text_document_inlay_hint_async(params) or ())
+
+    async def tokens(self, path: Path, range_: types.Range | None = None) -> list[tuple[str, str]]:
+        """Text and type of each semantic token of a range, or of the whole file."""
+        assert self.result is not None
+        options = self.result.capabilities.semantic_tokens_provider
+        assert options is not None
+        if range_ is None:
+            params = types.SemanticTokensParams(self.id(path))
+            found = await self.client.text_document_semantic_tokens_full_async(params)
+        else:
+            of_range = types.SemanticTokensRangeParams(self.id(path), range_)
+            found = await self.client.text_document_semantic_tokens_range_async(of_range)
+        data = list(found.data) if found else []
+        assert len(data) % 5 == 0
+        line = column = 0
+        tokens: list[tuple[str, str]] = []
+        for at in range(0, len(data), 5):
+            down, right, length, kind, modifiers = data[at : at + 5]
+            assert modifiers == 0
+            line, column = line + down, right if down else column + right
+            span = types.Range(types.Position(line, column), types.Position(line, column + length))
+            tokens.append((self.covered(path, span), options.legend.token_types[kind]))
+        return tokens
 
     async def pull(self, path: Path) -> list[types.Diagnostic]:
         params = types.DocumentDiagnosticParams(self.id(path))

@@ -166,11 +166,8 @@ def _closed(items: Iterable[Item], close: str) -> Iterator[Item]:
 def _packages(asked: Asked) -> Iterator[Item]:
     """The workspace's own packages first."""
     environment = asked.analysis.environment
-    workspace = f"{environment.workspace}/" if environment.workspace else None
-    by_place = sorted(
-        environment.packages.values(),
-        key=lambda package: (workspace is None or not package.share.startswith(workspace), package.name),
-    )
+    workspace = f"{environment.workspace or ''}/"
+    by_place = sorted(environment.packages.values(), key=lambda p: (not f"{p.share}/".startswith(workspace), p.name))
     return (Item("package", package.name, package.name, detail=package.share) for package in by_place)
 
 

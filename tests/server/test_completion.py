@@ -1,0 +1,126 @@
+"""Completion through the real server, mostly in files that do not parse: that is where people type."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import ENCODINGS, Editor, capabilities, editing, position
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+CURSOR = "$0"
+
+
+@pytest.fixture
+def path(desk: Desk) -> Path:
+    inner = '<launch>\n  <arg name="rate" default="1" doc="In Hz"/>\n  <arg name="robot"/>\n</launch>\n'
+    desk.launch_file.with_name("inner.launch").write_text(inner)
+    return desk.launch_file.with_name("typed.launch")
+
+
+async def at_cursor(editor: Editor, path: Path, text: str, trigger: str | None = None) -> list[types.CompletionItem]:
+    """What is offered in a text at its cursor."""
+    offset = text.index(CURSOR)
+    text = text.replace(CURSOR, "")
+    if path in editor.texts:
+        editor.change(path, text)
+    else:
+        editor.open(path, text)
+    return await editor.completion(path, position(text, offset, editor.encoding), trigger)
+
+
+def labels(items: list[types.CompletionItem]) -> list[str]:
+    """In the order in which an editor shows them."""
+    return [item.label for item in sorted(items, key=lambda item: item.sort_text or item.label)]
+
+
+async def test_the_server_says_what_triggers(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        assert editor.result is not None
+        provider = editor.result.capabilities.completion_provider
+        assert provider is not None
+        assert set(provider.trigger_characters or ()) == set("< \"'/$(:")
+
+
+async def test_from_an_empty_file_on(desk: Desk, path: Path) -> None:
+    async with editing(desk) as editor:
+        assert labels(await at_cursor(editor, path, CURSOR)) == ["launch"]
+        (launch,) = await at_cursor(editor, path, "<lau$0", "<")
+        assert launch.insert_text_format == types.InsertTextFormat.Snippet
+        editor.accept(path, launch)
+        assert editor.texts[path] == "<launch>\n\t$0\n</launch>"
+
+        elements = await at_cursor(editor, path, "<launch>\n  <$0\n</launch>\n", "<")
+        assert labels(elements)[:3] == ["node", "include", "arg"]
+        assert editor.accept(path, elements[0]) == '  <node pkg="$1" type="$2" name="$3"/>'
+        assert isinstance(elements[0].documentation, types.MarkupContent)
+        assert elements[0].documentation.value == "Starts a node."
+
+
+async def test_packages_executables_files_and_arguments_while_typing(desk: Desk, path: Path) -> None:
+    async with editing(desk) as editor:
+        typed = '<launch>\n  <arg name="name" default="x"/>\n  <node pkg="$0'
+        packages = await at_cursor(editor, path, typed, '"')
+        assert labels(packages)[0] == "preflight_demo", "the workspace's own package comes first"
+
+        typed = typed.replace(CURSOR, 'preflight_demo" type="ta$0\n</launch>')
+        talker = next(i for i in await at_cursor(editor, path, typed) if i.label == "talker.py")
+        assert editor.accept(path, talker) == '  <node pkg="preflight_demo" type="talker.py'
+
+        typed = '<launch>\n  <include file="$(find preflight_demo)/launch/in$0\n</launch>'
+        (inner,) = [i for i in await at_cursor(editor, path, typed, "/") if i.label == "inner.launch"]
+        assert editor.accept(path, inner) == '  <include file="$(find preflight_demo)/launch/inner.launch'
+
+        typed = '<launch>\n  <include file="$(find preflight_demo)/launch/inner.launch">\n    <arg name="$0\n'
+        found = await at_cursor(editor, path, typed, '"')
+        assert [(i.label, i.detail) for i in found] == [("robot", "required"), ("rate", "default: 1")]
+
+        typed = '<launch>\n  <arg name="name" default="x"/>\n  <param name="p" value="$(arg $0'
+        (name,) = await at_cursor(editor, path, typed, " ")
+        assert (name.label, name.detail) == ("name", "= x")
+        assert editor.accept(path, name) == '  <param name="p" value="$(arg name)'
+
+
+async def test_what_nodes_do_is_offered_from_their_traces(desk: Desk, path: Path) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")  # both have been run
+        remap, rate = '<remap from="chatter" to="chater"/>', '<param name="rate" value="5"/>'
+        found = await at_cursor(editor, desk.launch_file, text.replace(remap, '<remap from="$0'), '"')
+        assert [(i.label, i.detail) for i in found] == [("chatter", "std_msgs/String, subscribes")]
+        found = await at_cursor(editor, desk.launch_file, text.replace(remap, '<remap from="chatter" to="/cha$0'))
+        assert [(i.label, i.detail) for i in found] == [("/chatter", "std_msgs/String")]
+        found = await at_cursor(editor, desk.launch_file, text.replace(rate, '<param name="$0'), '"')
+        assert ("rate", "default: 10") in [(i.label, i.detail) for i in found]
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+async def test_the_word_at_the_cursor_is_replaced_in_every_encoding(desk: Desk, path: Path, encoding: str) -> None:
+    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+        typed = (
+            '<launch>\n  <arg name="größe" default="🤖"/><param name="🤖é" value="a🤖 $(arg grö$0ss) 🤖"/>\n</launch>'
+        )
+        (size,) = await at_cursor(editor, path, typed)
+        assert editor.accept(path, size).endswith('<param name="🤖é" value="a🤖 $(arg größe) 🤖"/>')
+        typed = '<launch>\n  <!-- 🤖 --><node name="🤖" out$0puutt="log"/>\n</launch>'
+        output = next(i for i in await at_cursor(editor, path, typed) if i.label == "output")
+        assert editor.accept(path, output) == '  <!-- 🤖 --><node name="🤖" output="log"/>'
+
+
+async def test_without_snippets_no_tab_stops(desk: Desk, path: Path) -> None:
+    async with editing(desk, client=capabilities(snippets=False)) as editor:
+        elements = await at_cursor(editor, path, "<launch>\n  <$0\n</launch>\n")
+        assert not any(i.insert_text_format for i in elements)
+        assert editor.accept(path, elements[0]) == "  <node"
+
+
+async def test_nothing_where_nothing_was_asked_for(desk: Desk, path: Path) -> None:
+    async with editing(desk) as editor:
+        assert await at_cursor(editor, path, "<launch>\n  $0", " ") == []
+        assert await at_cursor(editor, path, "<launch>\n <!-- <$0 -->", "<") == []
+        unknown = path.with_suffix(".txt")
+        editor.open(unknown, "<launch><", language="plaintext")
+        assert await editor.completion(unknown, types.Position(0, 9), "<") == []
