@@ -58,15 +58,14 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r".*'file' attribute is invalid with 'delete' command", ("LCH007",)),
     (r"bool value for (?P<name>\S*) must be non-empty", VALUE),
     (r"invalid (?:bool|float) value for (?P<name>\S+): (?P<value>.*)", VALUE),
-    (r"(?:Invalid <param> tag: )?(?P<value>.*?) is not a '.*?' type", VALUE),
-    (r"Invalid <param> tag: .*", VALUE),
+    (r"(?:Invalid <param> tag: )?(?!Invalid)(?P<value>.*?) is not a '.*?' type", VALUE),
     (r"<\w+> tag has an empty 'ns' attribute", VALUE),
     (r"(?:package|type) must be non-empty", VALUE),
     (r"(?:output|cwd) must be one of", VALUE),
     (r"'(?P<name>timeout|time-limit|retry)' .*", VALUE),
     (r"Invalid value for 'attribute': (?P<value>.*?)\. \n\nMachine", VALUE),
-    (r"invalid literal for int\(\) with base 10: '(?P<value>.*?)'", VALUE),
-    (r"could not convert string to float: '(?P<value>.*?)'", VALUE),
+    (r"invalid literal for int\(\) with base 10: '(?P<value>.*?)'", (*VALUE, "LCH011")),
+    (r"could not convert string to float: '(?P<value>.*?)'", (*VALUE, "LCH011")),
     (r"Unknown type '(?P<value>.*?)'", VALUE),
     (r"error loading <rosparam> tag: \n\tcommand must be", VALUE),
     (r".*'name' attribute must be non-empty", VALUE),
@@ -74,8 +73,8 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"<machine>: <env> tag is not supported", ("LCH004",)),
     (r"<test> tags cannot have '(?P<name>.*?)' attribute", ("LCH005",)),
     (r"node name cannot contain a namespace", ("LCH009",)),
-    (r"Invalid <remap> tag: remap (?:from|to) \[(?P<value>.*?)\] is not a valid", ("LCH009",)),
-    (r"Invalid <remap> tag: remap from/to attributes cannot be empty", ("LCH009",)),
+    (r"(?:Invalid <remap> tag: )?remap (?:from|to) \[(?P<value>.*?)\] is not a valid", ("LCH009",)),
+    (r"(?:Invalid <remap> tag: )?remap from/to attributes cannot be empty", ("LCH009",)),
     (r"Machine \[(?P<value>.*?)\] already added and does not match", ("LCH009",)),
     (r"(?:Invalid <arg> tag: )?cannot override arg '(?P<name>.*?)'", ("ARG006",)),
     (r"(?:Invalid <arg> tag: )?arg '(?P<name>.*?)' has already been declared", ("ARG005",)),
@@ -86,12 +85,16 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"\$\(\w+(?: \w+)?\) (?:command only accepts|must specify|may only specify)", ("LCH011",)),
     (r"\$\(eval ...\) may not contain", ("LCH011",)),
     (r".*'param' attribute must be set for non-dictionary", ("PRM004",)),
-    (r".*(?:contains invalid YAML|Error within YAML block|invalid YAML)", ("PRM004",)),
+    (r"file (?P<path>.*?) contains invalid YAML", ("PRM004",)),
+    (r".*(?:Error within YAML block|invalid YAML)", ("PRM004",)),
     (r".*Cannot load non-dictionary types into global namespace", ("PRM004",)),
     (r"cannot turn \[(?P<value>.*?)\] into a global name", ("LCH008", "LCH009")),
-    (r"'(?P<name>file)'$", ("LCH006",)),
-    (r"'\w+' object is not subscriptable", ("PRM004", "LCH011")),
+    (r"'(?P<name>file|name)'$", ("LCH006",)),
+    (r"'\w+' object is not subscriptable|can only concatenate str", ("PRM004", "LCH011")),
+    (r"'ROSLaunchConfig' object has no attribute", VALUE),
+    (r"(?:Invalid <param> tag: )?No (?:closing quotation|escaped character)", ("PRM008",)),
     (r"(?P<name>\S+)\. \n\nMachine xml is", ARGUMENT),
+    (r"(?:.*?: )?Invalid <param> tag: ", VALUE),
 )
 """How roslaunch's messages begin, and our rules of which one has to say the same."""
 
@@ -127,17 +130,19 @@ def read_stop(record: dict[str, Any]) -> Stop | None:
     if rules is None:
         return None
     says = [text for key, text in groups.items() if key in ("name", "value") and text]
+    says = [text.replace("\\n", "\n").replace("\\t", "\t") for text in says]
     says += groups["names"].split(", ")[:1] if groups.get("names") else []
-    says += [os.path.basename(groups["path"])] if groups.get("path") else []
     files, exact = _files(record, chain, message, exception)
-    if groups.get("path") and rules == ("PRM004",):
-        files |= {groups["path"]}
+    if rules == ("PRM004",):
+        files |= {groups["path"]} if "path" in groups else set()
+    elif groups.get("path"):
+        says.append(os.path.basename(groups["path"]))
     return Stop(rules, tuple(says), frozenset(files), frozenset(_includers(record, files)), exact)
 
 
 def _reason(message: str, exception: str) -> tuple[tuple[str, ...] | None, dict[str, str]]:
     # What is inside of a wrapper says more than the wrapper.
-    for text in (message, WRAPPERS.sub("", TAG.sub("", message))):
+    for text in (WRAPPERS.sub("", TAG.sub("", message)), message):
         for pattern, rules in REASONS:
             if found := re.match(pattern, text, re.DOTALL):
                 return rules, {k: v for k, v in found.groupdict().items() if v is not None}
@@ -192,7 +197,8 @@ def error_difference(record: dict[str, Any], answer: dict[str, Any]) -> str | No
     said = f"{record['error']['message'][:300]!r}, and first of ours: {first}"
     if first["rule"] not in stop.rules:
         return f"other reason: {said}"
-    if not all(text in first["message"] for text in stop.says):
+    # Anonymous names are lower-cased with the value that they are part of.
+    if not all(text.lower() in first["message"].lower() for text in stop.says):
         return f"other words than {stop.says}: {said}"
     files = stop.files | stop.includers if first["rule"] in AT_THE_INCLUDE else stop.files
     if first["file"] not in files:

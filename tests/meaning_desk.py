@@ -54,18 +54,30 @@ def write_case(text: str, folder: Path) -> Job:
     return Job(str(folder / "root.launch"), tuple(args), tuple(env.items()), (str(folder),))
 
 
-def ask_roslaunch(jobs: list[Job]) -> list[dict[str, Any]]:
-    """What roslaunch makes of each. One process: it takes 0.4 s to start."""
-    done = subprocess.run(
-        ["/usr/bin/python3", str(Path(__file__).with_name("roslaunch_oracle.py"))],
-        input=json.dumps([{**asdict(job), "env": dict(job.env)} for job in jobs]),
-        capture_output=True,
-        text=True,
-        check=True,
-        cwd="/",
-    )
-    found: list[dict[str, Any]] = json.loads(done.stdout)
-    return found
+class Roslaunch:
+    """Real roslaunch, in one process for many jobs: it takes 0.4 s to start."""
+
+    def __enter__(self) -> Roslaunch:
+        self._process = subprocess.Popen(
+            ["/usr/bin/python3", str(Path(__file__).with_name("roslaunch_oracle.py"))],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            encoding="utf-8",
+            cwd="/",
+        )
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with self._process:
+            self._process.stdin.close()
+
+    def ask(self, job: Job) -> dict[str, Any]:
+        """What roslaunch makes of a launch file: a record that `against_roslaunch` compares with."""
+        self._process.stdin.write(json.dumps({**asdict(job), "env": dict(job.env)}) + "\n")
+        self._process.stdin.flush()
+        found: dict[str, Any] = json.loads(self._process.stdout.readline())
+        return found
 
 
 def ask_us(job: Job) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """What real roslaunch makes of launch files. Runs under the interpreter that has ROS 1, in one process for many files.
 
-  /usr/bin/python3 roslaunch_oracle.py < jobs.json > answers.json
+  /usr/bin/python3 roslaunch_oracle.py < jobs.jsonl > answers.jsonl
 
-A job is `{"file", "args": ["name:=value"], "env": {}, "package_path": [...]}`. Nothing is started: no node,
+A line is a job, `{"file", "args": ["name:=value"], "env": {}, "package_path": [...]}`. Nothing is started: no node,
 no command of a parameter. Anonymous names are numbered in the order of evaluation, as `tree` does. The answers have the
 form of the records that `against_roslaunch.py` compares with; an error has the file that was being evaluated.
 """
@@ -13,6 +13,7 @@ import io
 import json
 import os
 import re
+import shlex
 import sys
 
 
@@ -64,7 +65,8 @@ def observe(log):
     launch_tag, include_child = xml_loader._launch_tag, roslaunch.loader.LoaderContext.include_child
 
     def our_param_value(self, verbose, name, ptype, value, textfile, binfile, command):
-        if command is not None:
+        if value is None and textfile is None and binfile is None:
+            shlex.split(command)
             return Command(command)
         return param_value(self, verbose, name, ptype, value, textfile, binfile, command)
 
@@ -149,7 +151,7 @@ def describe(node):
         "cwd": node.cwd,
         "launch_prefix": node.launch_prefix,
         "respawn": node.respawn,
-        "respawn_delay": node.respawn_delay,
+        "respawn_delay": plain(node.respawn_delay),
         "required": node.required,
     }
 
@@ -185,21 +187,19 @@ def main():
     import roslaunch.xmlloader  # noqa: F401
     import rosparam  # noqa: F401
 
-    answers = []
-    for job in json.load(sys.stdin):
+    for line in sys.stdin:
         # Each in a process of its own: the environment and the caches of the packages are global.
         read, write = os.pipe()
         child = os.fork()
         if child == 0:
             os.close(read)
             with os.fdopen(write, "w") as out:
-                out.write(json.dumps(load(job)))
+                out.write(json.dumps(load(json.loads(line))))
             os._exit(0)
         os.close(write)
         with os.fdopen(read) as stream:
-            answers.append(json.loads(stream.read()))
+            print(stream.read(), flush=True)
         os.waitpid(child, 0)
-    json.dump(answers, sys.stdout)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from against_roslaunch import differences
-from meaning_desk import Job, ask_roslaunch, ask_us, write_case
+from meaning_desk import Job, Roslaunch, ask_us, write_case
 
 pytestmark = pytest.mark.ros
 
@@ -15,8 +15,8 @@ CASES = sorted((Path(__file__).parents[2] / "fixtures" / "ros1" / "meaning").glo
 @pytest.fixture(scope="module")
 def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Job, dict[str, Any]]]:
     jobs = [write_case(case.read_bytes().decode(), tmp_path_factory.mktemp(case.stem)) for case in CASES]
-    asked = zip(jobs, ask_roslaunch(jobs), strict=True)
-    return {case.stem: pair for case, pair in zip(CASES, asked, strict=True)}
+    with Roslaunch() as roslaunch:
+        return {case.stem: (job, roslaunch.ask(job)) for case, job in zip(CASES, jobs, strict=True)}
 
 
 @pytest.mark.parametrize("name", [case.stem for case in CASES])

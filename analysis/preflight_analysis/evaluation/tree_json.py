@@ -44,7 +44,7 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
                 "address": machine.address,
                 "env_loader": machine.env_loader,
                 "user": machine.user,
-                "timeout": machine.timeout,
+                "timeout": json_value(machine.timeout),
             }
             for name, machine in tree.machines.items()
         },
@@ -106,7 +106,7 @@ def _node(node: LaunchNode, tree: LaunchTree, documents: Mapping[str, Document])
         "param_files": list(dict.fromkeys(file for file in param_files if file not in launch_files)),
         "machine": node.machine,
         "respawn": node.respawn,
-        "respawn_delay": node.respawn_delay,
+        "respawn_delay": json_value(node.respawn_delay),
         "required": node.required,
         "output": node.output,
         "cwd": node.cwd,

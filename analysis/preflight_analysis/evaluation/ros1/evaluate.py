@@ -97,11 +97,31 @@ def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: 
             span = document.root.tag_span
         tag = document.root.tag if document.root is not None else None
         state.problem("root-not-launch", scope.origin(span), tag=tag)
+    if root is not None:
+        _conditions_of_launch(state, scope, root)
     if scope.file not in state.visited:
         state.visited.append(scope.file)
         for found in check_language(launch_file):
             state.problem(found.kind, (Location(scope.file, found.span),), fatal=False, **found.data)
     return _actions(state, scope, root.children, default_machine) if root is not None else default_machine
+
+
+def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
+    """roslaunch reads `if` and `unless` of `<launch>`, but makes no substitutions there and goes on in any case."""
+    attributes = Attributes(state, scope, root)
+    conditions = ["if", "unless"]
+    given = [found for found in map(root.attribute, conditions) if found is not None]
+    for attribute in given:
+        if "$" in attribute.value.text:
+            attributes.bad_value(attribute.name, attribute.value.text, "true, false, 1 or 0; nothing is replaced here")
+            return
+    if len(given) > 1:
+        state.problem("attributes-exclude", scope.origin(root.kind_span), tag=root.kind, names=conditions)
+    for attribute in given[:1]:
+        try:
+            values.to_bool(attribute.value.text)
+        except values.BadValueError as error:
+            attributes.bad_value(attribute.name, attribute.value.text, str(error), ("true", "false"))
 
 
 def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
@@ -164,7 +184,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     inside = scope.child(ns.text)
     clear_params(state, scope, action, attributes, inside, ns.text)
-    passed = _passed_args(state, scope, inside, action, pass_all)
+    passed, tags = _passed_args(state, scope, inside, action, pass_all)
     place = Location(scope.file, file_attribute.value.span)
     origin = scope.origin(action.head_span)
     shown = {name: value.text for name, value in passed.items()}
@@ -181,19 +201,13 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     inside.file, inside.chain = path, origin
     inside.args, inside.declared, inside.anonymous, inside.pass_all_args = passed, {}, {}, pass_all
-    given = dict(passed)
     default_machine = _file(state, inside, found, default_machine)
     if not pass_all:
         declared = sorted(inside.declared)
-        for child in action.children:
-            name_attribute = child.attribute("name") if child.kind.lower() == "arg" else None
-            # The name as resolved above: an <arg> whose name has a substitution is rare enough to go by its text.
-            if name_attribute is None or name_attribute.value.text not in given:
-                continue
-            if name_attribute.value.text not in inside.declared:
-                at = scope.origin(name_attribute.value.span)
-                name = name_attribute.value.text
-                state.problem("include-arg-undeclared", at, name=name, file=path, declared=declared)
+        for name, tag in tags.items():
+            if name not in inside.declared:
+                origin_of_tag = scope.origin(tag.span)
+                state.problem("include-arg-undeclared", origin_of_tag, name=name, file=path, declared=declared)
     return default_machine
 
 
@@ -209,9 +223,13 @@ def _too_deep(state: State, scope: Scope, action: Action) -> bool:
     return True
 
 
-def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass_all: bool) -> dict[str, ArgValue]:
-    """The arguments given to an included file. They are evaluated in the includer's file and do not
-    see each other."""
+def _passed_args(
+    state: State, scope: Scope, inside: Scope, action: Action, pass_all: bool
+) -> tuple[dict[str, ArgValue], dict[str, Location]]:
+    """The arguments given to an included file, and where those are written that have a value in the `<include>`.
+
+    They are evaluated in the includer's file and do not see each other.
+    """
     passed: dict[str, ArgValue] = {}
     seen: dict[str, Location] = {}
     if pass_all:
@@ -240,7 +258,7 @@ def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass
         if name in seen and not pass_all:
             state.problem("arg-redeclared", scope.origin(span), name=name, first=seen[name])
             continue
-        seen[name] = Location(scope.file, span)
+        seen.setdefault(name, Location(scope.file, span))
         given = value if value is not None else default
         if given is None:
             if name not in passed:
@@ -253,7 +271,8 @@ def _passed_args(state: State, scope: Scope, inside: Scope, action: Action, pass
     # roslaunch looks at all of them first.
     for name, span in without:
         state.problem("include-arg-no-value", scope.origin(span), name=name)
-    return passed
+        del seen[name]
+    return passed, seen
 
 
 def _included(

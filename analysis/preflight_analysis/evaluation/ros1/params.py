@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from preflight_analysis.documents.document import SpannedText
+from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import names, values
@@ -80,7 +80,11 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
         text = printed
     if source in ("textfile", "binfile"):
         path = os.path.join(state.cwd, given.text)
-        found = state.read_text(path) if source == "textfile" else state.read_data(path)
+        found: Document | bytes | Unreadable
+        if not given.text:
+            found = Unreadable("", "does not exist: the path is empty", "missing")
+        else:
+            found = state.read_text(path) if source == "textfile" else state.read_data(path)
         if isinstance(found, Unreadable):
             report_file(state, scope, action, source, found)
             return _NoValue(f"the file {path} {found.reason}")
@@ -233,9 +237,6 @@ def _load(
         message = "only a dictionary can be loaded without the attribute 'param'"
         refuse(message)
         return
-    if full == "/" and not isinstance(value, dict):
-        refuse("only a dictionary can be loaded into the root namespace")
-        return
     origin = scope.origin(action.head_span)
     for key, first, second in loaded.twice:
         where, other = (text.location(span) or origin[-1] for span in (first, second))
@@ -251,6 +252,8 @@ def _load(
             set_param(state, Param(names.canonicalize(name), leaf, found, node, place))
     except _BadKeyError as error:
         refuse(f"the key {error.key!r} is not a string", None)
+    except _RootValueError:
+        refuse("only a dictionary can be loaded into the root namespace")
     except RecursionError:
         refuse("it is nested too deeply or contains itself")
 
@@ -261,9 +264,15 @@ class _BadKeyError(Exception):
         self.key = key
 
 
+class _RootValueError(Exception):
+    """A value for the parameter `/`, which the key `""` at the top makes as well."""
+
+
 def _leaves(name: str, value: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], str, Any]]:
     """Dictionaries become one parameter a leaf; an empty one none. Yields the path of keys, the name, the value."""
     if not isinstance(value, dict):
+        if name == "/":
+            raise _RootValueError
         yield path, name, value
         return
     for key, below in value.items():

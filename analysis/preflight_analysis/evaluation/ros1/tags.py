@@ -125,9 +125,10 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
         attributes.text("password"),
         default != "never",
     )
-    first = state.machines.setdefault(machine.name, machine)
-    if first.settings != machine.settings:
-        reason = "it is declared twice, with different attributes"
+    if machine.name and machine.name not in state.machines:
+        state.machines[machine.name] = machine
+    elif not machine.name or state.machines[machine.name].settings != machine.settings:
+        reason = "it is declared twice, with different attributes" if machine.name else "that is the local machine's"
         state.problem("invalid-name", scope.origin(action.kind_span), what="machine", name=machine.name, reason=reason)
         return None
     return machine.name if default == "true" else None
