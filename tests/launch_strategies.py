@@ -1,7 +1,7 @@
-"""Launch files as hypothesis makes them: every tag, attribute and substitution of roslaunch, right ones and wrong ones.
+"""Launch files as hypothesis makes them: every tag, attribute and substitution of roslaunch, right ones and wrong.
 
-A case has the form of `meaning_desk.write_case`. Most of what is drawn is right: roslaunch stops at the first error, and
-what comes after it is not compared.
+A case has the form of `meaning_desk.write_case`. Most of what is drawn is right: roslaunch stops at the first error,
+and what comes after it is not compared.
 """
 
 from __future__ import annotations
@@ -330,8 +330,9 @@ class Writer:
         return "\n".join(lines)
 
     def file(self, files: tuple[str, ...], declared: tuple[str, ...]) -> str:
+        how = ("default",) if files else ("default", "default", "default", "value")
         head = "".join(
-            f'<arg name="{name}" {self.pick(("default", "default", "default", "value") if not files else ("default",))}="{value}"/>'
+            f'<arg name="{name}" {self.pick(how)}="{value}"/>'
             for name, value in zip("abtfo", declared, strict=True)
             if not self.some(self._odd // 4)
         )
