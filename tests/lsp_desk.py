@@ -8,6 +8,7 @@ import os
 from collections.abc import AsyncIterator, Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
+from urllib.parse import unquote
 
 from editor_desk import Desk
 from lsprotocol import types
@@ -33,6 +34,7 @@ def capabilities(
         window=types.WindowClientCapabilities(work_done_progress=True),
         workspace=types.WorkspaceClientCapabilities(
             apply_edit=True,
+            workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True),
             configuration=True,
             did_change_configuration=types.DidChangeConfigurationClientCapabilities(dynamic_registration=dynamic),
             did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=dynamic),
@@ -254,6 +256,20 @@ class Editor:
         assert found is None or isinstance(found, Sequence)
         return [each for each in found or () if isinstance(each, types.LocationLink)]
 
+    async def references(self, path: Path, where: types.Position, *, declaration: bool = True) -> list[types.Location]:
+        context = types.ReferenceContext(declaration)
+        params = types.ReferenceParams(context, self.id(path), where)
+        return list(await self.client.text_document_references_async(params) or ())
+
+    async def prepare_rename(self, path: Path, where: types.Position) -> types.PrepareRenamePlaceholder | None:
+        params = types.PrepareRenameParams(self.id(path), where)
+        found = await self.client.text_document_prepare_rename_async(params)
+        assert found is None or isinstance(found, types.PrepareRenamePlaceholder)
+        return found
+
+    async def rename(self, path: Path, where: types.Position, new: str) -> types.WorkspaceEdit | None:
+        return await self.client.text_document_rename_async(types.RenameParams(self.id(path), where, new))
+
     async def symbols(self, path: Path) -> list[types.DocumentSymbol]:
         params = types.DocumentSymbolParams(self.id(path))
         found = await self.client.text_document_document_symbol_async(params)
@@ -333,10 +349,19 @@ class Editor:
         return list(report.items)
 
     def apply(self, edit: types.WorkspaceEdit | None) -> None:
-        """Apply an edit as an editor does: from the back, and tell the server."""
-        assert edit is not None and edit.changes
-        for uri, edits in edit.changes.items():
-            path = next(p for p in self.texts if p.as_uri() == uri)
+        """Apply an edit as an editor does: from the back, opening what is not open, and tell the server."""
+        assert edit is not None
+        changes = {uri: list(edits) for uri, edits in (edit.changes or {}).items()}
+        for change in edit.document_changes or ():
+            assert isinstance(change, types.TextDocumentEdit)
+            path = from_uri(change.text_document.uri)
+            assert change.text_document.version == self.versions.get(path)
+            changes[change.text_document.uri] = [each for each in change.edits if isinstance(each, types.TextEdit)]
+        assert changes
+        for uri, edits in changes.items():
+            path = from_uri(uri)
+            if path not in self.texts:
+                self.open(path)
             for each in sorted(edits, key=lambda e: (e.range.start.line, e.range.start.character), reverse=True):
                 text = self.texts[path]
                 start = offset(text, each.range.start, self.encoding)
@@ -382,6 +407,10 @@ async def editing(
         if server is not None and server.returncode is None:
             server.kill()
         await editor.client.stop()
+
+
+def from_uri(uri: str) -> Path:
+    return Path(unquote(uri.removeprefix("file://")))
 
 
 # The editor's side of positions, written independently of the server's: on encoded bytes.

@@ -194,13 +194,16 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`; `status`, `exit_code`, `reason`, `stderr`,
-    `notes`; `md5` `{name: sum}`; `builtin` and `speculative`, lists of names."""
+    `notes`; `md5` `{name: sum}`; `made` `{name: [file, line]}`; `builtin` and `speculative`, lists of names."""
+    made = data.get("made", {})
     endpoints = [
         Endpoint(
             role,
             name,
             type_,
             data.get("md5", {}).get(name),
+            source_file=made.get(name, [None, None])[0],
+            source_line=made.get(name, [None, None])[1],
             builtin=name in data.get("builtin", ()),
             speculative=name in data.get("speculative", ()),
         )
@@ -210,7 +213,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     params = [
         ParamUse(name, default["access"])
         if isinstance(default, dict)
-        else ParamUse(name, "get", default, default is not None, default is None)
+        else ParamUse(name, "get", default, default is not None, default is None, *made.get(name, ()))
         for name, default in data.get("params", {}).items()
     ]
     outcome = Outcome(

@@ -133,7 +133,7 @@ async def test_definition_leads_to_the_other_end(desk: Desk) -> None:
         at = text.index("chater")
         editor.replace(desk.launch_file, at, at + 6, "chatter")
         await editor.without(desk.launch_file, "TOP001")
-        assert await gone_to(editor, desk.launch_file, 'to="chatter"', 6) == [("talker_listener.launch", 3)]
+        assert await gone_to(editor, desk.launch_file, 'to="chatter"', 6) == [("talker.py", 10)]
 
 
 async def test_symbols_are_the_tags_as_they_nest(desk: Desk, outer: Path) -> None:

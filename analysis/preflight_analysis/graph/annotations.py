@@ -95,6 +95,19 @@ def read_annotation(action: Action) -> tuple[Interface | None, tuple[AnnotationP
     return interface, tuple(problems)
 
 
+def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
+    """What the annotation of a node's tag names, and where: the tag of the item (`topic`), the name, its place."""
+    groups = [_from_action(child) for child in action.children if child.kind in GROUPS]
+    for text, span in action.comments:
+        if _STARTS_ANNOTATION.match(text):
+            groups.extend(_from_comment(text, span.start, []))
+    for group in groups:
+        for item in group.children:
+            for name, value, span in item.attributes:
+                if name == "name" and item.name == _ITEMS.get(group.name):
+                    yield item.name, value, span
+
+
 def annotated(traced: Interface, action: Action) -> Interface:
     """`traced`, or where the run did not reach the event loop, what it saw together with what `action` annotates."""
     if traced.complete:

@@ -15,7 +15,7 @@ _EVAL_ARGUMENT = re.compile(
     r"""|(?P<name>[A-Za-z_]\w*)(?!\w|\s*\()"""
 )
 """In this order: `arg('x')`, strings, attributes and methods, names that are not called."""
-_NOT_ARGUMENTS = frozenset(
+NOT_ARGUMENTS = frozenset(
     [
         "and",
         "or",
@@ -38,6 +38,7 @@ _NOT_ARGUMENTS = frozenset(
         "nan",
     ]
 )
+"""Names that mean something else in `$(eval ...)`."""
 
 
 def arg_references(value: Value) -> Iterator[tuple[str, Span]]:
@@ -61,6 +62,6 @@ def _in_expression(part: Substitution) -> Iterator[tuple[str, Span]]:
     for found in _EVAL_ARGUMENT.finditer(part.arguments):
         group = "quoted" if found["quoted"] is not None else "name"
         name = found[group]
-        if name and (group == "quoted" or name not in _NOT_ARGUMENTS):
+        if name and (group == "quoted" or name not in NOT_ARGUMENTS):
             place = Span(span.start + found.start(group), span.start + found.end(group)) if exact else span
             yield name, place

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import Action
-from preflight_analysis.queries.places import action_at, nodes_of, remaps_of, use_at
+from preflight_analysis.queries import shared_arguments
+from preflight_analysis.queries.places import action_at, remaps_of, use_at
+from preflight_analysis.queries.references import connections, made_at
+from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.subject import Subject, subject_at
 from preflight_analysis.workspace.workspace import Analysis
 
 
@@ -22,21 +27,28 @@ class Target:
     source: Location
 
 
-def definition(analysis: Analysis, file: str, offset: int, findings: Iterable[Finding]) -> tuple[Target, ...]:
+def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[Target, ...]:
     """Where to go from `offset`: the file of an include, the manifest of a `$(find)`, the declaration of an argument
-    (from the declaration: to the place that gave it its value), the script of a node; from a remap to the nodes at
-    the other end; from a finding to its related places."""
+    (from the declaration: to the place that gave it its value), the script of a node or what builds it, the source
+    that reads a parameter; from a remap to the other ends, in the nodes' sources where they are known, and from the
+    name that it replaces to the node's own; from a finding to its related places."""
+    analysis, file = scene.analyses[0], scene.path
     use = use_at(analysis.tree, file, offset)
-    if use is not None:
+    if use is not None and use.kind != "executable":
         target = use.target
         if target is None or _same_place(target, use.location):
             target = next((step for step in reversed(use.origin) if not _same_place(step, use.location)), None)
         if target is not None:
             return (Target(target, use.location),)
+    subject = subject_at(scene, offset)
+    if subject is not None and (targets := _of_subject(scene, subject)):
+        return targets
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
-    if action is not None and (targets := _of_action(analysis, file, action, offset)):
-        return targets
+    if action is not None and action.kind == "remap":
+        value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
+        if targets := _targets(_other_ends(scene, analysis, action), Location(file, value)):
+            return targets
     for finding in findings:
         if finding.location.file == file and finding.location.span.contains(offset) and finding.related:
             return tuple(Target(related.location, finding.location) for related in finding.related)
@@ -47,27 +59,79 @@ def _same_place(one: Location, other: Location) -> bool:
     return one.file == other.file and (one.span.contains(other.span.start) or other.span.contains(one.span.start))
 
 
-def _of_action(analysis: Analysis, file: str, action: Action, offset: int) -> tuple[Target, ...]:
-    if action.kind == "remap" and analysis.graph is not None:
-        value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
-        return _other_ends(analysis, analysis.graph, file, action, Location(file, value))
-    executable = action.value("type")
-    if action.kind in ("node", "test") and executable is not None and executable.span.contains(offset):
-        paths = {n.resolved.path for _, n in nodes_of(analysis, file, action) if n.resolved.path is not None}
-        source = Location(file, executable.span)
-        return tuple(Target(Location(path, Span(0, 0)), source) for path in sorted(paths))
-    return ()
+def _targets(places: Iterable[Location], source: Location) -> tuple[Target, ...]:
+    return tuple(Target(place, source) for place in dict.fromkeys(places) if place != source)
 
 
-def _other_ends(analysis: Analysis, graph: Graph, file: str, action: Action, source: Location) -> tuple[Target, ...]:
-    """The nodes that meet the remapped ones under the new name."""
-    mine = tuple(remaps_of(analysis.tree, file, action))
+def _of_subject(scene: Scene, subject: Subject) -> tuple[Target, ...]:
+    source = Location(scene.path, subject.span)
+    match subject.kind:
+        case "arg":
+            declared = (shared_arguments.declared_at(scene.current, subject.files, name) for name in subject.names)
+            return _targets((place for places in declared for place in places), source)
+        case "file" if all(path != scene.path for path in subject.files):
+            return _targets((Location(path, Span(0, 0)) for path in subject.files), source)
+        case "package":
+            packages = map(scene.workspace.environment.packages.get, subject.names)
+            return _targets((Location(p.manifest, Span(0, 0)) for p in packages if p is not None), source)
+        case "executable":
+            return _targets(_executables(scene, subject), source)
+        case "param":
+            return _targets(_readers(scene, subject), source)
+        case "topic":
+            return _targets(_own_ends(scene, subject), source)
+        case "machine":
+            machines = (tree.machines.get(name) for tree in scene.trees for name in subject.names)
+            return _targets((m.origin[-1] for m in machines if m is not None), source)
+        case _:
+            return ()
+
+
+def _executables(scene: Scene, subject: Subject) -> Iterator[Location]:
+    """A script, or for what is compiled its target in the package's `CMakeLists.txt`."""
+    for name in subject.names:
+        package, _, executable = name.partition("/")
+        nodes = [n for t in scene.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
+        paths = sorted({n.resolved.path for n in nodes if n.resolved.path is not None})
+        scripts = [path for path in paths if scene.document(path) is not None]
+        yield from (Location(path, Span(0, 0)) for path in scripts)
+        if not scripts and (target := _build_target(scene, package, executable)) is not None:
+            yield target
+
+
+def _build_target(scene: Scene, package: str, executable: str) -> Location | None:
+    found = scene.workspace.environment.packages.get(package)
+    path = os.path.join(found.share, "CMakeLists.txt") if found else ""
+    document = scene.document(path) if found else None
+    for call in re.finditer(r"^\s*add_executable\s*\(\s*([^\s()]+)", document.text if document else "", re.MULTILINE):
+        if call[1].replace("${PROJECT_NAME}", package) == executable:
+            return Location(path, Span(*call.span(1)))
+    return None
+
+
+def _readers(scene: Scene, subject: Subject) -> Iterator[Location]:
+    for analysis in scene.analyses:
+        for read in analysis.graph.param_reads if analysis.graph else ():
+            if read.name in subject.names and (place := made_at(scene, read.use)) is not None:
+                yield place
+
+
+def _own_ends(scene: Scene, subject: Subject) -> Iterator[Location]:
+    """From the name that a remap replaces, to where the nodes themselves give it."""
+    source = Location(scene.path, subject.span)
+    for analysis in scene.analyses:
+        for end, _ in connections(analysis.graph, subject.names) if analysis.graph else ():
+            if end.remap is not None and end.remap.source_location == source:
+                place = made_at(scene, end.endpoint)
+                if place is not None:
+                    yield place
+
+
+def _other_ends(scene: Scene, analysis: Analysis, action: Action) -> Iterator[Location]:
+    """The nodes that meet the remapped ones under the new name, in their sources where that is known."""
+    mine = tuple(remaps_of(analysis.tree, scene.path, action))
     own = {id(node) for node, _ in mine}
-    found: dict[Location, Target] = {}
-    for name in {names.resolve(remap.target, node.name) for node, remap in mine}:
-        for channels in (graph.topics, graph.services, graph.actions):
-            channel = channels.get(name)
-            for connection in (*channel.offers, *channel.wants) if channel else ():
-                if id(connection.node) not in own:
-                    found[connection.node.location] = Target(connection.node.location, source)
-    return tuple(found.values())
+    met = frozenset(names.resolve(remap.target, node.name) for node, remap in mine)
+    for end, _ in connections(analysis.graph, met) if analysis.graph else ():
+        if id(end.node) not in own:
+            yield made_at(scene, end.endpoint) or end.node.location

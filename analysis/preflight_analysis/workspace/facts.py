@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.references import arg_references
 
 Kind = Literal[
@@ -64,6 +64,8 @@ class FileFacts:
     args: tuple[ArgDeclaration, ...]
     mentions: tuple[Mention, ...]
     has_nodes: bool
+    passing_all: frozenset[Span] = frozenset()
+    """The start tags of the includes that pass all arguments on, or that may: the attribute has a substitution."""
 
     def named(self, kind: Kind, name: str) -> Iterator[Mention]:
         """The mentions of a name."""
@@ -76,7 +78,20 @@ def facts_of(launch_file: LaunchFile) -> FileFacts:
     mentions = tuple(_mentions(root, None)) if root is not None else ()
     args = tuple(declaration(action) for action in _declarations(root)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
-    return FileFacts(launch_file.path, launch_file.document.digest, args, mentions, has_nodes)
+    passing_all = frozenset(_passing_all(root)) if root is not None else frozenset[Span]()
+    return FileFacts(launch_file.path, launch_file.document.digest, args, mentions, has_nodes, passing_all)
+
+
+def _passing_all(root: Action) -> Iterator[Span]:
+    for action in root.walk():
+        value = action.value("pass_all_args") if action.kind == "include" else None
+        if value is not None and may_be_true(value):
+            yield action.head_span
+
+
+def may_be_true(value: Value) -> bool:
+    """Whether a flag is set, or could be: it has a substitution."""
+    return not value.is_literal or value.text.strip().lower() in ("true", "1")
 
 
 def _declarations(action: Action) -> Iterator[Action]:

@@ -106,13 +106,27 @@ class Converter:
         """The findings of one file."""
         return [self.diagnostic(f) for f in findings]
 
-    def workspace_edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
-        """Edits of any number of files, as every client understands them."""
+    def workspace_edit(self, edits: Iterable[Edit], *, versioned: bool = False) -> types.WorkspaceEdit:
+        """Edits of any number of files, as every client understands them; `versioned` for those that check that the
+        text is still what the edits were made for."""
         changes: dict[str, list[types.TextEdit]] = {}
         for edit in edits:
             text_edit = types.TextEdit(self.range(edit.location), edit.text)
-            changes.setdefault(self.uri(edit.location.file), []).append(text_edit)
-        return types.WorkspaceEdit(changes=dict(changes))
+            changes.setdefault(edit.location.file, []).append(text_edit)
+        if not versioned:
+            return types.WorkspaceEdit(changes={self.uri(path): found for path, found in changes.items()})
+        return types.WorkspaceEdit(
+            document_changes=[
+                types.TextDocumentEdit(
+                    types.OptionalVersionedTextDocumentIdentifier(self.uri(path), self._version(path)), found
+                )
+                for path, found in changes.items()
+            ]
+        )
+
+    def _version(self, path: str) -> int | None:
+        opened = self._texts.by_path(path)
+        return opened.version if opened else None
 
     def symbol(self, symbol: Symbol, path: str) -> types.DocumentSymbol:
         """A symbol and those below it."""

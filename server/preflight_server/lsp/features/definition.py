@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.queries.definition import definition as query
 
+from preflight_server.lsp.scenes import converter_for, scene_of
+
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
@@ -22,8 +24,15 @@ def register(server: PreflightServer) -> None:
         if ls.session is None or view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)
-        targets = await ls.session.in_pool(lambda: query(view.analysis, view.path, offset, view.findings))
+        scene = await scene_of(ls, view)
         document = ls.client_capabilities.text_document
-        if document is not None and document.definition is not None and document.definition.link_support:
-            return await ls.session.in_pool(lambda: [view.converter.link(t.location, t.source) for t in targets])
-        return await ls.session.in_pool(lambda: [view.converter.location(t.location) for t in targets])
+        links = document is not None and document.definition is not None and document.definition.link_support
+
+        def work() -> list[types.LocationLink] | list[types.Location]:
+            found = query(scene, offset, view.findings)
+            converter = converter_for(ls, scene, [place for t in found for place in (t.location, t.source)])
+            if links:
+                return [converter.link(t.location, t.source) for t in found]
+            return [converter.location(t.location) for t in found]
+
+        return await ls.session.in_pool(work)

@@ -1,0 +1,156 @@
+"""Where nodes are named outside of their own tags: `/talker/status` in a remap, `/talker/rate` in a parameter."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+from preflight_analysis.graph.annotations import annotated_names
+from preflight_analysis.launch.model import Action
+from preflight_analysis.queries.places import action_at
+from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.subject import settings_of
+
+_WORD = re.compile(r"\S+")
+
+
+@dataclass(frozen=True, slots=True)
+class NodeMention:
+    """A name that lies below a node's. `span`, in the file of `value`, is the last part of the node's name, without
+    its namespace; None where it is not written there as it is: a substitution gives it, or a namespace around it."""
+
+    value: Location
+    span: Span | None
+
+
+def tags_of(scene: Scene, tags: Iterable[Location]) -> Iterator[Location]:
+    """The names as written in these start tags of nodes."""
+    for tag in tags:
+        facts = scene.facts(tag.file)
+        for mention in facts.mentions if facts else ():
+            if mention.kind == "node" and mention.action == tag.span:
+                yield Location(tag.file, mention.span)
+
+
+def mentions_of(scene: Scene, trees: Iterable[LaunchTree], wanted: frozenset[str]) -> Iterator[NodeMention]:
+    """Where names below those of the `wanted` nodes (full names) are written."""
+    for tree in trees:
+        for full, param in settings_of(tree):
+            for node in _above(full, wanted):
+                if param.owner is None or names.is_global(scene.text(param.name_location or param.origin[-1])):
+                    yield _of_param(scene, param, full, node)
+        for place, full in remap_ends(tree):
+            for node in _above(full, wanted):
+                yield NodeMention(place, _moved(_part(scene.text(place), full, node), place.span.start))
+        for owner in tree.nodes:
+            yield from _in_annotation(scene, owner, wanted)
+            yield from _in_arguments(owner, wanted)
+
+
+def remap_ends(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
+    """Both ends of each remap and what they stand for, once for each node that it reaches; private names left out."""
+    for node in tree.nodes:
+        for remap in node.remaps:
+            for name, place in ((remap.source, remap.source_location), (remap.target, remap.target_location)):
+                if not names.is_private(name):
+                    yield place, names.resolve(name, node.name)
+
+
+def _above(full: str, wanted: frozenset[str]) -> Iterator[str]:
+    """The nodes among `wanted` whose name `full` is, or lies below."""
+    at = full
+    while at:
+        if at in wanted:
+            yield at
+        at = at.rpartition("/")[0]
+
+
+def _part(written: str, full: str, node: str) -> Span | None:
+    """Where the last part of `node`'s name is in `written`, a name that stands for `full`."""
+    if names.is_private(written) or "$" in written or "&" in written:
+        return None
+    if not full.endswith(written if names.is_global(written) else f"/{written}"):
+        return None
+    start = node.rfind("/") + 1 - (len(full) - len(written))
+    return Span(start, start + len(node) - node.rfind("/") - 1) if start >= 0 else None
+
+
+def _moved(span: Span | None, by: int) -> Span | None:
+    return Span(span.start + by, span.end + by) if span is not None else None
+
+
+def _of_param(scene: Scene, param: Param, full: str, node: str) -> NodeMention:
+    place = param.name_location or param.origin[-1]
+    launch_file = scene.launch_file(place.file) if place.file == param.origin[-1].file else None
+    action = action_at(launch_file, place.span.start) if launch_file else None
+    if action is not None and action.kind == "rosparam" and place.span.start < action.body.span.start:
+        action, place = None, param.origin[-1]
+    if action is not None and action.kind == "param":
+        return NodeMention(place, _moved(_part(scene.text(place), full, node), place.span.start))
+    return _of_key(scene, param, full, node, place, action)
+
+
+def _of_key(scene: Scene, param: Param, full: str, node: str, place: Location, body: Action | None) -> NodeMention:
+    """The key of a YAML text that names the node, or the `ns` of the `<rosparam>` that loads it."""
+    document = scene.document(place.file)
+    text, start = (body.body.text, body.body.span.start) if body else (document.text if document else "", 0)
+    try:
+        keys = load_yaml(text).keys
+    except YamlError:
+        keys = {}
+    span = Span(place.span.start - start, place.span.end - start)
+    path = next((path for path, key in keys.items() if key == span), ())
+    base = full.removesuffix("/" + "/".join(path)) if path else full
+    for depth in range(1, len(path) + 1):
+        above = f"{base}/{'/'.join(path[:depth])}"
+        if above == node and (key := keys.get(path[:depth])) is not None:
+            written = Location(place.file, Span(start + key.start, start + key.end))
+            return NodeMention(written, _moved(_part(scene.text(written), above, node), written.span.start))
+    return _of_namespace(scene, param, base, node) or NodeMention(place, None)
+
+
+def _of_namespace(scene: Scene, param: Param, base: str, node: str) -> NodeMention | None:
+    """The `ns` or `param` attribute of the `<rosparam>` that sets a parameter."""
+    for tag in reversed(param.origin):
+        launch_file = scene.launch_file(tag.file) if tag.file in scene.current.files else None
+        action = action_at(launch_file, tag.span.start) if launch_file else None
+        if action is None or action.kind != "rosparam":
+            continue
+        ns, leaf = action.value("ns"), action.value("param")
+        value = ns or leaf
+        if value is None:
+            return None
+        below = f"/{leaf.text}" if ns is not None and leaf is not None else ""
+        span = _part(value.text, base.removesuffix(below), node) if value.is_literal else None
+        return NodeMention(Location(tag.file, value.span), _moved(span, value.span.start))
+    return None
+
+
+def _in_annotation(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
+    for _, name, span in annotated_names(owner.action):
+        if not names.is_private(name):
+            full = names.resolve(name, owner.name)
+            for node in _above(full, wanted):
+                found = _part(name, full, node)
+                yield NodeMention(Location(owner.location.file, span), _moved(found, span.start))
+
+
+def _in_arguments(owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
+    """The manager that a nodelet is loaded into."""
+    value = owner.action.value("args")
+    words = owner.args.split()
+    if value is None or owner.package != "nodelet" or len(words) < 3 or words[0] != "load":
+        return
+    full = names.resolve(words[2], owner.name)
+    if full not in wanted:
+        return
+    place = Location(owner.location.file, value.span)
+    written = list(_WORD.finditer(value.text))
+    plain = value.is_literal and value.span.end - value.span.start == len(value.text) and len(written) > 2
+    found = _part(words[2], full, full) if plain else None
+    yield NodeMention(place, _moved(found, value.span.start + written[2].start()) if plain else None)

@@ -1,0 +1,101 @@
+"""What the questions are asked of that look across files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.workspace.facts import FileFacts, facts_of
+from preflight_analysis.workspace.index import WorkspaceIndex
+from preflight_analysis.workspace.indexing import entry_of, written_includes
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A launch file with all that is known around it. `analyses` are of roots that reach it, the one that it is shown
+    in first; `index` may be older than they are. Make a new one for each question."""
+
+    path: str
+    analyses: tuple[Analysis, ...]
+    index: WorkspaceIndex
+    workspace: Workspace
+
+    @cached_property
+    def current(self) -> WorkspaceIndex:
+        """The index, with what the analyses know better: they are of the texts as they are now."""
+        return with_analyses(self.index, self.analyses)
+
+    @cached_property
+    def trees(self) -> tuple[LaunchTree, ...]:
+        """What the analysed roots start."""
+        return tuple(analysis.tree for analysis in self.analyses)
+
+    def facts(self, path: str) -> FileFacts | None:
+        """What a launch file mentions."""
+        return self.current.files.get(path)
+
+    def launch_file(self, path: str) -> LaunchFile | None:
+        """The launch file of the text that positions in it speak of."""
+        for analysis in self.analyses:
+            if (known := analysis.launch_files.get(path)) is not None:
+                return known
+        found = self.workspace.sources.launch_file(path)
+        return None if isinstance(found, Unreadable) else found
+
+    def document(self, path: str) -> Document | None:
+        """The text that positions in a file speak of, whatever kind of file it is."""
+        for analysis in self.analyses:
+            if (known := analysis.documents.get(path)) is not None:
+                return known
+        found = self.workspace.sources.text(path)
+        return None if isinstance(found, Unreadable) else found
+
+    def text(self, location: Location) -> str:
+        """What is written at a place."""
+        document = self.document(location.file)
+        return document.text[location.span.start : location.span.end] if document else ""
+
+    def targets(self, tag: Location) -> tuple[str, ...]:
+        """The files that the include with this start tag leads to, in any root."""
+        found = (i.target for i in self.current.included_from(tag.file) if i.tag.span == tag.span)
+        return tuple(dict.fromkeys(found))
+
+    def line(self, path: str, number: int) -> Location:
+        """A line of a file, counted from 1, without the blanks around it; its start where there is no such line."""
+        document = self.document(path)
+        if document is None:
+            return Location(path, Span(0, 0))
+        span = document.lines.line_span(number - 1)
+        text = document.text[span.start : span.end]
+        start = span.start + len(text) - len(text.lstrip())
+        return Location(path, Span(start, max(start, span.start + len(text.rstrip()))))
+
+
+def with_analyses(index: WorkspaceIndex, analyses: Sequence[Analysis]) -> WorkspaceIndex:
+    """The index brought up to what newer analyses know; the very same where they know nothing new."""
+    now = {path: found for analysis in analyses for path, found in analysis.launch_files.items()}
+    stale = {p: f for p, f in now.items() if p not in index.files or index.files[p].digest != f.document.digest}
+    trees = {analysis.launch: analysis.tree for analysis in analyses}
+    newer = {
+        root: entry_of(tree, root)
+        for root, tree in trees.items()
+        if root not in index.entries or index.entries[root].inputs != tree.inputs
+    }
+    if not stale and not newer:
+        return index
+    entries = {
+        root: replace(entry, inclusions=tuple(i for i in entry.inclusions if i.includer not in stale))
+        for root, entry in index.entries.items()
+    }
+    packages = {n: p.share for a in analyses[:1] for n, p in a.environment.packages.items()}
+    written = [i for i in index.written if i.includer not in stale]
+    written += (i for found in stale.values() for i in written_includes(found, packages))
+    files = {**index.files, **{path: facts_of(found) for path, found in stale.items()}}
+    return WorkspaceIndex(files, {**entries, **newer}, tuple(written), index.complete)

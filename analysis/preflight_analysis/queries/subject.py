@@ -1,0 +1,128 @@
+"""What the name under the cursor means: the same thing may be named in many files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, Remap
+from preflight_analysis.graph.annotations import annotated_names
+from preflight_analysis.queries.places import action_at
+from preflight_analysis.queries.scene import Scene
+from preflight_analysis.workspace.facts import Mention
+
+Kind = Literal["arg", "file", "package", "executable", "node", "param", "topic", "env", "machine"]
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What is spoken of at `span` of the scene's file.
+
+    `names` are full names for `node`, `param` and `topic` (which stands for services and actions too): several where
+    the file is included more than once. `files` are those whose argument it is, or the files themselves.
+    """
+
+    kind: Kind
+    names: frozenset[str]
+    span: Span
+    files: tuple[str, ...] = ()
+
+
+def subject_at(scene: Scene, offset: int) -> Subject | None:
+    """What is named at `offset`; None where nothing is. Goes by syntax first, so that it works under a condition that
+    is false and in a file that no launcher would take."""
+    facts = scene.facts(scene.path)
+    if facts is None:
+        return None
+    here = [m for m in facts.mentions if m.span.contains(offset)]
+    if here:
+        return _of_mention(scene, min(here, key=lambda m: m.span.end - m.span.start))
+    return _of_key(scene, offset) or _of_annotation(scene, offset) or _of_launch_tag(scene, offset)
+
+
+def _of_mention(scene: Scene, mention: Mention) -> Subject:
+    place, tag = Location(scene.path, mention.span), Location(scene.path, mention.action)
+    literally = frozenset({mention.name})
+    match mention.kind:
+        case "arg-declaration" | "arg-use":
+            return Subject("arg", literally, mention.span, (scene.path,))
+        case "arg-passed":
+            return Subject("arg", literally, mention.span, scene.targets(tag))
+        case "include":
+            return Subject("file", literally, mention.span, scene.targets(tag))
+        case "node":
+            return Subject(
+                "node", frozenset(n.name for t in scene.trees for n in t.nodes if n.location == tag), place.span
+            )
+        case "param":
+            full = frozenset(n for t in scene.trees for n, p in settings_of(t) if p.name_location == place)
+            return Subject("param", full or _global(mention.name), place.span)
+        case "remap-from" | "remap-to":
+            full = frozenset(
+                names.resolve(remap.target, node.name) for tree in scene.trees for node, remap in remaps_at(tree, place)
+            )
+            return Subject("topic", full or _global(mention.name), place.span)
+        case kind:
+            return Subject(kind, literally, mention.span)
+
+
+def _global(name: str) -> frozenset[str]:
+    """A name that means the same everywhere, for tags that are not evaluated."""
+    return frozenset({names.canonicalize(name)}) if names.is_global(name) and "$" not in name else frozenset()
+
+
+def _of_key(scene: Scene, offset: int) -> Subject | None:
+    """A key in the YAML of a `<rosparam>`."""
+    for tree in scene.trees:
+        for name, param in settings_of(tree):
+            place = param.name_location
+            if place is not None and place.file == scene.path and place.span.contains(offset):
+                return Subject("param", frozenset({name}), place.span)
+    return None
+
+
+def _of_annotation(scene: Scene, offset: int) -> Subject | None:
+    launch_file = scene.launch_file(scene.path)
+    action = action_at(launch_file, offset) if launch_file else None
+    for tree in scene.trees:
+        for node in tree.nodes:
+            if action is None or node.location.file != scene.path or not node.action.span.contains(offset):
+                continue
+            for kind, span, full in annotated(node):
+                if span.contains(offset):
+                    return Subject("param" if kind == "param" else "topic", frozenset({full}), span)
+    return None
+
+
+def _of_launch_tag(scene: Scene, offset: int) -> Subject | None:
+    launch_file = scene.launch_file(scene.path)
+    root = launch_file.root if launch_file else None
+    if root is None or not root.head_span.contains(offset):
+        return None
+    return Subject("file", frozenset({scene.path}), root.head_span, (scene.path,))
+
+
+def settings_of(tree: LaunchTree) -> Iterator[tuple[str, Param]]:
+    """Each setting of a parameter with its full name, also those that a later one replaces."""
+    for name, param in tree.params.items():
+        for earlier in param.overrides:
+            yield name, earlier
+        yield name, param
+
+
+def remaps_at(tree: LaunchTree, place: Location) -> Iterator[tuple[LaunchNode, Remap]]:
+    """The remaps that one of the two names at this place makes, with the nodes that they reach."""
+    for node in tree.nodes:
+        for remap in node.remaps:
+            if place in (remap.source_location, remap.target_location):
+                yield node, remap
+
+
+def annotated(node: LaunchNode) -> Iterator[tuple[str, Span, str]]:
+    """What the annotation of a node names: the tag of the item, the place in the node's file, the final name."""
+    remaps = names.resolve_remaps(tuple((r.source, r.target) for r in node.remaps), node.name)
+    for kind, name, span in annotated_names(node.action):
+        yield kind, span, names.resolve(name, node.name, remaps)

@@ -1,0 +1,32 @@
+"""`textDocument/references`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+from preflight_analysis.queries.references import references as query
+
+from preflight_server.lsp.scenes import converter_for, scene_of
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+
+def register(server: PreflightServer) -> None:
+    """Register the handler."""
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    async def references(ls: PreflightServer, params: types.ReferenceParams) -> list[types.Location] | None:
+        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        if ls.session is None or view is None:
+            return None
+        offset = view.converter.positions(view.path).offset(params.position)
+        scene = await scene_of(ls, view)
+
+        def work() -> list[types.Location]:
+            found = [r.location for r in query(scene, offset) if params.context.include_declaration or not r.declares]
+            converter = converter_for(ls, scene, found)
+            return [converter.location(place) for place in found]
+
+        return await ls.session.in_pool(work)

@@ -1,0 +1,27 @@
+"""The scene that queries across files are asked of, and the conversion of the places that they answer with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.queries.scene import Scene
+
+from preflight_server.lsp.convert import Converter
+from preflight_server.lsp.session import View
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+
+async def scene_of(ls: PreflightServer, view: View) -> Scene:
+    """The scene of an open launch file."""
+    assert ls.session is not None
+    return Scene(view.path, view.analyses, view.index, await ls.session.workspace())
+
+
+def converter_for(ls: PreflightServer, scene: Scene, places: Iterable[Location]) -> Converter:
+    """Conversion by the very texts that the places were found in. Reads files: use it off the event loop."""
+    documents = {path: scene.document(path) for path in {place.file for place in places}}
+    return Converter(ls.texts, {path: document for path, document in documents.items() if document is not None})

@@ -1,0 +1,298 @@
+"""Rename: arguments over all includes, nodes with what is named after them, and the refusals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
+from preflight_analysis.workspace.index import Root
+from scene_desk import lay
+
+
+def renamed(tmp_path: Path, text: str, new: str) -> dict[str, str]:
+    """The files that a rename changes, after it; line ends as blanks."""
+    stage = lay(tmp_path, text)
+    texts = stage.edited(rename(stage.scene, stage.offset, new))
+    return {name: text.replace(str(tmp_path), "") for name, text in texts.items()}
+
+
+def refused(tmp_path: Path, text: str, new: str = "other", *, named: tuple[Root, ...] = ()) -> str:
+    stage = lay(tmp_path, text, named=named)
+    with pytest.raises(RenameRefusedError) as refusal:
+        rename(stage.scene, stage.offset, new)
+    return str(refusal.value)
+
+
+ARGUMENTS = """
+    <launch>
+      <arg name="%srate" default="1"/>
+      <include file="{folder}/inc.launch"><arg name="%srate" value="$(arg rate)"/></include>
+    </launch>
+    //- inc.launch
+    <launch>
+      <arg name="%srate"/>
+      <param name="rate" value="$(arg %srate)" if="$(eval rate > 0 and arg('rate') != 'rate' and rated)"/>
+    </launch>
+    //- other.launch
+    <launch>
+      <include file="{folder}/inc.launch" if="false"><arg name="rate" value="3"/></include>
+    </launch>
+"""
+
+
+def test_an_argument_and_those_who_pass_it(tmp_path: Path) -> None:
+    for number in (1, 2, 3):
+        text = ARGUMENTS % tuple("$0" if n == number else "" for n in range(4))
+        assert renamed(tmp_path / str(number), text, "speed") == {
+            "main.launch": '<launch>\n  <arg name="rate" default="1"/>\n'
+            '  <include file="/inc.launch"><arg name="speed" value="$(arg rate)"/></include>\n</launch>\n',
+            "inc.launch": '<launch>\n  <arg name="speed"/>\n  <param name="rate" value="$(arg speed)" '
+            "if=\"$(eval speed > 0 and arg('speed') != 'rate' and rated)\"/>\n</launch>\n",
+            "other.launch": '<launch>\n  <include file="/inc.launch" if="false">'
+            '<arg name="speed" value="3"/></include>\n</launch>\n',
+        }
+
+
+def test_the_argument_of_the_includer_only(tmp_path: Path) -> None:
+    assert renamed(tmp_path, ARGUMENTS % ("$0", "", "", ""), "speed") == {
+        "main.launch": '<launch>\n  <arg name="speed" default="1"/>\n'
+        '  <include file="/inc.launch"><arg name="rate" value="$(arg speed)"/></include>\n</launch>\n'
+    }
+
+
+def test_the_whole_chain_that_hands_it_on(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <arg name="rate" default="1"/>
+          <include file="{folder}/between.launch" pass_all_args="true"/>
+        </launch>
+        //- between.launch
+        <launch>
+          <include file="{folder}/inc.launch" pass_all_args="true"/>
+        </launch>
+        //- inc.launch
+        <launch>
+          <arg name="ra$0te"/>
+        </launch>
+        //- third.launch
+        <launch>
+          <include file="{folder}/inc.launch"><arg name="rate" value="1"/></include>
+        </launch>
+        """
+    texts = renamed(tmp_path, text, "speed")
+    assert sorted(texts) == ["inc.launch", "main.launch", "third.launch"]
+    assert all('name="speed"' in text and "rate" not in text for text in texts.values())
+
+
+def test_one_include_of_several_files(tmp_path: Path) -> None:
+    texts = renamed(
+        tmp_path,
+        """
+        <launch>
+          <arg name="robot" default="a"/>
+          <include file="{folder}/$(arg robot).xml"><arg name="rate" value="1"/></include>
+        </launch>
+        //- up.launch
+        <launch><include file="{folder}/main.launch"><arg name="robot" value="b"/></include></launch>
+        //- down.launch
+        <launch><include file="{folder}/main.launch"/></launch>
+        //- a.xml
+        <launch><arg name="$0rate"/></launch>
+        //- b.xml
+        <launch><arg name="rate"/></launch>
+        """,
+        "speed",
+    )
+    assert sorted(texts) == ["a.xml", "b.xml", "main.launch"]
+
+
+@pytest.mark.parametrize("new", ["", "a b", "1x", "a-b", "~x", "a/b", "ä", "_x", "true", "lambda", "pi"])
+def test_names_that_are_none_for_an_argument(tmp_path: Path, new: str) -> None:
+    assert f"'{new}' is no name for an argument" in refused(tmp_path, '<launch><arg name="$0x"/></launch>', new)
+
+
+def test_arguments_that_are_there_already(tmp_path: Path) -> None:
+    text = ARGUMENTS % ("", "", "$0", "")
+    here = text.replace('name="$0rate"/>', 'name="$0rate"/><arg name="speed" default="1"/>')
+    assert refused(tmp_path / "a", here, "speed") == "There is an argument 'speed' already, at inc.launch:2"
+    there = text.replace('value="$(arg rate)"/></include>', 'value="1"/><arg name="speed" value="2"/></include>')
+    assert refused(tmp_path / "b", there, "speed") == "There is an argument 'speed' already, at main.launch:3"
+
+
+def test_arguments_that_cannot_be_renamed(tmp_path: Path) -> None:
+    unknown = '<launch><include file="$(arg nothing)"><arg name="$0x" value="1"/></include></launch>'
+    assert "the included file is not known" in refused(tmp_path / "a", unknown)
+    missing = '<launch><include file="/none.launch"><arg name="$0x" value="1"/></include></launch>'
+    assert "/none.launch cannot be read" in refused(tmp_path / "b", missing)
+    entity = '<launch><arg name="$0x"/><param name="a" value="1" if="$(eval x &gt; 1)"/></launch>'
+    assert "cannot be replaced at main.launch:1" in refused(tmp_path / "c", entity)
+    root = Root.of(str(tmp_path / "d/main.launch"), {"x": "1"})
+    settings = refused(tmp_path / "d", '<launch><arg name="$0x"/></launch>', named=(root,))
+    assert "the project's settings give it to main.launch" in settings
+
+
+@pytest.mark.parametrize(
+    ("tag", "message"),
+    [
+        ('<node pkg="$0p" type="t" name="n"/>', "This is a package: only arguments and nodes can be renamed here"),
+        ('<remap from="$0a" to="b"/>', "This is a topic, whose name the nodes' sources have too"),
+        ('<param name="$0a" value="b"/>', "This is a parameter, whose name the node's source has too"),
+        ('<include file="$0a"/>', "This is a launch file"),
+    ],
+)
+def test_what_cannot_be_renamed(tmp_path: Path, tag: str, message: str) -> None:
+    assert message in refused(tmp_path, f"<launch>\n{tag}\n</launch>")
+
+
+def test_nothing_to_rename(tmp_path: Path) -> None:
+    stage = lay(tmp_path, "<launch>\n $0\n</launch>")
+    assert prepare(stage.scene, stage.offset) is None
+
+
+NODES = """
+    <launch>
+      <param name="/lab/talker/rate" value="1"/>
+      <group ns="lab">
+        <rosparam>{talker: {y: 1, z: 2}, talkers: 1}</rosparam>
+        <rosparam ns="talker">w: 1</rosparam>
+        <node pkg="p" type="t" name="talker$0"><param name="own" value="talker"/><remap from="a" to="~talker"/></node>
+        <include file="{folder}/inc.launch"/>
+      </group>
+    </launch>
+    //- inc.launch
+    <launch>
+      <node pkg="p" type="t" name="listener">
+        <!-- <topics><topic name="talker/chatter" type="std_msgs/String" class="sub"/></topics> -->
+        <remap from="chatter" to="talker/chatter"/>
+        <remap from="b" to="/lab/talker"/>
+        <remap from="c" to="/talker/c"/>
+      </node>
+      <node pkg="nodelet" type="nodelet" name="let" args="load p/Let talker --talker"/>
+    </launch>
+"""
+
+
+def test_a_node_and_what_is_named_after_it(tmp_path: Path) -> None:
+    assert renamed(tmp_path, NODES, "speaker") == {
+        "main.launch": """<launch>
+  <param name="/lab/speaker/rate" value="1"/>
+  <group ns="lab">
+    <rosparam>{speaker: {y: 1, z: 2}, talkers: 1}</rosparam>
+    <rosparam ns="speaker">w: 1</rosparam>
+    <node pkg="p" type="t" name="speaker"><param name="own" value="talker"/><remap from="a" to="~talker"/></node>
+    <include file="/inc.launch"/>
+  </group>
+</launch>
+""",
+        "inc.launch": """<launch>
+  <node pkg="p" type="t" name="listener">
+    <!-- <topics><topic name="speaker/chatter" type="std_msgs/String" class="sub"/></topics> -->
+    <remap from="chatter" to="speaker/chatter"/>
+    <remap from="b" to="/lab/speaker"/>
+    <remap from="c" to="/talker/c"/>
+  </node>
+  <node pkg="nodelet" type="nodelet" name="let" args="load p/Let speaker --talker"/>
+</launch>
+""",
+    }
+
+
+def test_a_node_that_has_an_alternative(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="$0talker" if="true"/>
+          <node pkg="p" type="sim" name="talker" unless="true"/>
+          <node pkg="p" type="sim" name="talker" ns="lab"/>
+        </launch>
+        """
+    assert renamed(tmp_path, text, "speaker")["main.launch"].count("speaker") == 2
+
+
+def test_a_node_of_a_file_that_is_included_twice(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <include ns="a" file="{folder}/inc.launch"/>
+          <include ns="b" file="{folder}/inc.launch"/>
+          <param name="a/talker/x" value="1"/>
+          <param name="/b/talker/x" value="1"/>
+        </launch>
+        //- inc.launch
+        <launch><node pkg="p" type="t" name="$0talker"/></launch>
+        """
+    texts = renamed(tmp_path, text, "speaker")
+    assert texts["inc.launch"].count("speaker") == 1
+    assert texts["main.launch"].count("speaker") == 2
+
+
+def test_roots_that_were_not_analysed_are_looked_at(tmp_path: Path) -> None:
+    text = """
+        <launch><include file="{folder}/inc.launch"/></launch>
+        //- second.launch
+        <launch><include ns="b" file="{folder}/inc.launch"/><param name="/b/talker/x" value="1"/></launch>
+        //- inc.launch
+        <launch><node pkg="p" type="t" name="$0talker"/></launch>
+        """
+    stage = lay(tmp_path, text, analysed=1)
+    assert len(stage.scene.trees) == 1
+    assert sorted(stage.edited(rename(stage.scene, stage.offset, "speaker"))) == ["inc.launch", "second.launch"]
+
+
+@pytest.mark.parametrize("new", ["", "a b", "1x", "a/b", "~a", "/a", "a-b"])
+def test_names_that_are_none_for_a_node(tmp_path: Path, new: str) -> None:
+    assert f"'{new}' is no name for a node" in refused(tmp_path, NODES, new)
+
+
+def test_nodes_that_are_there_already(tmp_path: Path) -> None:
+    assert refused(tmp_path, NODES, "listener") == "There is a node '/lab/listener' already, at inc.launch:2"
+
+
+@pytest.mark.parametrize(
+    ("tags", "message"),
+    [
+        ('<arg name="n" default="x"/><node pkg="p" type="t" name="$0$(arg n)"/>', "a substitution is part of its name"),
+        ('<node pkg="p" type="t" name="$0a"/><node pkg="p" type="t" name="b" ns="a"/>', "namespace of '/a/b'"),
+        ('<node pkg="p" type="t" name="$0a"/><group ns="a"><param name="b" value="1"/></group>', "not written there"),
+        (
+            '<arg name="n" default="a"/><node pkg="p" type="t" name="$0a"/><param name="$(arg n)/x" value="1"/>',
+            "by hand",
+        ),
+        (
+            '<remap from="x" to="a/x"/><node pkg="p" type="t" name="$0a"/><node pkg="p" type="t" name="b" ns="c"/>'
+            '<node pkg="p" type="t" name="a" ns="c"/>',
+            "is part of what is set at",
+        ),
+    ],
+)
+def test_nodes_that_cannot_be_renamed(tmp_path: Path, tags: str, message: str) -> None:
+    assert message in refused(tmp_path, f"<launch>{tags}</launch>")
+
+
+def test_a_node_that_another_root_starts_from_another_file(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <arg name="real" default="true"/>
+          <include file="{folder}/real.xml" if="$(arg real)"/>
+          <include file="{folder}/false.xml" unless="$(arg real)"/>
+        </launch>
+        //- up.launch
+        <launch><include file="{folder}/main.launch"><arg name="real" value="false"/></include>
+        <include file="{folder}/real.xml" ns="x"/></launch>
+        //- down.launch
+        <launch><include file="{folder}/main.launch"/></launch>
+        //- real.xml
+        <launch><node pkg="p" type="t" name="$0talker"/></launch>
+        //- false.xml
+        <launch><node pkg="p" type="t" name="talker"/></launch>
+        """
+    assert "which one is meant is not sure" in refused(tmp_path, text)
+
+
+def test_in_a_file_that_does_not_parse(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <arg name="ra$0te"/>
+          <param name="a" value="$(arg rate)"
+          <node pkg="p" type="t" name="$(arg rate)"
+        """
+    assert renamed(tmp_path, text, "speed")["main.launch"].count("speed") == 3

@@ -1,0 +1,96 @@
+"""A workspace on the disk for the queries that look across files, written as one text.
+
+    lay(tmp_path, '''
+        <launch><arg name="x"/></launch>
+        //- inc.launch
+        <launch><arg name="$0x"/></launch>
+    ''')
+
+`//- path` starts another file, the first one is `main.launch`; `{folder}` stands for the workspace's folder and `$0`
+is the cursor. There is a package `p` in the folder, whose executables are the files of `p/scripts`. Interfaces as in
+`preflight_check`.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import textwrap
+from dataclasses import dataclass
+from pathlib import Path
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.findings.finding import Edit
+from preflight_analysis.queries.scene import Scene
+from preflight_analysis.tracing.interface import NOT_RUN
+from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from preflight_check import interface_from_json
+
+_FILE = re.compile(r"//- (\S+)\s*\Z")
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A scene, the cursor in it, and how to speak of what is in it."""
+
+    folder: Path
+    scene: Scene
+    offset: int
+
+    def shown(self, location: Location) -> str:
+        """`inc.launch:3 what is written there`."""
+        document = self.scene.document(location.file)
+        line = document.lines.position(location.span.start)[0] + 1 if document else 1
+        path = Path(location.file)
+        name = path.relative_to(self.folder) if path.is_relative_to(self.folder) else path
+        return f"{name}:{line} {self.scene.text(location)}".strip()
+
+    def edited(self, edits: tuple[Edit, ...]) -> dict[str, str]:
+        """The texts of the files that the edits change, after them."""
+        texts: dict[str, str] = {}
+        for edit in sorted(edits, key=lambda e: e.location.span, reverse=True):
+            path = edit.location.file
+            text = texts.get(path) or Path(path).read_text()
+            texts[path] = text[: edit.location.span.start] + edit.text + text[edit.location.span.end :]
+        return {str(Path(path).relative_to(self.folder)): text for path, text in texts.items()}
+
+
+def lay(folder: Path, text: str, *, named: tuple[Root, ...] = (), analysed: int = 8) -> Stage:
+    """Write the files and analyse what the cursor's file needs."""
+    cursor: tuple[str, int] | None = None
+    files: dict[str, str] = {}
+    name = "main.launch"
+    for line in textwrap.dedent(text).strip("\n").split("\n"):
+        if start := _FILE.match(line):
+            name = start[1]
+        else:
+            files[name] = files.get(name, "") + line.replace("{folder}", str(folder)) + "\n"
+    interfaces = json.loads(files.pop("interfaces", "{}"))
+    for name, content in files.items():
+        if "$0" in content:
+            cursor = name, content.index("$0")
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content.replace("$0", ""))
+        path.chmod(0o755 if "/scripts/" in name else 0o644)
+    assert cursor is not None, "no cursor"
+    packages = {"p": Package("p", str(folder / "p"), str(folder / "p/package.xml"))}
+    environment = Environment(
+        1, "noetic", {}, (str(folder),), packages, {}, (), (), "/usr/bin/python3", workspace=str(folder)
+    )
+    workspace = Workspace(environment, Sources(), str(folder))
+    index = build_index(workspace, str(folder), named)
+    assert index is not None
+    path = str(folder / cursor[0])
+    analyses = []
+    for root in index.roots_of(path)[:analysed]:
+        analysis = workspace.static(root.path, dict(root.args))
+        if interfaces:
+            given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]
+            analysis = workspace.with_interfaces(analysis, given, None)
+        analyses.append(analysis)
+    return Stage(folder, Scene(path, tuple(analyses), index, workspace), cursor[1])

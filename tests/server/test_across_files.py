@@ -1,0 +1,163 @@
+"""Find references and rename across files, through the real server."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import ENCODINGS, Editor, capabilities, editing, from_uri, offset
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+
+pytestmark = pytest.mark.ros
+
+OUTER = """<launch>
+  <!-- 🤖 Größe --><arg name="rate" doc="😀" default="1"/><include file="$(find preflight_demo)/launch/inner.launch">
+    <!-- 𝕂 --><arg name="rate" value="$(arg rate)"/>
+  </include>
+</launch>
+"""
+INNER = """<launch>
+  <!-- 🤖 --><arg name="rate"/>
+  <node pkg="preflight_demo" type="talker.py" name="talker"/><param name="größe 🤖" value="$(arg rate)"/>
+</launch>
+"""
+
+
+@pytest.fixture
+def files(desk: Desk) -> tuple[Path, Path]:
+    inner, outer = desk.launch_file.with_name("inner.launch"), desk.launch_file.with_name("outer.launch")
+    inner.write_text(INNER)
+    outer.write_text(OUTER)
+    return outer, inner
+
+
+async def indexed(editor: Editor, root: Path) -> None:
+    """Wait until the root of the open file is known: why its nodes are not run is said there."""
+    await editor.until(lambda: root.as_uri() in editor.published)
+
+
+def covered(editor: Editor, place: types.Location) -> str:
+    """`inner.launch:2 rate`, of an open file or the disk."""
+    path = from_uri(place.uri)
+    text = editor.texts.get(path) or path.read_text()
+    start, end = (offset(text, end, editor.encoding) for end in (place.range.start, place.range.end))
+    return f"{path.name}:{place.range.start.line + 1} {text[start:end]}"
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+async def test_references_in_two_files(desk: Desk, files: tuple[Path, Path], encoding: str) -> None:
+    outer, inner = files
+    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+        editor.open(inner)
+        await indexed(editor, outer)
+        found = await editor.references(inner, editor.at(inner, "(arg rate)", 6))
+        assert [covered(editor, place) for place in found] == [
+            "inner.launch:2 rate",
+            "inner.launch:3 rate",
+            "outer.launch:3 rate",
+        ]
+        uses = await editor.references(inner, editor.at(inner, "(arg rate)", 6), declaration=False)
+        assert uses == found[1:]
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+async def test_rename_in_two_files(desk: Desk, files: tuple[Path, Path], encoding: str) -> None:
+    outer, inner = files
+    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+        editor.open(inner)
+        await indexed(editor, outer)
+        where = editor.at(inner, "(arg rate)", 6)
+        prepared = await editor.prepare_rename(inner, where)
+        assert prepared is not None
+        assert (prepared.placeholder, editor.covered(inner, prepared.range)) == ("rate", "rate")
+        editor.apply(await editor.rename(inner, where, "speed"))
+        assert editor.texts[inner] == INNER.replace('"rate"', '"speed"').replace("(arg rate)", "(arg speed)")
+        assert editor.texts[outer] == OUTER.replace('"rate" value', '"speed" value')
+        await editor.until(lambda: editor.rules(inner) == [] and editor.rules(outer) == ["TRC004"])
+
+
+async def test_rename_for_a_client_that_checks_no_versions(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    plain = capabilities()
+    assert plain.workspace is not None
+    plain.workspace.workspace_edit = None
+    async with editing(desk, client=plain) as editor:
+        editor.open(outer)
+        await indexed(editor, outer)
+        edit = await editor.rename(outer, editor.at(outer, '"rate" value', 1), "speed")
+        assert edit is not None
+        assert edit.document_changes is None
+        assert sorted(edit.changes or {}) == sorted([inner.as_uri(), outer.as_uri()])
+
+
+async def test_what_was_typed_a_moment_ago_counts(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk) as editor:
+        editor.open(outer)
+        await indexed(editor, outer)
+        editor.change(outer, "<!-- one line more 🤖 -->\n" + OUTER)
+        editor.open(inner)
+        found = await editor.references(inner, editor.at(inner, '"rate"', 1))
+        assert "outer.launch:4 rate" in [covered(editor, place) for place in found]
+
+
+async def test_a_refusal_says_why(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, _ = files
+    async with editing(desk) as editor:
+        editor.open(outer)
+        await indexed(editor, outer)
+        with pytest.raises(JsonRpcException, match="'a b' is no name for an argument"):
+            await editor.rename(outer, editor.at(outer, '"rate"', 1), "a b")
+        with pytest.raises(JsonRpcException, match="This is a package"):
+            await editor.prepare_rename(outer, editor.at(outer, "preflight_demo"))
+        assert await editor.prepare_rename(outer, editor.at(outer, "<!--")) is None
+
+
+async def test_a_node_is_renamed_with_the_topics_below_it(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk) as editor:
+        text = OUTER.replace("</launch>", '  <param name="talker/x" value="1"/>\n</launch>')
+        editor.open(outer, text)
+        editor.open(inner)
+        await indexed(editor, outer)
+        editor.apply(await editor.rename(inner, editor.at(inner, '"talker"', 1), "speaker"))
+        assert editor.texts[inner] == INNER.replace('"talker"', '"speaker"')
+        assert editor.texts[outer] == text.replace("talker/x", "speaker/x")
+
+
+async def test_in_a_file_that_does_not_parse(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk) as editor:
+        editor.open(inner, INNER.replace("</launch>", '<param name="🤖" value="$(arg rate)"'))
+        await indexed(editor, outer)
+        where = editor.at(inner, '"rate"', 1)
+        found = await editor.references(inner, where)
+        assert [covered(editor, place) for place in found] == [
+            "inner.launch:2 rate",
+            "inner.launch:3 rate",
+            "inner.launch:4 rate",
+            "outer.launch:3 rate",
+        ]
+        editor.apply(await editor.rename(inner, where, "speed"))
+        assert editor.texts[inner].count("speed") == 3
+        editor.change(inner, editor.texts[inner].replace("talker.py", "nothing"))
+        links = await editor.definition(inner, editor.at(inner, "$(arg speed)", 7))
+        assert [link.target_range.start.line for link in links] == [1]
+
+
+async def test_topics_and_parameters_lead_to_the_source_of_the_node(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        found = await editor.references(desk.launch_file, editor.at(desk.launch_file, '"chater"', 1))
+        assert [covered(editor, place) for place in found] == [
+            "talker_listener.launch:7 chatter",
+            "talker_listener.launch:7 chater",
+            'listener.py:14 rospy.Subscriber("chatter", String, heard)',
+        ]
+        links = await editor.definition(desk.launch_file, editor.at(desk.launch_file, '"chatter"', 1))
+        assert [from_uri(link.target_uri).name for link in links] == ["listener.py"]
+        links = await editor.definition(desk.launch_file, editor.at(desk.launch_file, '"rate"', 1))
+        assert [(from_uri(link.target_uri).name, link.target_range.start.line) for link in links] == [("talker.py", 10)]
