@@ -139,7 +139,8 @@ def _place(record: Mapping[str, Any]) -> tuple[str | None, int | None]:
     return None, None
 
 
-def _paths(value: object) -> Iterable[str]:
+def paths(value: object) -> Iterable[str]:
+    """The absolute paths of a list that came out of the sandbox."""
     return (
         (p for p in value if isinstance(p, str) and p.startswith("/") and len(p) < 4096 and "\0" not in p)
         if (isinstance(value, list))
@@ -157,10 +158,10 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":
-            _add_files(_paths(record.get("paths")), found)
+            _add_files(paths(record.get("paths")), found)
         case "wrote":
             if len(found.wrote) < 100:
-                found.wrote.update((p, None) for p in _paths([record.get("path")]))
+                found.wrote.update((p, None) for p in paths([record.get("path")]))
         case "state" if record.get("state") == "wait":
             kind, name = record.get("kind"), _text(record.get("name"), _NAME)
             if kind in ("service", "message") and name is not None:
@@ -244,7 +245,7 @@ def _own(record: Mapping[str, Any], found: _Gathered) -> bool:
         case "started":
             pass
         case "maps":
-            _add_files(_paths(record.get("paths")), found)
+            _add_files(paths(record.get("paths")), found)
         case "end":
             found.end = record
             if isinstance(record.get("dropped"), int):

@@ -1,7 +1,8 @@
-"""What exactly is executed for a `TraceRequest`: command, environment, folder, and what must be visible to it.
+"""What exactly is executed for a `TraceRequest` or a command: argv, environment, folder, and what must be visible.
 
 As roslaunch does it (roslaunch.node_args): arguments, then remaps as `from:=to`, then `__name:=`, `__log:=`; the
-namespace in `ROS_NAMESPACE`; the folder ROS_HOME unless `cwd="node"`.
+namespace in `ROS_NAMESPACE`; the folder ROS_HOME unless `cwd="node"`. The command of a parameter has the environment
+and the folder of roslaunch itself.
 """
 
 from __future__ import annotations
@@ -45,8 +46,8 @@ class Recipe:
 
 def make(environment: Environment, request: TraceRequest) -> Recipe:
     """The recipe of a request. Reads the executable's first line; an unreadable one is left for exec to complain of."""
-    stable = _variables(environment, request)
-    interpreter, python = _interpreter(environment, request.executable, stable.get("PATH", _DEFAULT_PATH))
+    stable = _variables(environment, request.env)
+    interpreter, python = _interpreter(environment, request.executable, stable["PATH"])
     argv = [*interpreter, request.executable, *request.args]
     if python:
         argv += [f"{source}:={target}" for source, target in request.remaps]
@@ -54,11 +55,29 @@ def make(environment: Environment, request: TraceRequest) -> Recipe:
     # that there too the names are those before remapping, and the graph can apply them.
     base = request.node.rpartition("/")[2]
     argv += [f"__name:={base}", f"__log:={LOG_FOLDER}/{base}.log"]
-    env = dict(stable)
-    env["PYTHONPATH"] = os.pathsep.join(p for p in (sandbox.SITE, stable.get("PYTHONPATH", "")) if p)
+    env = _inside(stable)
     namespace = names.parent(request.node).rstrip("/")
     if namespace:
         env["ROS_NAMESPACE"] = namespace
+    return Recipe(tuple(argv), env, stable, _folder(request), python)
+
+
+def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
+    """The recipe of a command of a parameter, whose program was found as `executable`."""
+    stable = _variables(environment, ())
+    interpreter, python = _interpreter(environment, executable, stable["PATH"])
+    return Recipe((*interpreter, executable, *args), _inside(stable), stable, cwd, python)
+
+
+def search_path(environment: Environment) -> str:
+    """The PATH of what is run."""
+    return _variables(environment, ())["PATH"]
+
+
+def _inside(stable: Mapping[str, str]) -> dict[str, str]:
+    """The variables inside the sandbox."""
+    env = dict(stable)
+    env["PYTHONPATH"] = os.pathsep.join(p for p in (sandbox.SITE, stable.get("PYTHONPATH", "")) if p)
     env |= {
         "HOME": sandbox.home(),
         "ROS_MASTER_URI": MASTER_URI,
@@ -70,7 +89,7 @@ def make(environment: Environment, request: TraceRequest) -> Recipe:
     }
     # Its threads cost more than they give in a run of half a second: 0.1 s of processor time for numpy's import.
     env.setdefault("OPENBLAS_NUM_THREADS", "1")
-    return Recipe(tuple(argv), env, stable, _folder(request), python)
+    return env
 
 
 def visible_paths(environment: Environment) -> list[str]:
@@ -93,14 +112,27 @@ def visible_paths(environment: Environment) -> list[str]:
 
 def request_paths(request: TraceRequest) -> list[str]:
     """What this node needs to see besides."""
-    paths = [os.path.dirname(request.executable), os.path.dirname(os.path.realpath(request.executable))]
-    interpreter = _shebang(request.executable)
-    if interpreter:
-        paths += _interpreter_paths(interpreter[0])
+    return sandbox.needs_binding(_program_paths(request.executable))
+
+
+def command_paths(executable: str, files: Iterable[str], cwd: str, interpreter: str) -> list[str]:
+    """What a command needs to see besides: its program, the folder it runs in, the files it names with what is beside
+    them, and the interpreter of the supervisor. Files in hidden folders, such as `~/.ssh`, stay hidden."""
+    named = [path for path in files if "/." not in path + os.path.realpath(path)]
+    beside = [os.path.dirname(path) for path in named]
+    paths = [*_program_paths(executable), cwd, *named, *beside, *_interpreter_paths(interpreter)]
     return sandbox.needs_binding(paths)
 
 
-def _variables(environment: Environment, request: TraceRequest) -> dict[str, str]:
+def _program_paths(executable: str) -> list[str]:
+    paths = [os.path.dirname(executable), os.path.dirname(os.path.realpath(executable))]
+    interpreter = _shebang(executable)
+    if interpreter:
+        paths += _interpreter_paths(interpreter[0])
+    return paths
+
+
+def _variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
     overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
     kept = {
         name: value
@@ -110,7 +142,7 @@ def _variables(environment: Environment, request: TraceRequest) -> dict[str, str
         and not any(word in name.upper() for word in _NEVER_PASSED)
     }
     kept.setdefault("PATH", _DEFAULT_PATH)
-    kept.update((name, value) for name, value in request.env if name and "=" not in name and "\0" not in name + value)
+    kept.update((name, value) for name, value in extra if name and "=" not in name and "\0" not in name + value)
     return kept
 
 

@@ -1,4 +1,4 @@
-"""One run in the sandbox, seen from outside: a process, two pipes, a clock.
+"""One run of a node or command in the sandbox, seen from outside: a process, two pipes, a clock.
 
 What comes out of the pipes was written by code that is not ours and may be anything; here it is only bounded and cut
 into JSON objects, `observation` checks what they say. The way out of a run that does not end is one signal to one
@@ -28,8 +28,13 @@ LOOPED_SECONDS = 0.1
 """The same once a whole turn of the loop has been seen."""
 SETTLED_SECONDS = 0.75
 """The same for a node that is up and asleep in a way that no hook knows."""
-OUTER_SECONDS = WALL_SECONDS + 5.0
-"""When the whole sandbox is killed from outside; the supervisor inside should have ended long before."""
+OUTER_SECONDS = 5.0
+"""When the whole sandbox is killed from outside, after the end of the time it has; the supervisor inside should have
+ended long before."""
+COMMAND_SECONDS = 10.0
+"""What the command of a parameter may take."""
+COMMAND_BYTES = 8 << 20
+"""What it may print."""
 
 MAX_LINE = 128_000
 MAX_RECORDS = 25_000
@@ -71,21 +76,41 @@ class RawRun:
 def execute(
     recipe: recipes.Recipe, params: Mapping[str, Any], visible: list[str], interpreter: str, cancel: threading.Event
 ) -> RawRun:
-    """Run it. `interpreter` is the Python 3.8 or later that the supervisor runs in. Raises `OSError` if bubblewrap
+    """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in. Raises `OSError` if bubblewrap
     cannot be started."""
     job = {
+        "params": encode_params(params),
+        "limits": {"wall": WALL_SECONDS, "quiet": QUIET_SECONDS, "looped": LOOPED_SECONDS, "settled": SETTLED_SECONDS},
+    }
+    return _execute(recipe, job, WALL_SECONDS, visible, interpreter, cancel)
+
+
+def execute_command(recipe: recipes.Recipe, visible: list[str], interpreter: str, cancel: threading.Event) -> RawRun:
+    """Run a command to its end; what it prints is among the records. Otherwise as `execute`."""
+    job = {"output": {"wall": COMMAND_SECONDS, "bytes": COMMAND_BYTES}}
+    return _execute(recipe, job, COMMAND_SECONDS, visible, interpreter, cancel)
+
+
+def _execute(
+    recipe: recipes.Recipe,
+    job: Mapping[str, Any],
+    seconds: float,
+    visible: list[str],
+    interpreter: str,
+    cancel: threading.Event,
+) -> RawRun:
+    whole = {
         "argv": list(recipe.argv),
         "env": dict(recipe.env),
         "cwd": recipe.cwd,
         "folders": [recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home()],
-        "params": encode_params(params),
-        "limits": {"wall": WALL_SECONDS, "quiet": QUIET_SECONDS, "looped": LOOPED_SECONDS, "settled": SETTLED_SECONDS},
         "rlimits": RLIMITS | {"NPROC": _PROCESSES if _own_process_count() else _PROCESSES_SHARED},
+        **job,
     }
     start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
     command = sandbox.command([interpreter, "-I", "-S", "-c", start], visible)
     with os.fdopen(os.memfd_create("job"), "w+b") as handed:
-        handed.write(json.dumps(job).encode())
+        handed.write(json.dumps(whole).encode())
         handed.seek(0)
         raw = RawRun(started=time.time())
         process = subprocess.Popen(
@@ -98,7 +123,7 @@ def execute(
             start_new_session=True,
         )
     try:
-        _read(process, raw, cancel)
+        _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS)
     finally:
         process.kill()
         process.wait()
@@ -145,10 +170,9 @@ def _own_process_count() -> bool:
         return False
 
 
-def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event) -> None:
+def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event, deadline: float) -> None:
     assert process.stdout is not None
     assert process.stderr is not None
-    deadline = time.monotonic() + OUTER_SECONDS
     rest, total = b"", 0
     with selectors.DefaultSelector() as selector:
         for pipe in (process.stdout, process.stderr):

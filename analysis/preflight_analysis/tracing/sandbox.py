@@ -89,6 +89,11 @@ def masked(path: str) -> bool:
     return any(_within(path, root) for root in _masks())
 
 
+def shown(path: str, visible: Iterable[str]) -> bool:
+    """Whether the host's file is the one that is seen inside, when `visible` is bound back."""
+    return not masked(path) or any(_within(path, root) for root in visible)
+
+
 def needs_binding(paths: Iterable[str]) -> list[str]:
     """Of `paths`, the existing ones that are hidden inside, each as given and resolved, outermost only.
 
@@ -99,7 +104,8 @@ def needs_binding(paths: Iterable[str]) -> list[str]:
         if not path or not os.path.isabs(path):
             continue
         for form in (os.path.normpath(path), os.path.realpath(path)):
-            if masked(form) and not any(_within(root, form) for root in _masks()) and os.path.lexists(form):
+            too_much = any(_within(root, form) for root in (*_masks(), home()))
+            if masked(form) and not too_much and os.path.lexists(form):
                 wanted.add(form)
     kept: list[str] = []
     for path in sorted(wanted):

@@ -7,13 +7,15 @@ import logging
 import os
 import sys
 import threading
+from collections.abc import Iterable
+from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
-from preflight_analysis.tracing.observation import Dependencies, Observation, observe
+from preflight_analysis.tracing.observation import Observation, observe
 from preflight_analysis.tracing.request import TraceRequest
 
 _log = logging.getLogger(__name__)
@@ -66,21 +68,18 @@ class Tracer:
                 recipe,
                 request,
                 observed.interface,
-                _on_host(observed.dependencies, visible),
+                replace(observed.dependencies, files=on_host(observed.dependencies.files, visible)),
                 listings=_searched(observed, recipe, request),
                 started=raw.started,
             )
         return observed.interface
 
 
-def _on_host(dependencies: Dependencies, visible: list[str]) -> Dependencies:
-    """Without the files that were the sandbox's own: the host's of the same name are others."""
-    kept: dict[str, None] = {}
-    for opened in dependencies.files:
-        path = _source(opened)
-        if not sandbox.masked(path) or any(path == root or path.startswith(root + "/") for root in visible):
-            kept[path] = None
-    return Dependencies(tuple(kept), dependencies.params, dependencies.asked)
+def on_host(files: Iterable[str], visible: Iterable[str]) -> tuple[str, ...]:
+    """The sources of what was opened, without the files that were the sandbox's own: the host's of the same name are
+    others."""
+    sources = dict.fromkeys(_source(opened) for opened in files)
+    return tuple(path for path in sources if sandbox.shown(path, visible))
 
 
 def _source(path: str) -> str:

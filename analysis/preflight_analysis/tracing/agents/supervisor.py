@@ -187,13 +187,13 @@ def _limit(limits: dict[str, int]) -> None:
         resource.setrlimit(which, (value, value))
 
 
-def _exec(job: dict[str, Any], failure: int) -> None:
-    """In the child: become the node. Returns never; what went wrong is written to the pipe `failure`."""
+def _exec(job: dict[str, Any], failure: int, output: Optional[int]) -> None:
+    """In the child: become the node or command. Returns never; what went wrong is written to the pipe `failure`."""
     try:
         os.setsid()
         null = os.open(os.devnull, os.O_RDWR)
         os.dup2(null, 0)
-        os.dup2(null, 1)
+        os.dup2(null if output is None else output, 1)
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it, and what is ignored stays so over an exec
         os.chdir(job["cwd"])
         _limit(job["rlimits"])
@@ -222,29 +222,23 @@ def main() -> None:
 
 def _main() -> None:
     job = json.load(sys.stdin)
-    if _host_is_gone():
+    if host_is_gone():
         return
     for folder in job["folders"]:
         os.makedirs(folder, exist_ok=True)
     os.mkfifo(FIFO, 0o600)
     events = os.open(FIFO, os.O_RDWR | os.O_NONBLOCK | os.O_CLOEXEC)
+    run = Run(job)
+    if "output" in job:
+        from . import command  # noqa: PLC0415
+
+        command.watch(run, events)
+        return
     listening = socket.socket()
     listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     listening.bind(("127.0.0.1", MASTER_PORT))
     listening.listen(64)
-
-    wake_read, wake_write = os.pipe()
-    os.set_blocking(wake_write, False)
-    failure_read, failure_write = os.pipe()
-    signal.set_wakeup_fd(wake_write)
-    signal.signal(signal.SIGCHLD, lambda *_: None)
-    run = Run(job)
-    run.emit({"own": {"ev": "started"}})
-    pid = os.fork()
-    if pid == 0:
-        _exec(job, failure_write)
-    os.close(failure_write)
-    run.pid = pid
+    wake_read, failure_read = start(run)
     # After the fork on purpose: until the node reaches its first call, the sockets' backlog holds it.
     from . import stub_master  # noqa: PLC0415
 
@@ -257,7 +251,7 @@ def _main() -> None:
         failed = os.read(failure_read, 1000)
         if failed:
             status, why = "exec-failed", failed.decode(errors="replace")
-    run.emit({"own": {"ev": "maps", "paths": _shared_objects(pid)[:2000]}})
+    run.emit({"own": {"ev": "maps", "paths": _shared_objects(run.pid)[:2000]}})
     run.emit(
         {
             "own": {
@@ -274,11 +268,35 @@ def _main() -> None:
     )
 
 
-def _host_is_gone() -> bool:
+def start(run: Run, output: Optional[int] = None) -> tuple[int, int]:
+    """Start the job's process, its standard output to the pipe `output`. Two pipes: one can be read when a child
+    ended, the other has what kept the process from starting."""
+    wake_read, wake_write = os.pipe()
+    os.set_blocking(wake_write, False)
+    failure_read, failure_write = os.pipe()
+    signal.set_wakeup_fd(wake_write)
+    signal.signal(signal.SIGCHLD, lambda *_: None)
+    run.emit({"own": {"ev": "started"}})
+    run.pid = os.fork()
+    if run.pid == 0:
+        _exec(run.job, failure_write, output)
+    os.close(failure_write)
+    return wake_read, failure_read
+
+
+def host_is_gone() -> bool:
     """Whether nobody reads our output any more."""
     poll = select.poll()
     poll.register(1, 0)
     return bool(poll.poll(0))
+
+
+def exit_code(pid: int) -> Optional[int]:
+    """The exit code of a child that has ended, minus the signal if one ended it."""
+    done, status = os.waitpid(pid, os.WNOHANG)
+    if done != pid:
+        return None
+    return -os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
 
 
 def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
@@ -289,18 +307,16 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
         ended = None
         if wake in ready:
             os.read(wake, 512)
-            done, status = os.waitpid(run.pid, os.WNOHANG)
-            if done == run.pid:
-                ended = -os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
-        rest = _drain(run, events, rest)
+            ended = exit_code(run.pid)
+        rest = drain(run, events, rest)
         if ended is not None:
             return "ended", ended, ""
-        reason = "abandoned" if _host_is_gone() else run.over()
+        reason = "abandoned" if host_is_gone() else run.over()
         if reason is not None:
             return reason, None, ""
 
 
-def _drain(run: Run, events: int, rest: bytes) -> bytes:
+def drain(run: Run, events: int, rest: bytes) -> bytes:
     """What stands in the FIFO, but no more than fits into it at once: a flood must not keep us from the clock."""
     for _ in range(16):
         try:

@@ -1,0 +1,264 @@
+"""The command of a parameter to its result: from the cache, or by a run in the sandbox.
+
+As roslaunch does it (roslaunch.loader.Loader.param_value): split as a shell would, run without a shell in roslaunch's
+own folder and environment, an error if it does not end with exit code 0, its standard output read as UTF-8.
+"""
+
+from __future__ import annotations
+
+import base64
+import functools
+import hashlib
+import json
+import logging
+import os
+import re
+import shlex
+import shutil
+import signal
+import sys
+import threading
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing import run, sandbox
+from preflight_analysis.tracing.observation import paths, stderr_tail
+from preflight_analysis.tracing.store import MAX_BYTES, Store, changed_since, fingerprint
+from preflight_analysis.tracing.trace import on_host
+
+_log = logging.getLogger(__name__)
+
+SCHEMA = "ros-preflight/command-cache/1"
+MAX_ENTRY_BYTES = 16 << 20
+_NO_NETWORK = re.compile(
+    r"Network is unreachable|Name or service not known|Temporary failure in name resolution|Connection refused"
+    r"|[Uu]nable to (communicate|contact|register) with (my |the )?(ROS )?master",
+)
+_LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
+
+
+class CommandCache(Store):
+    """What commands printed.
+
+    An entry depends on the files that Python programs opened or looked for, and on the program and every existing
+    file that its arguments name, also within an argument as for `bash -c`. What other programs (a shell's `cat`, a
+    compiled generator) read besides is not seen: an entry stays valid when only that changes.
+    """
+
+    def __init__(self, folder: Path | None = None, max_bytes: int = MAX_BYTES) -> None:
+        super().__init__("commands", SCHEMA, MAX_ENTRY_BYTES, folder, max_bytes)
+
+    def load(self, recipe: recipes.Recipe, packages: str) -> str | None:
+        """What it printed, if no file that it depended on has changed."""
+        for path, entry in self._entries(self._place(recipe, packages)):
+            try:
+                output: str = entry["output"]
+                valid = all(fingerprint(name) == known for name, known in entry["files"].items())
+            except (KeyError, TypeError, AttributeError):
+                continue
+            if valid and isinstance(output, str):
+                self._used(path)
+                return output
+        return None
+
+    def store(
+        self, recipe: recipes.Recipe, packages: str, output: str, files: Iterable[str], *, started: float
+    ) -> bool:
+        """Keep the output of a run that began at `started`. False if a file has changed since, or the disk refused."""
+        known = {path: fingerprint(path) for path in dict.fromkeys(files)}
+        if any(changed_since(path, started) for path in known):
+            return False
+        return self._keep(self._place(recipe, packages), known, {"files": known, "output": output})
+
+    def _place(self, recipe: recipes.Recipe, packages: str) -> Path:
+        named = {"argv": list(recipe.argv), "env": dict(recipe.stable), "cwd": recipe.cwd, "packages": packages}
+        return self._folder_of(named)
+
+
+@dataclass(slots=True)
+class _Ended:
+    """A run as its records have it."""
+
+    status: str = ""
+    code: int | None = None
+    why: str = ""
+    output: bytes = b""
+    files: dict[str, None] = field(default_factory=dict)
+    wrote: dict[str, None] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class _Job:
+    """A command whose program is there."""
+
+    recipe: recipes.Recipe
+    named: tuple[str, ...]
+    """The program, and the existing files that the arguments name."""
+    visible: list[str]
+
+
+class CommandRunner:
+    """Runs commands of one environment in the folder `cwd`. Usable from several threads at once."""
+
+    def __init__(self, environment: Environment, cwd: str, cache: CommandCache | None) -> None:
+        self.environment = environment
+        self.cwd = cwd
+        self.cache = cache
+
+    def lookup(self, line: str) -> CommandResult | None:
+        """The cached result, if it is still valid; nothing is run."""
+        try:
+            job = self._job(line)
+            if isinstance(job, CommandResult):
+                return job
+            output = self.cache.load(job.recipe, self._packages) if self.cache is not None else None
+            return CommandResult("done", output) if output is not None else None
+        except Exception:
+            _log.exception("looking up the command %s failed", line)
+            return None
+
+    def run(self, line: str, cancel: threading.Event) -> CommandResult:
+        """The cached result, or that of a new run. Never raises: what stands in the way is the result's reason."""
+        found = self.lookup(line)
+        if found is not None:
+            return found
+        try:
+            return self._run(line, cancel)
+        except Exception as error:
+            _log.exception("running the command %s failed", line)
+            return CommandResult("not-run", reason=f"the run failed: {error}")
+
+    @functools.cached_property
+    def _packages(self) -> str:
+        """A digest of where packages are: programs find them by looking into folders, which leaves no trace."""
+        places = sorted((package.name, package.share) for package in self.environment.packages.values())
+        return hashlib.sha256(json.dumps(places).encode(errors="surrogatepass")).hexdigest()
+
+    @functools.cached_property
+    def _visible(self) -> list[str]:
+        return recipes.visible_paths(self.environment)
+
+    @property
+    def _interpreter(self) -> str:
+        return self.environment.python or sys.executable
+
+    def _job(self, line: str) -> _Job | CommandResult:
+        try:
+            words = shlex.split(line)
+        except ValueError as error:
+            return CommandResult("failed", reason=f"it cannot be split into words: {error}")
+        if not words:
+            return CommandResult("failed", reason="it is empty")
+        program = os.path.join(self.cwd, words[0]) if "/" in words[0] else words[0]
+        executable = shutil.which(program, path=recipes.search_path(self.environment))
+        if executable is None:
+            return CommandResult("missing", reason=f"there is no program {words[0]}")
+        recipe = recipes.make_command(self.environment, executable, words[1:], self.cwd)
+        named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
+        beyond = recipes.command_paths(executable, named[1:], self.cwd, self._interpreter)
+        return _Job(recipe, named, sorted({*self._visible, *beyond}))
+
+    def _run(self, line: str, cancel: threading.Event) -> CommandResult:
+        status = sandbox.probe()
+        if not status.works:
+            return CommandResult("not-run", reason=f"no sandbox: {status.reason}")
+        job = self._job(line)
+        if isinstance(job, CommandResult):
+            return job
+        if cancel.is_set():
+            return CommandResult("not-run", reason="the run was cancelled")
+        raw = run.execute_command(job.recipe, job.visible, self._interpreter, cancel)
+        ended = _read(raw)
+        result = _result(raw, ended)
+        if result.status == "failed":
+            return _sandbox_to_blame(result, job, ended) or result
+        if result.status == "done" and self.cache is not None:
+            files = (*job.named, *on_host(ended.files, job.visible))
+            self.cache.store(job.recipe, self._packages, result.output, files, started=raw.started)
+        return result
+
+
+def _files_of(words: Iterable[str], cwd: str) -> Iterator[str]:
+    """The regular files that arguments name: `file`, `name:=file`, `--option=file`, or a word within an argument."""
+    for word in words:
+        candidates = [word, word.partition("=")[2]]
+        if any(c.isspace() for c in word):
+            candidates += re.split(r"[\s'\";|&<>()]+", word)
+        for candidate in candidates:
+            path = os.path.join(cwd, candidate)
+            if candidate and "\0" not in candidate and os.path.isfile(path):
+                yield os.path.normpath(path)
+
+
+def _read(raw: run.RawRun) -> _Ended:
+    """The records that a run of a command has; anything else is left out."""
+    ended = _Ended()
+    pieces: list[bytes] = []
+    for record in raw.records:
+        own, told = record.get("own"), record.get("node")
+        if isinstance(own, dict) and own.get("ev") == "output" and isinstance(own.get("data"), str):
+            pieces.append(base64.b64decode(own["data"]))
+        elif isinstance(own, dict) and own.get("ev") == "end":
+            ended.status, ended.why = str(own.get("status")), str(own.get("why"))
+            code: Any = own.get("code")
+            ended.code = code if isinstance(code, int) else None
+        elif isinstance(told, dict) and told.get("ev") == "files":
+            ended.files.update(dict.fromkeys(paths(told.get("paths"))))
+        elif isinstance(told, dict) and told.get("ev") == "wrote":
+            ended.wrote.update(dict.fromkeys(paths([told.get("path")])))
+    ended.output = b"".join(pieces)
+    return ended
+
+
+def _result(raw: run.RawRun, ended: _Ended) -> CommandResult:
+    tail = stderr_tail(raw.stderr)
+    if raw.cancelled:
+        return CommandResult("not-run", reason="the run was cancelled", stderr_tail=tail)
+    if raw.killed or ended.status == "timed-out":
+        return CommandResult("not-run", reason=f"it did not end within {run.COMMAND_SECONDS:g} s", stderr_tail=tail)
+    if ended.status == "too-long" or raw.dropped:
+        limit = f"{run.COMMAND_BYTES >> 20} MiB"
+        return CommandResult("not-run", reason=f"it printed more than {limit}", stderr_tail=tail)
+    if ended.status == "exec-failed":
+        return CommandResult("failed", reason=f"it cannot be started: {ended.why}", stderr_tail=tail)
+    if ended.status != "ended" or ended.code is None:
+        said = f": {tail[-1]}" if tail else ""
+        return CommandResult("not-run", reason=f"the sandbox ended before it did{said}", stderr_tail=tail)
+    if -ended.code in _LIMITS:
+        return CommandResult("not-run", reason="it needed more than the sandbox gives it", stderr_tail=tail)
+    if ended.code < 0:
+        return CommandResult("failed", reason=f"it was killed by {_signal(-ended.code)}", stderr_tail=tail)
+    if ended.code:
+        return CommandResult("failed", reason=f"it ended with exit code {ended.code}", stderr_tail=tail)
+    try:
+        return CommandResult("done", ended.output.decode())
+    except UnicodeDecodeError as error:
+        return CommandResult("failed", reason=f"what it printed is not UTF-8: {error.reason}", stderr_tail=tail)
+
+
+def _signal(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def _sandbox_to_blame(result: CommandResult, job: _Job, ended: _Ended) -> CommandResult | None:
+    """A failure that would most likely not be one outside: of what the sandbox keeps from a command."""
+    said = "\n".join(result.stderr_tail)
+    hidden = [p for p in (*job.named, *ended.files) if not sandbox.shown(p, job.visible) and os.path.exists(p)]
+    written = [p for p in ended.wrote if sandbox.shown(p, job.visible) and not p.startswith(("/dev/", "/proc/"))]
+    if hidden:
+        why = f"it needs {hidden[0]}, which the sandbox hides"
+    elif written or "Read-only file system" in said:
+        why = f"it writes {written[0] if written else 'files'}, which the sandbox does not let it"
+    elif _NO_NETWORK.search(said):
+        why = "it needs a network or a ROS master, which the sandbox does not have"
+    else:
+        return None
+    return CommandResult("not-run", reason=f"{result.reason} in the sandbox; {why}", stderr_tail=result.stderr_tail)

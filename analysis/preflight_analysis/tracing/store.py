@@ -1,0 +1,198 @@
+"""What runs gave, on disk: entries that are valid for as long as nothing that they depended on has changed.
+
+A file per entry, JSON, in a folder per recipe; written to a temporary name and renamed, so that any number of processes
+can share the folder. Whatever cannot be read, is cut off or was written by another version is a miss.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import json
+import os
+import stat
+import tempfile
+import threading
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+MAX_BYTES = 64 << 20
+VARIANTS = 32
+"""How many entries one recipe may have: nodes of one executable with different parameters or names, files in
+different states."""
+
+_HASHED_BYTES = 8 << 20
+"""Larger files count by size and time."""
+_SYSTEM = ("/usr/", "/lib/", "/lib64/", "/opt/", "/etc/", "/bin/", "/sbin/")
+_SWEEP_EVERY = 32
+
+
+class Store:
+    """Entries below `folder`; together they stay below about `max_bytes`, least recently used first out.
+
+    `schema` is the version of the entries, `name` the folder's name in the user's cache where none is given.
+    """
+
+    def __init__(self, name: str, schema: str, entry_bytes: int, folder: Path | None, max_bytes: int) -> None:
+        self.folder = folder or Path(platformdirs.user_cache_dir("ros-preflight")) / name
+        self.max_bytes = max_bytes
+        self._schema = schema
+        self._entry_bytes = entry_bytes
+        self._stores = 0
+        self._lock = threading.Lock()
+
+    def _entries(self, place: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
+        """The readable entries of a recipe."""
+        try:
+            paths = sorted(place.glob("*.json"))
+        except OSError:
+            return
+        for path in paths:
+            entry = self._read(path)
+            if entry is not None:
+                yield path, entry
+
+    def _used(self, path: Path) -> None:
+        """Note that an entry was of use."""
+        with contextlib.suppress(OSError):
+            os.utime(path)
+
+    def _keep(self, place: Path, conditions: Any, entry: Mapping[str, Any]) -> bool:
+        """Write an entry; one under the same conditions is replaced. False if it is too large or the disk refused."""
+        try:
+            data = json.dumps({"schema": self._schema, **entry}, sort_keys=True).encode()
+        except (TypeError, ValueError):
+            return False
+        # The check sum tells a truncated or overwritten file; the content is nobody's secret.
+        data = hashlib.sha256(data).hexdigest().encode() + b"\n" + data
+        if len(data) > self._entry_bytes:
+            return False
+        name = hashlib.sha256(json.dumps(conditions, sort_keys=True).encode()).hexdigest()
+        try:
+            place.mkdir(parents=True, exist_ok=True, mode=0o700)
+            _write(place / f"{name[:32]}.json", data)
+            self._trim(place)
+            self._sweep()
+        except OSError:
+            return False
+        return True
+
+    def _folder_of(self, recipe: Mapping[str, Any]) -> Path:
+        """Where the entries of a recipe are."""
+        named = {"agents": _agents_digest(), "schema": self._schema, **recipe}
+        digest = hashlib.sha256(json.dumps(named, sort_keys=True).encode(errors="surrogatepass")).hexdigest()
+        return self.folder / digest[:2] / digest
+
+    def _read(self, path: Path) -> dict[str, Any] | None:
+        try:
+            if path.stat().st_size > self._entry_bytes:
+                return None
+            checksum, _, data = path.read_bytes().partition(b"\n")
+            if hashlib.sha256(data).hexdigest().encode() != checksum:
+                return None
+            entry = json.loads(data)
+        except (OSError, ValueError, RecursionError):
+            return None
+        return entry if isinstance(entry, dict) and entry.get("schema") == self._schema else None
+
+    def _trim(self, place: Path) -> None:
+        entries = sorted(place.glob("*.json"), key=_last_used)
+        for path in entries[: max(0, len(entries) - VARIANTS)]:
+            path.unlink(missing_ok=True)
+
+    def _sweep(self) -> None:
+        with self._lock:
+            self._stores += 1
+            if self._stores % _SWEEP_EVERY != 1:
+                return
+        self.sweep()
+
+    def sweep(self) -> None:
+        """Remove the least recently used entries until the rest fits, and what interrupted writes left behind."""
+        entries: list[tuple[float, int, Path]] = []
+        for path in self.folder.glob("*/*/*"):
+            with contextlib.suppress(OSError):
+                info = path.stat()
+                entries.append((info.st_mtime, info.st_size, path))
+        total = sum(size for _, size, _ in entries)
+        for _, size, path in sorted(entries):
+            if total <= self.max_bytes:
+                break
+            with contextlib.suppress(OSError):
+                path.unlink()
+                total -= size
+                path.parent.rmdir()
+
+
+def fingerprint(path: str) -> str:
+    """What tells that a file is the same: its content's digest, for the system's files time and size; "" if absent.
+
+    Only regular files are opened: the name may come from a node.
+    """
+    try:
+        info = os.stat(path)
+    except (OSError, ValueError):
+        return ""
+    if not stat.S_ISREG(info.st_mode):
+        return "no file"
+    if path.startswith(_SYSTEM) or info.st_size > _HASHED_BYTES:
+        return f"{info.st_mtime_ns}:{info.st_size}"
+    return _digest(path, info.st_mtime_ns, info.st_size, info.st_ino)
+
+
+@functools.lru_cache(maxsize=4096)
+def _digest(path: str, mtime: int, size: int, inode: int) -> str:
+    try:
+        with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
+            return hashlib.sha256(file.read(_HASHED_BYTES)).hexdigest()
+    except OSError:
+        return "unreadable"
+
+
+def listing(folder: str) -> str:
+    """A digest of the names in a folder that an `import` could find."""
+    try:
+        found = sorted(n for n in os.listdir(folder) if n.endswith((".py", ".so", ".pth", ".zip")) or n.isidentifier())
+    except OSError:
+        return ""
+    return hashlib.sha256("\0".join(found).encode(errors="surrogatepass")).hexdigest()
+
+
+def changed_since(path: str, moment: float) -> bool:
+    """Whether a file was written after a moment (seconds since the epoch): a run that read it may have read either."""
+    try:
+        return os.stat(path).st_mtime >= moment
+    except (OSError, ValueError):
+        return False
+
+
+@functools.lru_cache(maxsize=1)
+def _agents_digest() -> str:
+    """Of our own code that makes a trace: another version of it sees other things."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("**/*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _last_used(path: Path) -> float:
+    try:
+        return path.stat().st_mtime
+    except OSError:
+        return 0.0
+
+
+def _write(path: Path, data: bytes) -> None:
+    descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=".tmp")
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(data)
+        os.replace(temporary, path)
+    except OSError:
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
+        raise
