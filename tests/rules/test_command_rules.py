@@ -42,6 +42,19 @@ def test_a_command_that_fails_stops_the_launch() -> None:
     assert found.stops_launch
 
 
+def test_advice_after_the_error_is_left_out() -> None:
+    (found,) = check("""
+        <launch>
+          <param name="a" command="xacro a.xacro"/>
+                                   ^^^^^^^^^^^^^ error[PRM008] code 2; parsing error: x; in file: a.xacro
+        </launch>
+        //- commands
+        {"xacro a.xacro": {"status": "failed", "reason": "exit code 2", "stderr_tail":
+         ["warning: old", "parsing error: x", "in file: a.xacro", "", "Check:", "- this", "- that"]}}
+    """)
+    assert found.message.endswith("a.xacro; Check:")
+
+
 def test_of_a_traceback_the_last_line_is_told() -> None:
     check("""
         <launch>

@@ -16,6 +16,7 @@ from preflight_analysis.rules.rule import Context, Rule
 _DEBIAN = {"xacro": "xacro", "rosrun": "rosbash", "rospack": "rospack", "rosparam": "rosparam"}
 """Programs that robot descriptions are made with, and the end of the names of their packages (`ros-noetic-xacro`)."""
 _TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
+_ERROR = re.compile(r"\berror\b", re.IGNORECASE)
 _STDERR_LINES = 3
 
 
@@ -37,7 +38,12 @@ def _message(problem: Problem) -> str:
     if problem.kind == "command-malformed":
         return f"the command cannot be split into words: {problem.data['message']}"
     lines = [line.strip() for line in problem.data["stderr"] if line.strip()]
-    told = lines[-1:] if any(_TRACEBACK.match(line) for line in lines) else lines[-_STDERR_LINES:]
+    if any(_TRACEBACK.match(line) for line in lines):
+        told = lines[-1:]
+    else:
+        # xacro says what is wrong and where, and may go on with advice.
+        start = next((n for n, line in enumerate(lines) if _ERROR.search(line)), max(0, len(lines) - _STDERR_LINES))
+        told = lines[start : start + _STDERR_LINES]
     return "; ".join([f"the command failed: {problem.data['reason']}", *told])
 
 

@@ -39,6 +39,7 @@ _NO_NETWORK = re.compile(
     r"Network is unreachable|Name or service not known|Temporary failure in name resolution|Connection refused"
     r"|[Uu]nable to (communicate|contact|register) with (my |the )?(ROS )?master",
 )
+_PATH = re.compile(r"(?<![\w.])/[^\s:;,'\"`()<>\[\]]+")
 _LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
 
 
@@ -158,9 +159,11 @@ class CommandRunner:
         executable = shutil.which(program, path=recipes.search_path(self.environment))
         if executable is None:
             return CommandResult("missing", reason=f"there is no program {words[0]}")
+        if words[0] in ("python3", "python") and self.environment.python is not None:
+            executable = self.environment.python  # as for `#!/usr/bin/env python3`
         recipe = recipes.make_command(self.environment, executable, words[1:], self.cwd)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
-        beyond = recipes.command_paths(executable, named[1:], self.cwd, self._interpreter)
+        beyond = recipes.command_paths(recipe, executable, named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
     def _run(self, line: str, cancel: threading.Event) -> CommandResult:
@@ -251,7 +254,8 @@ def _signal(number: int) -> str:
 def _sandbox_to_blame(result: CommandResult, job: _Job, ended: _Ended) -> CommandResult | None:
     """A failure that would most likely not be one outside: of what the sandbox keeps from a command."""
     said = "\n".join(result.stderr_tail)
-    hidden = [p for p in (*job.named, *ended.files) if not sandbox.shown(p, job.visible) and os.path.exists(p)]
+    met = (*job.named, *ended.files, *_PATH.findall(said))
+    hidden = [p for p in met if not sandbox.shown(p, job.visible) and os.path.exists(p)]
     written = [p for p in ended.wrote if sandbox.shown(p, job.visible) and not p.startswith(("/dev/", "/proc/"))]
     if hidden:
         why = f"it needs {hidden[0]}, which the sandbox hides"

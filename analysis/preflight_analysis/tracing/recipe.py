@@ -115,13 +115,14 @@ def request_paths(request: TraceRequest) -> list[str]:
     return sandbox.needs_binding(_program_paths(request.executable))
 
 
-def command_paths(executable: str, files: Iterable[str], cwd: str, interpreter: str) -> list[str]:
-    """What a command needs to see besides: its program, the folder it runs in, the files it names with what is beside
-    them, and the interpreter of the supervisor. Files in hidden folders, such as `~/.ssh`, stay hidden."""
+def command_paths(recipe: Recipe, executable: str, files: Iterable[str], interpreter: str) -> list[str]:
+    """What a command needs to see besides: its program and those of the PATH, the folder it runs in, the files it names
+    with what is beside them, and the interpreter of the supervisor. Files in hidden folders, such as `~/.ssh`, stay
+    hidden."""
     named = [path for path in files if "/." not in path + os.path.realpath(path)]
     beside = [os.path.dirname(path) for path in named]
-    paths = [*_program_paths(executable), cwd, *named, *beside, *_interpreter_paths(interpreter)]
-    return sandbox.needs_binding(paths)
+    programs = [*_program_paths(executable), *recipe.stable["PATH"].split(os.pathsep), *_interpreter_paths(interpreter)]
+    return sandbox.needs_binding([*programs, recipe.cwd, *named, *beside])
 
 
 def _program_paths(executable: str) -> list[str]:

@@ -1,14 +1,18 @@
-"""Many traces, a few at a time."""
+"""Many runs, a few at a time."""
 
 from __future__ import annotations
 
 import queue
 import threading
 from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
+
+_Job = TypeVar("_Job")
+_Result = TypeVar("_Result")
 
 
 def trace_all(
@@ -19,15 +23,27 @@ def trace_all(
     on_done: Callable[[int, Interface], None],
     cancel: threading.Event,
 ) -> None:
-    """Trace `requests` in their order and return when all are done; equal ones are traced once.
+    """Trace `requests` as `run_all` runs jobs."""
+    run_all(tracer.trace, requests, workers=workers, on_done=on_done, cancel=cancel)
 
-    `on_done(index, interface)` is called for each request, one call at a time, from the worker threads. Once `cancel`
-    is set the runs under way are killed and the rest are told as not run. Raises what `on_done` raised, after the
-    others are done.
+
+def run_all(
+    run: Callable[[_Job, threading.Event], _Result],
+    jobs: Sequence[_Job],
+    *,
+    workers: int = 2,
+    on_done: Callable[[int, _Result], None],
+    cancel: threading.Event,
+) -> None:
+    """Run `jobs` in their order and return when all are done; equal ones are run once.
+
+    `on_done(index, result)` is called for each job, one call at a time, from the worker threads. Once `cancel` is set
+    the runs under way are killed and the rest are told as not run. Raises what `on_done` raised, after the others are
+    done.
     """
     groups: list[list[int]] = []
-    for index, request in enumerate(requests):
-        same = next((group for group in groups if requests[group[0]] == request), None)
+    for index, job in enumerate(jobs):
+        same = next((group for group in groups if jobs[group[0]] == job), None)
         if same is None:
             groups.append([index])
         else:
@@ -44,11 +60,11 @@ def trace_all(
                 group = waiting.get_nowait()
             except queue.Empty:
                 return
-            interface = tracer.trace(requests[group[0]], cancel)
+            result = run(jobs[group[0]], cancel)
             with telling:
                 for index in group:
                     try:
-                        on_done(index, interface)
+                        on_done(index, result)
                     except Exception as error:
                         failures.append(error)
 

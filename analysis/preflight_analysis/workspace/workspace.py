@@ -12,6 +12,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
@@ -50,12 +51,16 @@ class Workspace:
     """The engine behind server and command. Thread-safe.
 
     `cwd` is what relative paths in launch files are relative to, the folder where roslaunch would be called.
+    `commands` knows what commands of parameters gave; none was run where it is left out.
     """
 
-    def __init__(self, environment: Environment, sources: Sources, cwd: str | None = None) -> None:
+    def __init__(
+        self, environment: Environment, sources: Sources, cwd: str | None = None, commands: Commands | None = None
+    ) -> None:
         self.environment = environment
         self.sources = sources
-        self._cwd = cwd or environment.workspace or os.getcwd()
+        self.commands = commands or NoResults()
+        self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
         self._lock = threading.Lock()
         self._static: dict[tuple[str, tuple[tuple[str, str], ...]], Analysis] = {}
@@ -93,7 +98,7 @@ class Workspace:
 
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered."""
-        return evaluate(path, args, self.sources, self._executables, self.environment, self._cwd)
+        return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, self.commands)
 
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
@@ -126,7 +131,9 @@ class Workspace:
         return replace(analysis, graph=graph, findings=tuple(run_rules(context)), why_not_run=why_not_run)
 
     def _unchanged(self, tree: LaunchTree) -> bool:
-        return all(self.sources.digest(path) == known for path, known in tree.inputs.items())
+        return all(self.sources.digest(path) == known for path, known in tree.inputs.items()) and all(
+            self.commands.result(command.line) == command.result for command in tree.commands
+        )
 
     def _documents(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
         launch_files: dict[str, LaunchFile] = {}

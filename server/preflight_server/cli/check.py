@@ -13,9 +13,10 @@ from preflight_server.cli.output import print_json, print_text
 from preflight_server.cli.project import open_project, run_nodes
 
 HELP = "what is wrong with a launch file"
-DESCRIPTION = """Tells what is wrong with a launch file and everything it includes. The nodes are run in a sandbox,
-without network and with your files out of reach of their writes, to see what they publish, subscribe to and read:
-calling this command is your consent. With --no-run nothing is executed, and what only a run can tell is missing."""
+DESCRIPTION = """Tells what is wrong with a launch file and everything it includes. The nodes, and the commands that
+parameters come from, are run in a sandbox, without network and with your files out of reach of their writes, to see
+what they publish, subscribe to, read and print: calling this command is your consent. With --no-run nothing is
+executed, and what only a run can tell is missing."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

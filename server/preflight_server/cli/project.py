@@ -12,9 +12,11 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.report import place
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -39,12 +41,26 @@ class Project:
 
 
 def open_project(args: argparse.Namespace) -> Project:
-    """Analyse FILE with its arguments; nothing is run. Raises `CannotDoError` for a file that is not there."""
+    """Analyse FILE with its arguments. The commands of its parameters are run in the sandbox, unless with --no-run.
+
+    Raises `CannotDoError` for a file that is not there.
+    """
     path = options.launch_file(args)
     values = options.launch_args(args.launch_args)
     environment = detect(path, package_path=options.package_path(args))
-    workspace = Workspace(environment, Sources())
-    return Project(workspace, workspace.static(path, values))
+    results = CommandResults(lambda: NO_RUN if args.no_run else None)
+    workspace = Workspace(environment, Sources(), commands=results)
+    analysis = workspace.static(path, values)
+    lines = command_lines(analysis.tree)
+    if lines and not args.no_run:
+        cancel = threading.Event()
+        try:
+            results.update(run_commands(CommandRunner(environment, workspace.cwd, CommandCache()), lines, cancel))
+        except KeyboardInterrupt:
+            cancel.set()
+            raise
+        analysis = workspace.static(path, values)
+    return Project(workspace, analysis)
 
 
 def run_nodes(project: Project, no_run: bool, only: str | None = None) -> Analysis:

@@ -20,7 +20,8 @@ from preflight_server.cli.project import exit_code, open_project, say_errors
 
 HELP = "what a launch file would start"
 DESCRIPTION = """Shows the nodes with their names, parameters, remaps and environment, and where each comes from.
-Nothing is executed. With --batch many launch files are answered in one process, one line of JSON each."""
+No node is run; the commands that parameters come from are, in a sandbox, unless with --no-run or --batch. With
+--batch many launch files are answered in one process, one line of JSON each."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

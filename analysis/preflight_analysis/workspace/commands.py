@@ -1,0 +1,60 @@
+"""The results of commands that the trees of a workspace are made with."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+
+from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.tracing.commands import CommandRunner
+from preflight_analysis.tracing.schedule import run_all
+
+
+class CommandResults:
+    """Implements `evaluation.commands.Commands`. Thread-safe.
+
+    `why_not_run` tells why commands are not run; None where they are, and those without a result have yet to be.
+    """
+
+    def __init__(self, why_not_run: Callable[[], str | None]) -> None:
+        self._why_not_run = why_not_run
+        self._results: Mapping[str, CommandResult] = {}
+
+    def result(self, line: str) -> CommandResult | None:
+        """The result of a command line, or why it has none."""
+        found = self._results.get(line)
+        if found is None and (why := self._why_not_run()) is not None:
+            return CommandResult("not-run", reason=why)
+        return found
+
+    def update(self, results: Mapping[str, CommandResult]) -> None:
+        """Take over results."""
+        self._results = {**self._results, **results}
+
+    def clear(self) -> None:
+        """Forget all results."""
+        self._results = {}
+
+
+def command_lines(tree: LaunchTree) -> tuple[str, ...]:
+    """Its command lines, each once."""
+    return tuple(dict.fromkeys(command.line for command in tree.commands))
+
+
+def run_commands(
+    runner: CommandRunner,
+    lines: Sequence[str],
+    cancel: threading.Event,
+    on_done: Callable[[int, CommandResult], None] = lambda index, result: None,
+) -> dict[str, CommandResult]:
+    """The results of command lines, from the cache or a run; of those that were cancelled none."""
+    results: dict[str, CommandResult] = {}
+
+    def done(index: int, result: CommandResult) -> None:
+        if result.status != "not-run" or not cancel.is_set():
+            results[lines[index]] = result
+        on_done(index, result)
+
+    run_all(runner.run, lines, on_done=done, cancel=cancel)
+    return results

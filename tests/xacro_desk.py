@@ -1,0 +1,60 @@
+"""A package path with the real xacro of ROS 1, and a robot that is described with it in several files."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import time
+from pathlib import Path
+
+XACRO = """#!/usr/bin/env python3
+import os, sys
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+import xacro, yaml
+yaml.load = lambda file: yaml.SafeLoader(file).get_data()  # this xacro is older than PyYAML 6
+xacro.main()
+"""
+ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="side" default="left"/>
+  <xacro:include filename="$(find arm)/urdf/macros.xacro"/>
+  <xacro:property name="sizes" value="${load_yaml('%s')}"/>
+  <xacro:finger name="$(arg side)_thumb" length="${sizes['thumb']}"/>
+</robot>
+"""
+MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="finger" params="name length"><link name="${name}" length="${length}"/></xacro:macro>
+</robot>
+"""
+LAUNCH = """<launch>
+  <arg name="side" default="right"/>
+  <param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro side:=$(arg side)"/>
+</launch>
+"""
+
+
+def lay_robot(folder: Path) -> Path:
+    """Make `folder` a catkin workspace with packages `xacro` and `arm`, all of yesterday. Its launch file."""
+    (spec,) = [importlib.util.find_spec("xacro")]
+    assert spec is not None, "xacro is missing: pip install --group dev"
+    assert spec.origin is not None
+    xacro, arm = folder / "xacro", folder / "arm"
+    shutil.copytree(Path(spec.origin).parent, xacro / "lib/xacro", ignore=shutil.ignore_patterns("__pycache__"))
+    (xacro / "xacro").write_text(XACRO)
+    (xacro / "xacro").chmod(0o755)
+    (arm / "urdf").mkdir(parents=True)
+    (arm / "urdf/sizes.yaml").write_text("thumb: 0.25\n")
+    (arm / "urdf/arm.xacro").write_text(ARM % (arm / "urdf/sizes.yaml"))
+    (arm / "urdf/macros.xacro").write_text(MACROS)
+    (arm / "urdf/unrelated.xacro").write_text(MACROS)
+    (folder / ".catkin_workspace").touch()
+    (arm / "launch").mkdir()
+    launch = arm / "launch/arm.launch"
+    launch.write_text(LAUNCH)
+    for package in (xacro, arm):
+        manifest = f"<package><name>{package.name}</name><version>1.0.0</version></package>"
+        (package / "package.xml").write_text(manifest)
+    yesterday = time.time() - 86400
+    for path in folder.rglob("*"):
+        os.utime(path, (yesterday, yesterday))
+    return launch
