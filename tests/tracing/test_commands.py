@@ -296,7 +296,7 @@ def test_it_cannot_take_for_ever(desk: Desk, monkeypatch: pytest.MonkeyPatch) ->
         assert found.status == "not-run", found
         assert found.reason in ("it did not end within 1 s", "it printed more than 8 MiB")
     assert time.monotonic() - began < 6
-    assert processes_with(marker) == []
+    wait_for(lambda: processes_with(marker) == [])
 
 
 @pytest.mark.parametrize("line", ["cat /dev/zero", "yes", "bash -c 'yes | head -c 10000000'"])
@@ -350,7 +350,7 @@ def test_cancelling_kills_it(desk: Desk) -> None:
     found = desk.runner.run(f"bash -c 'sleep 60' {marker}", cancel)
     assert found == CommandResult("not-run", reason="the run was cancelled")
     assert time.monotonic() - began < 2
-    assert processes_with(marker) == []
+    wait_for(lambda: processes_with(marker) == [])
 
 
 def test_without_a_working_sandbox_nothing_runs(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
