@@ -26,7 +26,7 @@ import json
 import re
 import textwrap
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -149,12 +149,14 @@ def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run
             text = sources.text(path)
             if isinstance(text, Document):
                 documents[path] = text
-    context = Context(fixture.root, tree, documents, launch_files, environment, why_not_run=why_not_run)
+    context = Context(
+        fixture.root, tree, documents, launch_files, environment, why_not_run=why_not_run, sources=sources
+    )
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:
         return context
     graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}))
-    return Context(fixture.root, tree, documents, launch_files, environment, graph, why_not_run)
+    return replace(context, graph=graph)
 
 
 def findings_of(text: str, **options: Any) -> list[Finding]:
@@ -235,10 +237,12 @@ def interfaces_of(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]
 
 def environment_of(fixture: Fixture) -> Environment:
     packages = {"p": Package("p", "/p", "/p/package.xml")}
-    for path in fixture.files:
+    for path, text in fixture.files.items():
         folder = PurePosixPath(path)
         if folder.name == "package.xml":
-            packages[folder.parent.name] = Package(folder.parent.name, str(folder.parent), path)
+            name = next(iter(re.findall(r"<name>(.*)</name>", text)), folder.parent.name)
+            dependencies = frozenset(re.findall(r"depend>(.*)</", text))
+            packages[name] = Package(name, str(folder.parent), path, dependencies)
     return Environment(1, "noetic", {}, ("/",), packages, {}, (), (), "/usr/bin/python3")
 
 

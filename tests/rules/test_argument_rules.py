@@ -23,13 +23,30 @@ def test_an_undeclared_argument_is_reported_in_its_own_file() -> None:
 
 
 def test_an_argument_is_not_known_before_its_declaration() -> None:
-    check("""
+    findings = check("""
         <launch>
           <param name="a" value="$(arg b)"/>
-                                 ^^^^^^^^ error[ARG001] argument 'b' is not declared
+                                 ^^^^^^^^ error[ARG001] argument 'b' is not declared before this place
           <arg name="b" default="1"/>
+          <group><arg name="c" value="1"/><param name="d" value="$(arg c)"/></group>
+          <param name="e" value="$(arg c)"/>
+                                 ^^^^^^^^ error[ARG001] argument 'c' is not declared here, but in another <group>
         </launch>
     """)
+    assert [finding.related[0].message for finding in findings] == ["declared here"] * 2
+    assert [finding.fixes for finding in findings] == [(), ()]
+
+
+def test_an_argument_is_declared_by_a_fix() -> None:
+    text = """
+        <launch>
+          <param name="a" value="$(arg rate)"/>
+                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared
+        </launch>
+    """
+    (finding,) = check(text)
+    changed = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert changed.startswith('<launch>\n  <arg name="rate"/>\n  <param')
 
 
 def test_a_required_argument_that_is_not_passed() -> None:
@@ -41,6 +58,29 @@ def test_a_required_argument_that_is_not_passed() -> None:
         //- /inc.launch
         <launch><arg name="serial"/><param name="a" value="$(arg serial)"/></launch>
     """)
+
+
+def test_a_required_argument_is_passed_by_a_fix() -> None:
+    text = """
+        <launch>
+          <arg name="serial" default="7"/>
+          <param name="a" value="$(arg serial)"/>
+          <include file="/inc.launch"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] '/inc.launch' requires argument 'serial', which is not passed
+        </launch>
+        //- /inc.launch
+        <launch><arg name="serial"/><param name="a" value="$(arg serial)"/></launch>
+    """
+    (finding,) = check(text)
+    assert finding.fixes[0].preferred
+    changed = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert '<include file="/inc.launch">\n    <arg name="serial" value="$(arg serial)"/>\n  </include>' in changed
+    unknown = text.replace('name="serial" default', 'name="other" default').replace(
+        '"a" value="$(arg serial)', '"a" value="$(arg other)', 1
+    )
+    (finding,) = check(unknown)
+    assert not finding.fixes[0].preferred
+    assert '<arg name="serial" value=""/>' in apply(unknown, finding.fixes[0].edits)["/main.launch"]
 
 
 def test_an_argument_that_the_command_line_must_give() -> None:
@@ -70,6 +110,8 @@ def test_an_argument_that_the_included_file_does_not_declare() -> None:
     """
     (finding,) = check(text)
     assert '<arg name="frames" value="map"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
+    without = '<launch>\n  <include file="/inc.launch">\n  </include>'
+    assert apply(text, finding.fixes[1].edits)["/main.launch"].startswith(without)
 
 
 def test_pass_all_args_passes_what_nobody_declares() -> None:
@@ -93,6 +135,23 @@ def test_an_argument_declared_twice() -> None:
         </launch>
     """)
     assert finding.related[0].message == "declared here"
+
+
+def test_an_argument_that_is_passed_twice() -> None:
+    text = """
+        <launch>
+          <include file="/inc.launch">
+            <arg name="a" value="1"/>
+            <arg name="a" value="2"/>
+                       ^ error[ARG005] argument 'a' is passed already
+          </include>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="a"/><param name="b" value="$(arg a)"/></launch>
+    """
+    (finding,) = check(text)
+    assert finding.related[0].message == "passed here"
+    assert 'value="2"' not in apply(text, finding.fixes[0].edits)["/main.launch"]
 
 
 def test_of_two_declarations_under_conditions_one_counts() -> None:

@@ -28,6 +28,19 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
     assert "$(find rospy_tutorials)/x" in apply(text, find.fixes[0].edits)["/main.launch"]
 
 
+def test_a_package_that_its_folder_names_otherwise() -> None:
+    text = """
+        <launch>
+          <node pkg="robot-master" type="base" name="n"/>
+                     ^^^^^^^^^^^^ error[PKG001] the folder /ws/robot-master holds package 'robot'
+        </launch>
+        //- /ws/robot-master/package.xml
+        <package><name>robot</name></package>
+    """
+    (finding,) = check(text)
+    assert 'pkg="robot"' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
 def test_a_package_in_a_tag_that_is_not_taken_is_not_looked_for() -> None:
     check("""
         <launch>
@@ -134,3 +147,85 @@ def test_a_link_to_an_executable_or_a_copy_of_it_is_no_second_one(launch: Path) 
     (launch.parent / "copies" / "listener").write_text("#!/bin/sh\n")
     (launch.parent / "copies" / "listener").chmod(0o755)
     assert judge(launch, "listener") == []
+
+
+MANIFEST = """
+        //- /robot/package.xml
+        <package format="2">
+          <name>robot</name>
+          <depend>camera</depend>
+          <!-- <exec_depend>old</exec_depend> -->
+        </package>
+        //- /camera/package.xml
+        <package/>
+        //- /rviz/package.xml
+        <package/>
+"""
+
+
+def test_a_package_that_the_manifest_does_not_name() -> None:
+    text = (
+        """
+        //- /robot/launch/robot.launch
+        <launch>
+          <node pkg="camera" type="driver" name="driver"/>
+          <node pkg="robot" type="base" name="base"/>
+          <node pkg="rviz" type="rviz" name="rviz" args="$(find rviz)"/>
+                     ^^^^ hint[PKG004] 'rviz' is not among the dependencies that the package.xml of 'robot' names
+        </launch>"""
+        + MANIFEST
+    )
+    (finding,) = check(text)
+    changed = apply(text, finding.fixes[0].edits)["/robot/package.xml"]
+    assert "  <depend>camera</depend>\n  <exec_depend>rviz</exec_depend>\n  <!--" in changed
+
+
+@pytest.mark.parametrize(
+    ("file", "head", "line"),
+    [
+        ("/robot/robot.launch", "<package>", "<run_depend>rviz</run_depend>"),
+        ("/robot/robot.launch", '<package format="3">', "<exec_depend>rviz</exec_depend>"),
+        ("/robot/test/all.launch", '<package format="2">', "<test_depend>rviz</test_depend>"),
+    ],
+)
+def test_the_first_dependency_of_a_manifest(file: str, head: str, line: str) -> None:
+    text = f"""
+        //- {file}
+        <launch><param name="a" value="$(find rviz)"/></launch>
+                                              ^^^^ hint[PKG004]
+        //- /robot/package.xml
+        {head}
+          <name>robot</name>
+        </package>
+        //- /rviz/package.xml
+        <package/>
+    """
+    (finding,) = check(text)
+    assert f"</name>\n  {line}\n</package>" in apply(text, finding.fixes[0].edits)["/robot/package.xml"]
+
+
+def test_a_file_outside_of_any_package_needs_no_manifest() -> None:
+    check(
+        """
+        //- /launch/all.launch
+        <launch><node pkg="rviz" type="rviz" name="rviz"/></launch>"""
+        + MANIFEST
+    )
+
+
+def test_an_executable_of_another_package_of_the_launch(launch: Path) -> None:
+    other = launch.parent.parent / "other" / "nodes"
+    other.mkdir(parents=True)
+    (other / "filter").write_text("#!/bin/sh\n")
+    (other / "filter").chmod(0o755)
+    launch.write_text('<launch><node pkg="demo" type="filter" name="n"/></launch>')
+    for dependencies, hint in ((frozenset({"other"}), "; package 'other' has it"), (frozenset[str](), "spaces")):
+        packages = {
+            "demo": Package("demo", str(launch.parent), "", dependencies),
+            "other": Package("other", str(other.parent), ""),
+        }
+        environment = Environment(1, "noetic", {}, (str(launch.parent.parent),), packages, {}, (), (), None)
+        (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
+        assert (finding.rule, finding.severity) == ("PKG002", "error")
+        assert finding.message.endswith(hint)
+        assert [edit.text for fix in finding.fixes for edit in fix.edits] == sorted(dependencies)

@@ -32,7 +32,7 @@ KINDS: dict[str, str] = {
     "arg-required": "name, file (the included), passed (list): an include without a value for a required arg. fatal",
     "root-arg-required": "name: the root file needs name:=value on the command line. fatal",
     "include-arg-undeclared": "name, file (the included), declared (list): roslaunch stops with 'unused args'. fatal",
-    "arg-redeclared": "name, first (Location): declared twice in one file. fatal",
+    "arg-redeclared": "name, first (Location), passed: declared twice in a file, or passed twice in an include. fatal",
     "arg-override": "name: an include passes a value for an arg that the file fixes with value=. fatal",
     "include-arg-no-value": "name: <arg> in an <include> without value. fatal",
     # includes and files

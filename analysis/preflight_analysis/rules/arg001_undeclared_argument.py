@@ -1,7 +1,31 @@
 """ARG001: $(arg) of an argument that is not declared."""
 
-from preflight_analysis.rules.problems import check_names
-from preflight_analysis.rules.rule import Rule
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.arguments import declarations, declare
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        name, place = str(problem.data["name"]), problem.location
+        message = f"argument '{name}' is not declared"
+        launch_file = context.launch_files.get(place.file)
+        elsewhere = declarations(launch_file).get(name, ()) if launch_file is not None else ()
+        if elsewhere:
+            later = elsewhere[0].span.start > place.span.start
+            where = "before this place" if later else "here, but in another <group> or under a condition"
+            declared = Related("declared here", Location(place.file, elsewhere[0].head_span))
+            yield problem_finding(rule, problem, f"{message} {where}", related=(declared,))
+            continue
+        near = nearest(name, problem.data["declared"])
+        fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
+        yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
+
 
 RULE = Rule(
     id="ARG001",
@@ -13,6 +37,6 @@ RULE = Rule(
     "are included get it only if it is passed.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',
     instead='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camera)"/>',
-    check=check_names(lambda problem: f"argument '{problem.data['name']}' is not declared", "name", "declared"),
+    check=_check,
     problems=("arg-undeclared",),
 )

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.arguments import pass_on
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -13,7 +14,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         name, file = str(problem.data["name"]), shown(str(problem.data["file"]), context)
         near = nearest(name, problem.data["passed"])
         hint = f"; it passes '{near}'" if near else ""
-        yield problem_finding(rule, problem, f"'{file}' requires argument '{name}', which is not passed{hint}")
+        message = f"'{file}' requires argument '{name}', which is not passed{hint}"
+        yield problem_finding(rule, problem, message, fixes=pass_on(context, problem.location, name))
 
 
 RULE = Rule(

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -12,7 +13,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(rule, context):
         name, file = str(problem.data["name"]), shown(str(problem.data["file"]), context)
         near = nearest(name, problem.data["declared"])
-        fixes = rename(context, problem.location, name, near) if near else ()
+        fixes = (
+            *(rename(context, problem.location, name, near) if near else ()),
+            *remove_at(context, problem.location, f"Do not pass argument '{name}'"),
+        )
         yield problem_finding(rule, problem, f"'{file}' declares no argument '{name}'{did_you_mean(near)}", fixes=fixes)
 
 

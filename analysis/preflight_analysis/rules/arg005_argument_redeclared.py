@@ -1,23 +1,26 @@
-"""ARG005: an argument is declared twice."""
+"""ARG005: an argument is declared or passed twice."""
 
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(rule, context):
-        message = f"argument '{problem.data['name']}' is declared already"
-        yield problem_finding(rule, problem, message, related=(Related("declared here", problem.data["first"]),))
+        name, done = problem.data["name"], "passed" if problem.data["passed"] else "declared"
+        related = (Related(f"{done} here", problem.data["first"]),)
+        fixes = remove_at(context, problem.location, f"Remove this <arg> and keep the first '{name}'")
+        yield problem_finding(rule, problem, f"argument '{name}' is {done} already", related=related, fixes=fixes)
 
 
 RULE = Rule(
     id="ARG005",
     name="argument-redeclared",
     severity="error",
-    what="Reports a second `<arg>` of the same name in one file.",
+    what="Reports a second `<arg>` of the same name in one file, or in one `<include>`.",
     why="`roslaunch` stops. Two declarations under conditions of which only one is true are fine.",
     example='<arg name="rate" default="10"/>\n<arg name="rate" default="20"/>',
     instead='<arg name="rate" default="20"/>',

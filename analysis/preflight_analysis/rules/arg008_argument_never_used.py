@@ -1,13 +1,14 @@
 """ARG008: an argument that its file declares and does not use."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
-from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.launch.model import LaunchFile, Value
+from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.per_file import per_file
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -22,7 +23,6 @@ _FALSE = ("false", "0", "")
 class _Arguments:
     """What a file does with arguments, conditions or not. `substituted` are files that it loads with subst_value."""
 
-    declared: Mapping[str, tuple[Action, ...]]
     used: frozenset[str]
     passes_all: bool
     substituted: tuple[Value, ...]
@@ -40,7 +40,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if launch_file.document.problems or launch_file.document.entities:
             continue
         arguments = _arguments(launch_file)
-        unused = arguments.declared.keys() - arguments.used
+        declared = declarations(launch_file)
+        unused = declared.keys() - arguments.used
         if not unused or arguments.passes_all:
             continue
         in_texts = _used_in_texts(context, path, arguments.substituted)
@@ -48,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         # An include that passes it would break without the declaration: it is part of what the files agreed on.
         for name in sorted(unused - in_texts - passed.get(path, set())):
-            tags = arguments.declared[name]
+            tags = declared[name]
             value = tags[0].value("name")
             span = value.span if value is not None else tags[0].head_span
             origin = (*origins.get(path, ()), Location(path, span))
@@ -63,7 +64,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 @per_file
 def _arguments(launch_file: LaunchFile) -> _Arguments:
-    declared: dict[str, list[Action]] = {}
     used: set[str] = set()
     substituted: list[Value] = []
     passes_all = False
@@ -79,20 +79,7 @@ def _arguments(launch_file: LaunchFile) -> _Arguments:
                 file = action.value("file")
                 if file is not None:
                     substituted.append(file)
-        for action in _declarations(launch_file.root):
-            name = action.value("name")
-            if name is not None and name.is_literal and name.text:
-                declared.setdefault(name.text, []).append(action)
-    tags = {name: tuple(actions) for name, actions in declared.items()}
-    return _Arguments(tags, frozenset(used), passes_all, tuple(substituted))
-
-
-def _declarations(action: Action) -> Iterator[Action]:
-    for child in action.children:
-        if child.kind == "arg":
-            yield child
-        elif child.kind == "group":
-            yield from _declarations(child)
+    return _Arguments(frozenset(used), passes_all, tuple(substituted))
 
 
 def _references(text: str) -> set[str]:

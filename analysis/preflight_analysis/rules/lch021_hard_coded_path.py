@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.model import Action, LaunchFile, Literal
 from preflight_analysis.rules.per_file import per_file
 from preflight_analysis.rules.problems import include_chain
@@ -39,7 +39,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"'{text}' is {what}{instead}",
                 location,
-                severity="hint" if text.startswith("/opt/") else None,
+                severity=_severity(text, in_package),
                 confidence="certain" if in_package else "likely",
                 related=include_chain((*origins.get(path, ()), location)),
                 fixes=fixes,
@@ -85,6 +85,13 @@ def _what(text: str, context: Context) -> str | None:
     if not text.startswith(_SYSTEM) and os.path.isfile(text) and _in_package(text, context):
         return "where this package is on this machine"
     return None
+
+
+def _severity(text: str, in_package: str | None) -> Severity | None:
+    """A path that leads nowhere, to a file that is here under another path, is more than a matter of style."""
+    if in_package and not os.path.exists(text):
+        return "warning"
+    return "hint" if _ROS.match(text) else None
 
 
 def _in_package(text: str, context: Context) -> str | None:

@@ -1,8 +1,10 @@
 """PKG001: a package that is not there."""
 
+import os
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
@@ -24,13 +26,15 @@ def _finding(
     rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], *, stops: bool
 ) -> Finding:
     packages = context.environment.packages
-    near = nearest(name, packages)
+    renamed = _in_folder_of_that_name(context, name)
+    near = renamed.name if renamed is not None else nearest(name, packages)
     fixes = rename(context, location, name, near) if near else ()
     # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
     expected = near is None and context.environment.python is None
     note = "; no ROS is installed here, so the packages of ROS itself are not known" if expected else ""
+    hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     return rule.finding(
-        f"package '{name}' is not among the {len(packages)} packages of this environment{note}{did_you_mean(near)}",
+        f"package '{name}' is not among the {len(packages)} packages of this environment{note}{hint}",
         location,
         severity="info" if expected else None,
         confidence="possible" if expected else "certain",
@@ -40,12 +44,22 @@ def _finding(
     )
 
 
+def _in_folder_of_that_name(context: Context, name: str) -> Package | None:
+    """The package whose folder is named so, while its package.xml says something else: that one counts for ROS."""
+    environment = context.environment
+    for package in (*environment.packages.values(), *(p for others in environment.shadowed.values() for p in others)):
+        if os.path.basename(package.share.rstrip("/")) == name and package.name != name:
+            return package
+    return None
+
+
 RULE = Rule(
     id="PKG001",
     name="package-not-found",
     severity="error",
     what="Reports a package, in `$(find ...)` or as a node's `pkg`, that is neither on the package path nor in the "
-    "workspace, and names the nearest one. Where no ROS is installed this is for information only.",
+    "workspace, and names the nearest one, or the one whose folder has that name and whose `package.xml` another. "
+    "Where no ROS is installed this is for information only.",
     why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
     "command `ros-preflight doctor` shows where packages are looked for.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

@@ -4,11 +4,13 @@ from collections.abc import Iterator
 from pathlib import PurePath
 
 from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Package
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -28,14 +30,37 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(message, location, severity="info", confidence="likely", related=chain)
             continue
         names = executables.names(node.package)
+        holder = _other_package(context, executables, node)
         near = nearest(node.executable, names) or nearest(node.executable, names, key=_stem)
+        if holder is not None:
+            hint = f"; package '{holder}' has it"
+            fixes = rename(context, attribute_location(node, "pkg"), node.package, holder)
+        else:
+            hint = did_you_mean(near)
+            fixes = rename(context, location, node.executable, near) if near else ()
         yield rule.finding(
             f"package '{node.package}' has no executable '{node.executable}'; looked at its {len(names)} executables "
-            f"in {found.package_path} and the devel and install spaces{did_you_mean(near)}",
+            f"in {found.package_path} and the devel and install spaces{hint}",
             location,
             related=chain,
-            fixes=rename(context, location, node.executable, near) if near else (),
+            fixes=fixes,
         )
+
+
+def _other_package(context: Context, executables: ExecutableNames, node: LaunchNode) -> str | None:
+    """A package that has the executable: one that another node of the launch is of, or that this one depends on.
+
+    Not any one of the workspace: each that is asked for the first time is walked through.
+    """
+    packages = context.environment.packages
+    wanted = {other.package for other in context.tree.nodes} | packages[node.package].dependencies
+    own = {name for name in wanted - {node.package} if name in packages and _is_own(context, packages[name])}
+    return next((name for name in sorted(own) if node.executable in executables.names(name)), None)
+
+
+def _is_own(context: Context, package: Package) -> bool:
+    """Whether it is no package of an installed ROS, which have hundreds of executables and many of one name."""
+    return not any(package.share.startswith(f"{prefix}/") for prefix in context.environment.system_prefixes)
 
 
 def _stem(name: str) -> str:
@@ -46,9 +71,9 @@ RULE = Rule(
     id="PKG002",
     name="executable-not-found",
     severity="error",
-    what="Reports a node whose `type` is no executable file of its package, and names the nearest one that is; or that "
-    "is there without the permission to be executed. One that the package's `CMakeLists.txt` names is not built yet: "
-    "that is for information only.",
+    what="Reports a node whose `type` is no executable file of its package, and names the nearest one that is, or the "
+    "package of the launch that has it; or that is there without the permission to be executed. One that the "
+    "package's `CMakeLists.txt` names is not built yet: that is for information only.",
     why="`roslaunch` prints an error among the output of the other nodes and goes on without this one.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',

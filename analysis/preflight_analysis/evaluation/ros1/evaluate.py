@@ -256,7 +256,7 @@ def _passed_args(
             state.problem("attributes-exclude", scope.origin(child.kind_span), tag="arg", names=names_given)
             continue
         if name in seen and not pass_all:
-            state.problem("arg-redeclared", scope.origin(span), name=name, first=seen[name])
+            state.problem("arg-redeclared", scope.origin(span), name=name, first=seen[name], passed=True)
             continue
         seen.setdefault(name, Location(scope.file, span))
         given = value if value is not None else default

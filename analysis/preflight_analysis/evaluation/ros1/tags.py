@@ -71,7 +71,8 @@ def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
         state.problem("attributes-exclude", scope.origin(action.kind_span), tag="arg", names=["value", "default"])
         default = None
     if name in scope.declared and not scope.pass_all_args:
-        state.problem("arg-redeclared", scope.origin(span), name=name, first=scope.declared[name])
+        first = scope.declared[name]
+        state.problem("arg-redeclared", scope.origin(span), name=name, first=first, passed=False)
         return
     scope.declared.setdefault(name, location)
     given = scope.args.get(name)

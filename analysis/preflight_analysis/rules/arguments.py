@@ -1,0 +1,64 @@
+"""The arguments that a launch file declares, and the edits that declare and pass them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from xml.sax.saxutils import quoteattr
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Fix
+from preflight_analysis.findings.insertion import insert_child, remove_tag
+from preflight_analysis.launch.model import Action, LaunchFile, action_at
+from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.rules.rule import Context
+
+
+@per_file
+def declarations(launch_file: LaunchFile) -> Mapping[str, tuple[Action, ...]]:
+    """The `<arg>` tags of each name, those in groups too; tags in includes pass arguments and declare none."""
+    found: dict[str, list[Action]] = {}
+    for action in _declarations(launch_file.root) if launch_file.root is not None else ():
+        name = action.value("name")
+        if name is not None and name.is_literal and name.text:
+            found.setdefault(name.text, []).append(action)
+    return {name: tuple(actions) for name, actions in found.items()}
+
+
+def _declarations(action: Action) -> Iterator[Action]:
+    for child in action.children:
+        if child.kind == "arg":
+            yield child
+        elif child.kind == "group":
+            yield from _declarations(child)
+
+
+def remove_at(context: Context, location: Location, title: str) -> tuple[Fix, ...]:
+    """A fix that removes the tag at `location`."""
+    launch_file = context.launch_files.get(location.file)
+    action = action_at(launch_file, location.span.start) if launch_file is not None else None
+    if launch_file is None or action is None:
+        return ()
+    return (Fix(title, (remove_tag(launch_file.document, action.span),)),)
+
+
+def declare(context: Context, file: str, name: str) -> tuple[Fix, ...]:
+    """A fix that declares an argument at the beginning of a launch file."""
+    launch_file = context.launch_files.get(file)
+    if launch_file is None or launch_file.root is None or launch_file.document.problems:
+        return ()
+    edit = insert_child(launch_file.root, launch_file.document, f"<arg name={quoteattr(name)}/>")
+    return (Fix(f"Declare argument '{name}'", (edit,)),)
+
+
+def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:
+    """A fix that passes an argument in the `<include>` whose start tag is at `include`: the includer's own argument of
+    that name if it has one, else an empty value to be filled in."""
+    launch_file = context.launch_files.get(include.file)
+    action = action_at(launch_file, include.span.start + 1) if launch_file is not None else None
+    if launch_file is None or action is None or action.kind.lower() != "include" or launch_file.document.problems:
+        return ()
+    known = name in declarations(launch_file)
+    value = f"$(arg {name})" if known else ""
+    child = f'<arg name={quoteattr(name)} value="{value}"/>'
+    edit = insert_child(action, launch_file.document, child)
+    return (Fix(f"Pass argument '{name}'" + (" on" if known else ""), (edit,), known),)

@@ -1,0 +1,107 @@
+"""PKG004: a package that a launch file needs and the package.xml above it does not name."""
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^>]*>[^<]*</\w+>", re.MULTILINE)
+_END = re.compile(r"^([ \t]*)</package\s*>", re.MULTILINE)
+_FORMAT = re.compile(r"<package\b[^>]*\bformat\s*=\s*[\"']([23])[\"']")
+_TEST_FOLDERS = ("test", "tests")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    packages = context.environment.packages
+    by_folder = {package.share.rstrip("/"): package for package in packages.values()}
+    origins = {include.path: include.origin for include in reversed(context.tree.includes)}
+    for path, launch_file in context.launch_files.items():
+        owner = _owner(path, by_folder)
+        if owner is None or any(owner.share.startswith(f"{p}/") for p in context.environment.system_prefixes):
+            continue
+        for name, span in _used_packages(launch_file).items():
+            # One that is not there at all is another rule's: it may well be a wrong name.
+            if name == owner.name or name in owner.dependencies or name not in packages:
+                continue
+            location = Location(path, span)
+            manifest = os.path.basename(owner.manifest)
+            yield rule.finding(
+                f"package '{name}' is not among the dependencies that the {manifest} of '{owner.name}' names",
+                location,
+                related=include_chain((*origins.get(path, ()), location)),
+                fixes=_fixes(context, owner, name, path),
+            )
+
+
+def _owner(path: str, by_folder: Mapping[str, Package]) -> Package | None:
+    folder = os.path.dirname(path)
+    while folder not in by_folder:
+        above = os.path.dirname(folder)
+        if above == folder:
+            return None
+        folder = above
+    return by_folder[folder]
+
+
+@per_file
+def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
+    """The packages that the file names, under whatever conditions, each with the first place."""
+    found: dict[str, Span] = {}
+    if launch_file.root is None:
+        return found
+    for action in launch_file.root.walk():
+        for attribute in action.attributes:
+            value = attribute.value
+            if attribute.name == "pkg" and action.kind.lower() in ("node", "test") and value.is_literal:
+                found.setdefault(value.text, value.span)
+            for part in value.substitutions:
+                if part.command == "find" and part.arguments:
+                    found.setdefault(part.arguments, part.arguments_span)
+    return found
+
+
+def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
+    manifest = context.sources.text(owner.manifest) if context.sources is not None else None
+    if not isinstance(manifest, Document) or os.path.basename(owner.manifest) != MANIFEST:
+        return ()
+    text = _COMMENT.sub(lambda comment: " " * len(comment[0]), manifest.text)
+    folders = file[len(owner.share) :].split("/")
+    tag = "exec_depend" if _FORMAT.search(text) else "run_depend"
+    if file.endswith(".test") or any(folder in _TEST_FOLDERS for folder in folders):
+        tag = "test_depend"
+    line = f"<{tag}>{name}</{tag}>"
+    newline = "\r\n" if "\r\n" in text else "\n"
+    last = next(reversed([*_DEPENDENCY.finditer(text)]), None)
+    end = _END.search(text)
+    if last is not None:
+        edit = Edit(Location(owner.manifest, Span(last.end(), last.end())), f"{newline}{last[1]}{line}")
+    elif end is not None:
+        edit = Edit(Location(owner.manifest, Span(end.start(), end.start())), f"{end[1]}  {line}{newline}")
+    else:
+        return ()
+    return (Fix(f"Add {line} to package.xml of '{owner.name}'", (edit,), True),)
+
+
+RULE = Rule(
+    id="PKG004",
+    name="package-not-in-manifest",
+    severity="hint",
+    what="Points out a package that a launch file uses, as `pkg` of a node or in `$(find ...)`, and that the package "
+    "to which the file belongs does not name in its `package.xml`, as a dependency of whatever kind. Each package is "
+    "spoken of once in a file.",
+    why="Where the package is installed with `rosdep` or from a binary, what it does not name is not installed: the "
+    "launch file works only where somebody else needed it. `roslaunch_add_file_check` reports the same in a build.",
+    example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
+    instead="<exec_depend>rviz</exec_depend>",
+    check=_check,
+)
