@@ -1,16 +1,19 @@
-"""Places in a text. Offsets are code points, counted from 0; only the server converts them to an editor's units."""
+"""Places in a text. Offsets are code points, counted from 0; only the server converts them to an editor's units.
+
+They are named tuples, not data classes, as is all of which a keystroke makes thousands: those are made three times as
+fast.
+"""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass
+from typing import NamedTuple
 
 _LINE_END = re.compile(r"\r\n?|\n")
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Span:
+class Span(NamedTuple):
     """The half-open range `[start, end)` of code points in one text."""
 
     start: int
@@ -21,8 +24,7 @@ class Span:
         return self.start <= offset <= self.end
 
 
-@dataclass(frozen=True, slots=True)
-class Location:
+class Location(NamedTuple):
     """A span of a file; `file` is an absolute path."""
 
     file: str

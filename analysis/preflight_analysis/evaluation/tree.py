@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation.commands import CommandResult
@@ -47,8 +47,7 @@ class Unknown:
     location: Location
 
 
-@dataclass(frozen=True, slots=True)
-class Param:
+class Param(NamedTuple):
     """One parameter as it would be set. `name` is the full name; `overrides` are earlier settings it replaced."""
 
     name: str
@@ -61,8 +60,7 @@ class Param:
     overrides: tuple[Param, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Remap:
+class Remap(NamedTuple):
     """`from` and `to` resolved as roslaunch does; `origin` ends at the `<remap>` tag."""
 
     source: str
@@ -144,8 +142,7 @@ class Arg:
     doc: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Use:
+class Use(NamedTuple):
     """A place in a file that stands for something: what hover and go-to-definition answer from.
 
     `kind` is `arg` (a reference or declaration), `find` (a package), `env`, `include` (a file), `value` (an attribute

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names, values
@@ -47,7 +47,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
     private, remaps, env = _children(state, scope, inside, action, full)
     for param in (*scope.private_params, *private.private_params):
         below = param.name[1:] if names.is_private(param.name) else param.name
-        set_param(state, replace(param, name=names.canonicalize(private.ns + below), owner=full))
+        set_param(state, param._replace(name=names.canonicalize(private.ns + below), owner=full))
     if not _valid(attributes, name, options):
         return
     unknowns = state.unknowns[unknown_before:]

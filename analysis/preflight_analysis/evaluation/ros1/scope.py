@@ -6,7 +6,7 @@ held by a test against the real one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.names import as_namespace, join
@@ -69,7 +69,7 @@ class Scope:
         """A later remap of the same name replaces the earlier one."""
         for old in [r for r in self.own_remaps if r.source == remap.source]:
             self.own_remaps.remove(old)
-            remap = replace(remap, replaces=(*old.replaces, old))
+            remap = remap._replace(replaces=(*old.replaces, old))
         self.own_remaps.append(remap)
 
     def remaps(self) -> list[Remap]:
@@ -82,7 +82,7 @@ class Scope:
         if not hidden:
             return outer + self.own_remaps
         inner = (
-            replace(r, replaces=(*old.replaces, old, *r.replaces)) if (old := hidden.get(r.source)) else r
+            r._replace(replaces=(*old.replaces, old, *r.replaces)) if (old := hidden.get(r.source)) else r
             for r in self.own_remaps
         )
         return [r for r in outer if r.source not in own] + list(inner)
@@ -91,5 +91,5 @@ class Scope:
         """A `~param` for the nodes that come later in this scope."""
         for old in [p for p in self.private_params if p.name == param.name]:
             self.private_params.remove(old)
-            param = replace(param, overrides=(*old.overrides, old))
+            param = param._replace(overrides=(*old.overrides, old))
         self.private_params.append(param)
