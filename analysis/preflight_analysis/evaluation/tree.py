@@ -85,8 +85,7 @@ class Executable:
     """Files of that name that may not be executed: what is missing is a `chmod +x`."""
 
 
-@dataclass(frozen=True, slots=True)
-class LaunchNode:
+class LaunchNode(NamedTuple):
     """One node or test. `kind` as in the contract of `tree --format json`."""
 
     name: str

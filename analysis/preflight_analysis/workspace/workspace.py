@@ -14,6 +14,7 @@ from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.ros1.memo import Memo
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import build_graph
@@ -25,6 +26,9 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.sources import Sources
+
+MAX_ANALYSES = 64
+"""How many analyses are remembered, the latest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +67,8 @@ class Workspace:
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
         self._lock = threading.Lock()
+        self._memo = Memo()
+        self._memo_lock = threading.Lock()
         self._static: dict[tuple[str, tuple[tuple[str, str], ...]], Analysis] = {}
 
     @property
@@ -79,7 +85,7 @@ class Workspace:
             known = self._static.get(key)
         if known is not None and self._unchanged(known.tree):
             return known
-        tree = self.tree(path, args)
+        tree = self._remembering_tree(path, args)
         documents, launch_files = self._documents(tree)
         context = Context(
             path,
@@ -93,17 +99,30 @@ class Workspace:
         findings = tuple(run_rules(context))
         analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, None, findings, None)
         with self._lock:
+            self._static.pop(key, None)
             self._static[key] = analysis
+            if len(self._static) > MAX_ANALYSES:
+                del self._static[next(iter(self._static))]
         return analysis
 
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered."""
         return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, self.commands)
 
+    def _remembering_tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
+        # One thread at a time has the memo; another one does without.
+        if not self._memo_lock.acquire(blocking=False):
+            return self.tree(path, args)
+        try:
+            return evaluate(path, args, self.sources, self._executables, self.environment, self._cwd, memo=self._memo)
+        finally:
+            self._memo_lock.release()
+
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
         with self._lock:
             self._executables = ExecutableIndex(self.environment)
+            self._memo = Memo()
             self._static.clear()
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
+from preflight_analysis.evaluation.ros1.memo import Memo, arg_origins, key_of
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
@@ -43,14 +44,16 @@ def evaluate(
     environment: Environment,
     cwd: str,
     commands: Commands = NO_RESULTS,
+    memo: Memo | None = None,
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
     paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing: the values
-    of commands are those of `commands`, and what it does not know stands in the tree's `commands`.
+    of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With `memo`,
+    includes are not evaluated again that an evaluation with the same executables, environment and `cwd` has met.
     """
-    state = State(files, executables, environment, cwd, commands)
+    state = State(files, executables, environment, cwd, commands, memo)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
     whole = (Location(path, Span(0, 0)),)
@@ -64,6 +67,7 @@ def evaluate(
         _file(state, scope, found, None)
         state.args = _root_args(scope, found)
     _check_machines(state)
+    _check_language(state)
     return LaunchTree(
         path,
         1,
@@ -101,8 +105,6 @@ def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: 
         _conditions_of_launch(state, scope, root)
     if scope.file not in state.visited:
         state.visited.append(scope.file)
-        for found in check_language(launch_file):
-            state.problem(found.kind, (Location(scope.file, found.span),), fatal=False, **found.data)
     return _actions(state, scope, root.children, default_machine) if root is not None else default_machine
 
 
@@ -201,7 +203,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     inside.file, inside.chain = path, origin
     inside.args, inside.declared, inside.anonymous, inside.pass_all_args = passed, {}, {}, pass_all
-    default_machine = _file(state, inside, found, default_machine)
+    default_machine = _included_file(state, inside, found, default_machine)
     if not pass_all:
         declared = sorted(inside.declared)
         for name, tag in tags.items():
@@ -211,9 +213,49 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     return default_machine
 
 
+def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default_machine: str | None) -> str | None:
+    """As `_file`, for an included file: what it adds is taken from the memo, or evaluated by itself and added."""
+    memo, key = state.memo, key_of(inside, default_machine)
+    if memo is None or key is None:
+        return _file(state, inside, launch_file, default_machine)
+    record = memo.get(key, inside, state.is_current)
+    anonymous = state.anonymous_names
+    if record is None:
+        inner, given = state.inner(), arg_origins(inside)
+        below = inside.copy()
+        after = _file(inner, below, launch_file, default_machine)
+        record = inner.record(below, given, after)
+        if inner.depends_on_outside or inner.exhausted:
+            state.depends_on_outside = True
+        else:
+            memo.put(key, record)
+        if state.absorb(record, MAX_INCLUDES):
+            state.exhausted |= inner.exhausted
+            inside.declared = dict(record.declared)
+            return record.default_machine
+    elif state.absorb(record, MAX_INCLUDES):
+        inside.declared = dict(record.declared)
+        return record.default_machine
+    # A node's name is taken, say: then order matters, and all of it is evaluated in its place.
+    state.anonymous_names, state.memo = anonymous, None
+    after = _file(state, inside, launch_file, default_machine)
+    state.memo = memo
+    return after
+
+
+def _check_language(state: State) -> None:
+    """What roslaunch would skip or complain of in each file, whatever its context."""
+    for path in state.visited:
+        launch_file = state.files.launch_file(path)
+        if not isinstance(launch_file, Unreadable):
+            memo = state.memo
+            for found in memo.language(launch_file) if memo is not None else check_language(launch_file):
+                state.problem(found.kind, (Location(path, found.span),), fatal=False, **found.data)
+
+
 def _too_deep(state: State, scope: Scope, action: Action) -> bool:
     """Whether to look no further, which is said once: where includes multiply, each of thousands would say so."""
-    if scope.depth <= MAX_DEPTH and len(state.includes) <= MAX_INCLUDES:
+    if scope.depth <= MAX_DEPTH and state.include_count <= MAX_INCLUDES:
         return False
     if not state.exhausted:
         state.exhausted = True
@@ -280,6 +322,8 @@ def _included(
 ) -> LaunchFile | None:
     """Read the included file; None, with the reason noted, where it cannot be evaluated."""
     above = [location.file for location in scope.chain] + [scope.file]
+    if path in above:
+        state.depends_on_outside = True
     if path in above and _same_args(scope, path, passed):
         state.problem("include-cycle", origin, path=path, chain=[*above[above.index(path) :], path])
         return None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, plain_number, positive_number
-from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam, set_param
+from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved
@@ -47,7 +47,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
     private, remaps, env = _children(state, scope, inside, action, full)
     for param in (*scope.private_params, *private.private_params):
         below = param.name[1:] if names.is_private(param.name) else param.name
-        set_param(state, param._replace(name=names.canonicalize(private.ns + below), owner=full))
+        state.set_param(param._replace(name=names.canonicalize(private.ns + below), owner=full))
     if not _valid(attributes, name, options):
         return
     unknowns = state.unknowns[unknown_before:]

@@ -24,15 +24,6 @@ from preflight_analysis.launch.substitutions import parse_value
 SOURCES = ("value", "textfile", "binfile", "command")
 
 
-def set_param(state: State, param: Param) -> None:
-    """Set a parameter as the last one to do so; what it replaces is kept with it."""
-    old = state.params.pop(param.name, None)
-    if old is not None:
-        overrides = (*old.overrides, old, *param.overrides)
-        param = Param(param.name, param.value, param.origin, param.owner, param.name_location, overrides)
-    state.params[param.name] = param
-
-
 def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | None = None) -> None:
     """A `<param>`: a global one is set, a private one (or any in a node) kept in the scope for the nodes to come."""
     if not applies(state, scope, action):
@@ -58,7 +49,7 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
     if node is not None or names.is_private(name):
         scope.add_private(Param(name, value, origin, node, location))
     else:
-        set_param(state, Param(names.canonicalize(names.join(scope.ns, name)), value, origin, None, location))
+        state.set_param(Param(names.canonicalize(names.join(scope.ns, name)), value, origin, None, location))
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,7 +240,7 @@ def _load(
             found: Origin = origin
             if place is not None and place.file != scope.file:
                 found = (*origin, place)
-            set_param(state, Param(names.canonicalize(name), leaf, found, node, place))
+            state.set_param(Param(names.canonicalize(name), leaf, found, node, place))
     except _BadKeyError as error:
         refuse(f"the key {error.key!r} is not a string", None)
     except _RootValueError:

@@ -6,7 +6,7 @@ held by a test against the real one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.names import as_namespace, join
@@ -63,6 +63,18 @@ class Scope:
             dict(self.declared),
             dict(self.anonymous),
             depth=self.depth + 1,
+        )
+
+    def copy(self) -> Scope:
+        """The same scope, to be changed without changing this one."""
+        return replace(
+            self,
+            own_remaps=list(self.own_remaps),
+            private_params=list(self.private_params),
+            env=list(self.env),
+            args=dict(self.args),
+            declared=dict(self.declared),
+            anonymous=dict(self.anonymous),
         )
 
     def add_remap(self, remap: Remap) -> None:

@@ -126,6 +126,7 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
         attributes.text("password"),
         default != "never",
     )
+    state.depends_on_outside = True
     if machine.name and machine.name not in state.machines:
         state.machines[machine.name] = machine
     elif not machine.name or state.machines[machine.name].settings != machine.settings:
