@@ -1,7 +1,5 @@
 """Annotations: read from elements and comments, used where no run tells better, written from a run."""
 
-from dataclasses import replace
-
 import pytest
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit
@@ -147,7 +145,7 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     root = read_ros1(document).root
     assert root is not None
     node = context.tree.nodes[0]
-    node = replace(node, action=root.children[0])
+    node = node._replace(action=root.children[0])
     edit = annotation_edit(node, interface_from_json({"publishers": {"a": "x/Y"}}), document)
     assert edit is not None
     result = edited(before, edit)
@@ -156,5 +154,5 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     assert parse_xml("/main.launch", result).problems == ()
     newlines = {line[-2:] for line in result.splitlines(keepends=True)}
     assert newlines == {"\r\n"} if "\r\n" in before else "\r\n" not in newlines
-    again = replace(node, action=node_action(result))
+    again = node._replace(action=node_action(result))
     assert annotation_edit(again, interface_from_json({"publishers": {"a": "x/Y"}}), document) is None

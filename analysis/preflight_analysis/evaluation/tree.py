@@ -48,7 +48,8 @@ class Unknown:
 
 
 class Param(NamedTuple):
-    """One parameter as it would be set. `name` is the full name; `overrides` are earlier settings it replaced."""
+    """One parameter as it would be set. `name` is the full name; `overrides` are the
+    earlier settings that it replaced, without those that they replaced."""
 
     name: str
     value: ParamValue

@@ -81,7 +81,7 @@ class Scope:
         """A later remap of the same name replaces the earlier one."""
         for old in [r for r in self.own_remaps if r.source == remap.source]:
             self.own_remaps.remove(old)
-            remap = remap._replace(replaces=(*old.replaces, old))
+            remap = remap._replace(replaces=(*old.replaces, old._replace(replaces=())))
         self.own_remaps.append(remap)
 
     def remaps(self) -> list[Remap]:
@@ -94,7 +94,9 @@ class Scope:
         if not hidden:
             return outer + self.own_remaps
         inner = (
-            r._replace(replaces=(*old.replaces, old, *r.replaces)) if (old := hidden.get(r.source)) else r
+            r._replace(replaces=(*old.replaces, old._replace(replaces=()), *r.replaces))
+            if (old := hidden.get(r.source))
+            else r
             for r in self.own_remaps
         )
         return [r for r in outer if r.source not in own] + list(inner)
@@ -103,5 +105,5 @@ class Scope:
         """A `~param` for the nodes that come later in this scope."""
         for old in [p for p in self.private_params if p.name == param.name]:
             self.private_params.remove(old)
-            param = param._replace(overrides=(*old.overrides, old))
+            param = param._replace(overrides=(*old.overrides, old._replace(overrides=())))
         self.private_params.append(param)

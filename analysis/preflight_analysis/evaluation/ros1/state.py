@@ -153,7 +153,7 @@ class State:
         """Set a parameter as the last one to do so; what it replaces is kept with it."""
         old = self.params.pop(param.name, None)
         if old is not None:
-            param = param._replace(overrides=(*old.overrides, old, *param.overrides))
+            param = param._replace(overrides=(*old.overrides, old._replace(overrides=()), *param.overrides))
         self.params[param.name] = param
 
     def problem(self, kind: str, origin: Origin, *, fatal: bool = True, **data: Any) -> None:

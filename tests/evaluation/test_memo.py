@@ -1,0 +1,107 @@
+"""With the memo of includes a tree is what it is without: at first, when nothing changed, and when text has moved."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.workspace.sources import Sources
+
+FIXTURES = Path(__file__).parents[2] / "fixtures" / "ros1"
+
+INCLUDED = """\
+<launch>
+  <arg name="speed" default="1"/>
+  <param name="~shared" value="$(arg speed)"/>
+  <group ns="inner"><node pkg="p" type="t" name="node"><param name="speed" value="$(arg speed)"/></node></group>
+  <rosparam>{rate: 5}</rosparam>
+</launch>
+"""
+
+
+class Twice:
+    """Evaluates a launch file with one memo throughout, and without."""
+
+    def __init__(self, folder: Path) -> None:
+        self.sources = Sources()
+        self._environment = detect(str(folder), package_path=(str(folder),))
+        self._executables = ExecutableIndex(self._environment)
+        self._memo = Memo()
+        self._cwd = str(folder)
+
+    def tree(self, path: Path) -> LaunchTree:
+        """The tree, which is the same both ways."""
+        common = (str(path), {}, self.sources, self._executables, self._environment, self._cwd)
+        without, remembered = evaluate(*common), evaluate(*common, memo=self._memo)
+        assert remembered == without
+        return without
+
+
+@pytest.mark.parametrize("folder", sorted(FIXTURES.iterdir()), ids=lambda folder: folder.name)
+def test_the_fixtures(folder: Path) -> None:
+    twice = Twice(folder)
+    for path in sorted((*folder.rglob("*.launch"), *folder.rglob("*.xml"))):
+        for text in (path.read_text(errors="replace"), path.read_text(errors="replace").replace(">", ">\n", 1)):
+            twice.sources.open(str(path), text)
+            twice.tree(path)
+        twice.sources.close(str(path))
+
+
+@pytest.mark.parametrize(
+    "includes",
+    [
+        pytest.param('<include file="{0}"/><include file="{0}" ns="b"/>', id="namespaces"),
+        pytest.param('<include file="{0}"/><include file="{0}"/>', id="duplicate names"),
+        pytest.param('<param name="~x" value="1"/><include file="{0}"/>', id="private parameters are shared"),
+        pytest.param('<remap from="a" to="b"/><include file="{0}"/>', id="a remap from above"),
+        pytest.param('<env name="E" value="1"/><include file="{0}"><env name="F" value="2"/></include>', id="env"),
+        pytest.param('<arg name="speed" value="7"/><include file="{0}" pass_all_args="true"/>', id="pass_all_args"),
+        pytest.param('<include file="{0}"><arg name="speed" value="3"/></include>', id="an argument"),
+        pytest.param('<include file="{0}"><arg name="sped" value="3"/></include>', id="an undeclared argument"),
+        pytest.param('<rosparam>{{rate: 1}}</rosparam><include file="{0}"/>', id="a parameter is set again"),
+        pytest.param('<machine name="m" address="a" default="true"/><include file="{0}"/>', id="a default machine"),
+    ],
+)
+def test_what_an_include_depends_on(tmp_path: Path, includes: str) -> None:
+    inner, root = tmp_path / "inner.launch", tmp_path / "root.launch"
+    inner.write_text(INCLUDED)
+    twice = Twice(tmp_path)
+    for above in ("", "\n\n", '<param name="before" value="1"/>', ""):
+        root.write_text(f"<launch>{above}{includes.format(inner)}</launch>")
+        twice.sources.open(str(root), root.read_text())
+        twice.tree(root)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<launch><node pkg="p" type="t" name="$(anon x)"/></launch>',
+        '<launch><machine name="m" address="b"/><node pkg="p" type="t" name="n" machine="m"/></launch>',
+        '<launch><include file="$(dirname)/root.launch"/></launch>',
+        '<launch><node pkg="p" type="t" nam="n"/></launch>',
+    ],
+)
+def test_what_depends_on_the_whole_launch(tmp_path: Path, text: str) -> None:
+    inner, root = tmp_path / "inner.launch", tmp_path / "root.launch"
+    inner.write_text(text)
+    twice = Twice(tmp_path)
+    body = f'<include file="{inner}"/><machine name="m" address="a"/><node pkg="p" type="t" name="$(anon x)"/>'
+    for parts in (body, body + f'<include file="{inner}"/>', f'<include file="{inner}" ns="c"/>' + body):
+        root.write_text(f"<launch>{parts}</launch>")
+        twice.tree(root)
+
+
+def test_a_changed_file_below_is_seen(tmp_path: Path) -> None:
+    inner, root = tmp_path / "inner.launch", tmp_path / "root.launch"
+    root.write_text(f'<launch><include file="{inner}"/></launch>')
+    twice = Twice(tmp_path)
+    assert not twice.tree(root).params
+    inner.write_text(INCLUDED)
+    assert "/rate" in twice.tree(root).params
+    twice.sources.open(str(inner), INCLUDED.replace("rate", "pace"))
+    assert "/pace" in twice.tree(root).params
