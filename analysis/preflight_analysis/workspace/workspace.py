@@ -114,7 +114,7 @@ class Workspace:
         if not self._memo_lock.acquire(blocking=False):
             return self.tree(path, args)
         try:
-            return evaluate(path, args, self.sources, self._executables, self.environment, self._cwd, memo=self._memo)
+            return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, memo=self._memo)
         finally:
             self._memo_lock.release()
 
