@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from preflight_analysis.documents.span import LineIndex, Span
 
@@ -16,8 +17,7 @@ class SyntaxProblem:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SpannedText:
+class SpannedText(NamedTuple):
     """Text after entities were decoded, with the way back to the source.
 
     `offsets` maps each index of `text`, and its end, to an offset in the document; `None` means one to one
@@ -39,8 +39,7 @@ class SpannedText:
         return Span(self.to_document(start), self.to_document(end))
 
 
-@dataclass(frozen=True, slots=True)
-class Attribute:
+class Attribute(NamedTuple):
     """`name="value"`; `span` covers all of it, `value.span` what is between the quotes."""
 
     name: str

@@ -38,6 +38,7 @@ _TAG_LIKE = re.compile(f"<[/!?]?[{_NAME_START}]|<!--|</")
 _JUNK = re.compile(f"[^{_NAME_START} \t\r\n<>/\"'=]+")
 _TEXT_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?")
 _VALUE_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?|[\n\t]")
+_TO_DECODE = re.compile("[&\r\n\t]")
 _COMMENT_MARK = re.compile("<!--|-->")
 _NOT_A_CHARACTER = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]+")
 _ENTITY_DECLARATION = re.compile(f"<!ENTITY{_S}+({NAME}){_S}")
@@ -226,24 +227,21 @@ class _Scanner:
     def _start_tag(self, tag: re.Match[str]) -> None:
         """A start tag that is in order."""
         attributes: list[Attribute] = []
-        if tag.end(2) > tag.start(2):
-            for found in _ATTRIBUTE.finditer(self.text, tag.start(2), tag.end(2)):
-                quoted = 2 if found[2] is not None else 3
-                start, end = found.span(1)
-                attributes.append(
-                    Attribute(
-                        found[1],
-                        Span(start, end),
-                        self._decoded(found.start(quoted), found.end(quoted), _VALUE_SPECIAL),
-                        Span(start, found.end()),
-                    )
-                )
+        start, end = tag.span(2)
+        if end > start:
+            decodes = _TO_DECODE.search(self.text, start, end)
+            for found in _ATTRIBUTE.finditer(self.text, start, end):
+                quoted = found.lastindex or 0  # 2 or 3, by the kind of quote
+                span = Span(*found.span(quoted))
+                value = self._decoded(*span, _VALUE_SPECIAL) if decodes else SpannedText(found[quoted], span)
+                name = Span(*found.span(1))
+                attributes.append(Attribute(found[1], name, value, Span(name.start, found.end())))
         self._opened(tag[1], Span(*tag.span(1)), attributes, tag.end(), empty=bool(tag[3]))
 
     def _opened(
         self, tag: str, tag_span: Span, attributes: list[Attribute], end: int, *, empty: bool, broken: bool = False
     ) -> None:
-        if len(attributes) > 1:
+        if len({attribute.name for attribute in attributes}) < len(attributes):
             seen: set[str] = set()
             for attribute in attributes:
                 if attribute.name in seen:

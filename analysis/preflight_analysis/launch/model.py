@@ -8,21 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Literal:
+class Literal(NamedTuple):
     """Text that stands for itself."""
 
     text: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Substitution:
+class Substitution(NamedTuple):
     """`$(command arguments)`. `span` covers all of it, `arguments_span` what follows the command's blank."""
 
     command: str
@@ -33,8 +32,7 @@ class Substitution:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Value:
+class Value(NamedTuple):
     """A text as written (entities decoded) and its pieces. `problem` says why it could not be cut into pieces."""
 
     text: str
@@ -53,8 +51,7 @@ class Value:
         return "$" not in self.text or not any(True for _ in self.substitutions)
 
 
-@dataclass(frozen=True, slots=True)
-class ActionAttribute:
+class ActionAttribute(NamedTuple):
     """One named value of an action."""
 
     name: str

@@ -47,7 +47,7 @@ def _action(element: Element, depth: int) -> Action:
     return Action(
         element.tag,
         element.tag_span,
-        tuple(ActionAttribute(a.name, a.name_span, parse_value(a.value), a.span) for a in element.attributes),
+        tuple([ActionAttribute(a.name, a.name_span, parse_value(a.value), a.span) for a in element.attributes]),
         tuple(children),
         tuple(comments),
         _body(texts, element),
@@ -59,8 +59,8 @@ def _action(element: Element, depth: int) -> Action:
 def _body(texts: list[SpannedText], element: Element) -> Value:
     if len(texts) == 1:
         return parse_value(texts[0])
-    span = (
-        Span(texts[0].span.start, texts[-1].span.end) if texts else Span(element.open_span.end, element.open_span.end)
-    )
+    if not texts:
+        return Value("", Span(element.open_span.end, element.open_span.end), ())
+    span = Span(texts[0].span.start, texts[-1].span.end)
     # Several pieces (CDATA, comments between): one text without a way back to single characters.
     return Value("".join(t.text for t in texts), span, ())
