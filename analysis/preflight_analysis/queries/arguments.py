@@ -72,10 +72,11 @@ def argument_values(analysis: Analysis, file: str) -> Mapping[str, str]:
     return found
 
 
-def resolved(analysis: Analysis, file: str, text: str) -> str | None:
+def resolved(analysis: Analysis, file: str, text: str, args: Mapping[str, str] | None = None) -> str | None:
     """What a text of the file comes to, by its syntax alone: also where it is not, or not yet, evaluated.
 
-    None where something in it is not known; expressions are not looked at.
+    None where something in it is not known; expressions are not looked at. `args` are the file's `argument_values`,
+    for who has them at hand.
     """
     if "$" not in text:
         return text
@@ -83,7 +84,7 @@ def resolved(analysis: Analysis, file: str, text: str) -> str | None:
     at = 0
     try:
         for start, end in find_substitutions(text):
-            value = _substituted(analysis, file, text[start + 2 : end - 1].split())
+            value = _substituted(analysis, file, text[start + 2 : end - 1].split(), args)
             if value is None:
                 return None
             pieces += (text[at:start], value)
@@ -93,14 +94,14 @@ def resolved(analysis: Analysis, file: str, text: str) -> str | None:
     return "".join((*pieces, text[at:]))
 
 
-def _substituted(analysis: Analysis, file: str, words: list[str]) -> str | None:
+def _substituted(analysis: Analysis, file: str, words: list[str], args: Mapping[str, str] | None) -> str | None:
     variables = analysis.environment.variables
     match words:
         case ["find", name]:
             package = analysis.environment.packages.get(name)
             return package.share if package is not None else None
         case ["arg", name]:
-            return argument_values(analysis, file).get(name)
+            return (argument_values(analysis, file) if args is None else args).get(name)
         case ["env", name]:
             return variables.get(name)
         case ["optenv", name, *default]:

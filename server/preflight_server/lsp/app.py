@@ -9,6 +9,7 @@ import logging
 import os
 import pkgutil
 import sys
+from collections.abc import Callable
 from typing import Any
 
 from lsprotocol import types
@@ -38,6 +39,8 @@ class PreflightServer(LanguageServer):
         )
         self.texts = TextStore()
         self.session: Session | None = None
+        self.after_analysis: list[Callable[[], None]] = []
+        """Called on the event loop whenever analyses were replaced by newer ones."""
         self._background: set[asyncio.Task[Any]] = set()
         for module in pkgutil.iter_modules(features.__path__):
             importlib.import_module(f"{features.__name__}.{module.name}").register(self)

@@ -390,6 +390,8 @@ class Session:
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
         self.publisher.update({**clean, **round_.diagnostics}, self._edited)
+        for told in self._server.after_analysis:
+            told()
 
     @property
     def _shows_related(self) -> bool:

@@ -13,22 +13,28 @@ _log = logging.getLogger(__name__)
 @dataclass(frozen=True, slots=True)
 class Settings:
     """`package_path`: look for packages there and nowhere else, None to find them as ROS does. `run_nodes`: whether
-    nodes may be run in the sandbox once the workspace is trusted."""
+    nodes may be run in the sandbox once the workspace is trusted. `inlay_hints`: whether values with substitutions
+    are followed by what they come to."""
 
     package_path: tuple[str, ...] | None = None
     run_nodes: bool = True
+    inlay_hints: bool = True
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> Settings:
-        """From `packagePath` (list of folders) and `runNodes` (boolean); a value of another type is left out."""
-        path, run = given.get("packagePath"), given.get("runNodes", True)
+        """From `packagePath` (list of folders), `runNodes` and `inlayHints` (booleans); a value of another type is left
+        out."""
+        path, run, hints = given.get("packagePath"), given.get("runNodes", True), given.get("inlayHints", True)
         if path is not None and not (isinstance(path, list) and all(isinstance(p, str) for p in path)):
             _log.warning("rosPreflight.packagePath must be a list of folders; it is ignored")
             path = None
         if not isinstance(run, bool):
             _log.warning("rosPreflight.runNodes must be true or false; nothing is run")
             run = False
-        return cls(tuple(path) if path else None, run)
+        if not isinstance(hints, bool):
+            _log.warning("rosPreflight.inlayHints must be true or false; hints are shown")
+            hints = True
+        return cls(tuple(path) if path else None, run, hints)
 
 
 def as_mapping(value: Any) -> Mapping[str, Any]:

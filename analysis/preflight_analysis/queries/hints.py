@@ -1,0 +1,92 @@
+"""What values with substitutions come to, to be shown behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation import values
+from preflight_analysis.launch.model import ActionAttribute, LaunchFile
+from preflight_analysis.workspace.workspace import Analysis
+
+MAX_LENGTH = 40
+"""Of what is shown; the rest is in the tooltip."""
+_SHOWN_VALUES = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """A text for a place behind a value. `values` are all that it comes to, in full, the first one shown."""
+
+    offset: int
+    label: str
+    values: tuple[str, ...]
+
+
+def hints(analyses: Sequence[Analysis], file: str, within: Span) -> tuple[Hint, ...]:
+    """The hints of a file for the values that touch `within`: in the context that it is shown in (the first of
+    `analyses`), and marked where other contexts give other values."""
+    launch_file = analyses[0].launch_files.get(file) if analyses else None
+    if launch_file is None:
+        return ()
+    current = launch_file.document.digest
+    same_text = [a for a in analyses if file in a.documents and a.documents[file].digest == current]
+    known = _known(same_text, file, within)
+    found = []
+    for attribute in _attributes(launch_file, within):
+        given = known.get(attribute.value.span)
+        if given and (hint := _hint(launch_file, attribute, tuple(given))) is not None:
+            found.append(hint)
+    return tuple(found)
+
+
+def _known(analyses: Sequence[Analysis], file: str, within: Span) -> dict[Span, dict[str, None]]:
+    """The different values of each place, in the order of the contexts."""
+    known: dict[Span, dict[str, None]] = {}
+    for analysis in analyses:
+        for use in analysis.tree.uses:
+            if use.kind == "value" and use.value is not None and use.location.file == file:
+                span = use.location.span
+                if span.end >= within.start and span.start <= within.end:
+                    known.setdefault(span, {})[use.value] = None
+    return known
+
+
+def _attributes(launch_file: LaunchFile, within: Span) -> Iterator[ActionAttribute]:
+    for action in launch_file.root.walk() if launch_file.root is not None else ():
+        for attribute in action.attributes:
+            span = attribute.value.span
+            if "$" in attribute.value.text and span.end >= within.start and span.start <= within.end:
+                yield attribute
+
+
+def _hint(launch_file: LaunchFile, attribute: ActionAttribute, given: tuple[str, ...]) -> Hint | None:
+    if any(part.command == "anon" for part in attribute.value.substitutions):
+        return None  # another one at each launch
+    if attribute.name in ("if", "unless"):
+        given = tuple(dict.fromkeys(_truth(value) for value in given))
+    text = launch_file.document.text
+    end = attribute.value.span.end
+    offset = end + 1 if text[end : end + 1] in ("'", '"') else end
+    others = f" (+{len(given) - 1})" if len(given) > 1 else ""
+    return Hint(offset, f"= {_short(given[0])}{others}", given[:_SHOWN_VALUES])
+
+
+def _truth(value: str) -> str:
+    """A condition as what it means, if it means something."""
+    try:
+        return "true" if values.to_bool(value) else "false"
+    except values.BadValueError:
+        return value
+
+
+def _short(value: str) -> str:
+    """One line of bounded length; of a path the end is what tells."""
+    line = " ".join(value.split())
+    if len(line) <= MAX_LENGTH:
+        return line or "''"
+    if line.startswith("/") and " " not in line:
+        kept = line[-(MAX_LENGTH - 1) :]
+        return "…" + (kept[kept.index("/") :] if "/" in kept else kept)
+    return line[: MAX_LENGTH - 1].rstrip() + "…"

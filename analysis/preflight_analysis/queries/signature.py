@@ -1,0 +1,72 @@
+"""The signature of an include: the arguments that the included file takes, and which of them is being written."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from preflight_analysis.documents.document import Document, Element
+from preflight_analysis.evaluation.files import Files
+from preflight_analysis.queries.arguments import accepted, included_file
+from preflight_analysis.queries.cursor import is_closed, place_at
+from preflight_analysis.workspace.facts import ArgDeclaration
+from preflight_analysis.workspace.workspace import Analysis
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """An argument; `start` and `end` are where it stands in the label."""
+
+    name: str
+    doc: str
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """What can be passed. `active` is the index of the argument that the cursor is in, None if in none."""
+
+    label: str
+    doc: str
+    parameters: tuple[Parameter, ...]
+    active: int | None
+
+
+def signature(analysis: Analysis, document: Document, offset: int, files: Files) -> Signature | None:
+    """The signature of the `<include>` around `offset`, None where there is none or its file is not known."""
+    place = place_at(document, offset)
+    if place is None:
+        return None
+    include = next((e for e in reversed(place.parents) if e.tag.lower() == "include"), None)
+    target = included_file(analysis, files, document.path, include) if include is not None else None
+    if include is None or target is None:
+        return None
+    label = os.path.basename(target.path) + "("
+    parameters: list[Parameter] = []
+    for declared in accepted(target):
+        label += ", " if parameters else ""
+        start = len(label)
+        label += declared.name if declared.default is None else f"{declared.name}:={declared.default}"
+        parameters.append(Parameter(declared.name, _doc(declared), start, len(label)))
+    argument = _argument_at(document, include, offset)
+    name = argument.get("name") if argument is not None else None
+    written = name.value.text if name is not None else None
+    active = next((n for n, parameter in enumerate(parameters) if parameter.name == written), None)
+    return Signature(f"{label})", target.path, tuple(parameters), active)
+
+
+def _argument_at(document: Document, include: Element, offset: int) -> Element | None:
+    return next(
+        (
+            child
+            for child in include.elements
+            if child.span.start < offset
+            and (offset < child.span.end or (offset == child.span.end and not is_closed(document.text, child)))
+        ),
+        None,
+    )
+
+
+def _doc(declared: ArgDeclaration) -> str:
+    return " ".join(part for part in (declared.doc, "(required)" if declared.required else "") if part)
