@@ -107,16 +107,19 @@ class Workspace:
 
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered."""
-        return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, self.commands)
+        return self._evaluate(path, args, None)
 
     def _remembering_tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         # One thread at a time has the memo; another one does without.
         if not self._memo_lock.acquire(blocking=False):
-            return self.tree(path, args)
+            return self._evaluate(path, args, None)
         try:
-            return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, memo=self._memo)
+            return self._evaluate(path, args, self._memo)
         finally:
             self._memo_lock.release()
+
+    def _evaluate(self, path: str, args: Mapping[str, str], memo: Memo | None) -> LaunchTree:
+        return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, self.commands, memo)
 
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
