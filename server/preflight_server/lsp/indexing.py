@@ -28,6 +28,8 @@ _log = logging.getLogger(__name__)
 
 _REPORT_EVERY = 0.1
 """Seconds between two reports of the progress."""
+_AT_MOST = 2.0
+"""Seconds that the index gives way to one analysis: it must come to an end while the user types without a pause."""
 
 
 class Indexing:
@@ -99,7 +101,7 @@ class Indexing:
                 previous=self.index,
                 changed=changed,
                 report=report,
-                cancelled=self._cancel.is_set,
+                cancelled=self._gives_way,
             )
 
         index = None
@@ -111,6 +113,11 @@ class Indexing:
             if progress is not None:
                 progress.end(f"{len(index.files)} launch files" if index is not None else "")
         return index
+
+    def _gives_way(self) -> bool:
+        """Wait while something is analysed that the user looks at. Whether to stop altogether."""
+        self._session.calm.wait(_AT_MOST)
+        return self._cancel.is_set()
 
     async def _read_settings(self) -> None:
         if (folder := self._session.folder) is None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+import threading
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -96,7 +97,9 @@ class Session:
         self._refreshing: asyncio.Task[None] | None = None
         self._news = asyncio.Event()
         self._settled = asyncio.Event()
-        self._settled.set()
+        self.calm = threading.Event()
+        """Whether all that is shown is up to date: what runs in the background waits for that, thread or not."""
+        self._settle()
         self._every_root = frozenset(rule.id for rule in all_rules() if rule.every_root)
         self.runs = Runs(server, self, trusted=trusted)
         self.indexing = Indexing(server, self)
@@ -298,8 +301,13 @@ class Session:
             self.indexing.changed(touched)
         self._start()
 
+    def _settle(self) -> None:
+        self._settled.set()
+        self.calm.set()
+
     def _start(self) -> None:
         self._settled.clear()
+        self.calm.clear()
         self._news.set()
         if self._refreshing is None or self._refreshing.done():
             self._refreshing = self._server.spawn(self._refresh())
@@ -312,7 +320,7 @@ class Session:
                 workspace = await self.workspace()
                 root = next((r for r in self._shown() if self._is_due(r)), None)
                 if root is None and not self._remerge:
-                    self._settled.set()
+                    self._settle()
                     root = next((r for r in self._wanted() if self._is_due(r)), None)
                     if root is None:
                         break
@@ -322,7 +330,7 @@ class Session:
                         continue
                 await self._turn(workspace, root)
         finally:
-            self._settled.set()
+            self._settle()
         self.runs.wake()
 
     def _is_due(self, root: Root) -> bool:
