@@ -295,3 +295,69 @@ def test_a_path_of_one_machine_as_a_path_of_its_package(tmp_path: Path) -> None:
         ("LCH021", "warning", "certain"),
     ]
     assert [f.fixes[0].edits[0].text for f in findings] == ["$(find vision)/models/net.pt"] * 2
+
+
+def test_an_included_file_that_its_author_calls_deprecated() -> None:
+    check("""
+        <launch>
+          <include file="/old.launch"/>
+                         ^^^^^^^^^^^ warning[LCH027] '/old.launch' is deprecated: use new.launch
+          <include file="/new.launch"/>
+        </launch>
+        //- /old.launch
+        <launch deprecated="use new.launch"><include file="/new.launch"/></launch>
+        //- /new.launch
+        <launch deprecated=""/>
+    """)
+
+
+def test_what_newer_releases_have_given_up() -> None:
+    text = """
+        <launch>
+          <master auto="start"/>
+          ^^^^^^^^^^^^^^^^^^^^^^ info[LCH027] roslaunch ignores <master>
+          <node pkg="tf" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 base laser 100"/>
+                               ^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH027] tf2_ros has a 'static_transform_publisher'
+          <node pkg="tf2_ros" type="static_transform_publisher" name="b" args="0 0 0 0 0 0 base laser"/>
+          <param name="use_gui" value="true"/>
+                       ^^^^^^^ warning[LCH027] has no parameter 'use_gui' since ROS Noetic
+          <node pkg="joint_state_publisher" type="joint_state_publisher" name="joints"/>
+        </launch>
+        //- /tf/package.xml
+        <package/>
+        //- /tf2_ros/package.xml
+        <package/>
+        //- /joint_state_publisher/package.xml
+        <package/>
+    """
+    findings = {finding.message.split()[0]: finding for finding in check(text)}
+    assert "<master" not in apply(text, findings["roslaunch"].fixes[0].edits)["/main.launch"]
+    changed = apply(text, findings["tf"].fixes[0].edits)["/main.launch"]
+    assert 'pkg="tf2_ros" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 base laser"/>' in changed
+
+
+def test_what_is_gone_is_named_with_what_replaces_it() -> None:
+    text = """
+        <launch>
+          <node pkg="gazebo" type="gazebo" name="gazebo"/>
+                     ^^^^^^ error[PKG001]
+                     ^^^^^^ warning[LCH027] are in 'gazebo_ros' since ROS Hydro
+          <param name="r" command="xacro --inorder robot.xacro"/>
+                                        ^^^^^^^^^^ hint[LCH027] --inorder has no effect
+        </launch>
+    """
+    gazebo, in_order = [finding for finding in check(text) if finding.rule == "LCH027"]
+    assert 'pkg="gazebo_ros"' in apply(text, gazebo.fixes[0].edits)["/main.launch"]
+    assert 'command="xacro robot.xacro"' in apply(text, in_order.fixes[0].edits)["/main.launch"]
+
+
+def test_an_executable_that_is_still_there_is_not_gone() -> None:
+    check("""
+        <launch>
+          <node pkg="robot_state_publisher" type="state_publisher" name="a"/>
+          <param name="~use_gui" value="true"/>
+          <node pkg="p" type="joint_state_publisher" name="joints"/>
+        </launch>
+        //- /robot_state_publisher/package.xml
+        <package/>
+    """)

@@ -1,0 +1,197 @@
+"""LCH027: what its authors, roslaunch or a newer distribution of ROS have given up."""
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.problems import include_chain, rename, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+_OLDER_THAN_NOETIC = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic")
+_OLDER_THAN_MELODIC = _OLDER_THAN_NOETIC[:-1]
+_PERIOD = re.compile(r"\s+[\d.]+\s*\Z")
+_IN_ORDER = re.compile(r"\s--inorder\b")
+
+
+@dataclass(frozen=True, slots=True)
+class _Retired:
+    """A node that should be another one. `executable` None: all of the package. `removed`: gone since that release."""
+
+    package: str
+    executable: str | None
+    message: str
+    source: str
+    instead_package: str | None = None
+    instead_executable: str | None = None
+    removed: bool = False
+    still_in: tuple[str, ...] = ()
+
+
+_NODES = (
+    _Retired(
+        "robot_state_publisher",
+        "state_publisher",
+        "'state_publisher' was removed from robot_state_publisher in ROS Noetic; use 'robot_state_publisher'",
+        "https://docs.ros.org/en/latest/changelogs/robot_state_publisher/changelog.html (1.15.0)",
+        instead_executable="robot_state_publisher",
+        removed=True,
+        still_in=_OLDER_THAN_NOETIC,
+    ),
+    _Retired(
+        "gazebo",
+        None,
+        "the nodes of package 'gazebo' are in 'gazebo_ros' since ROS Hydro",
+        "https://github.com/ros-simulation/gazebo_ros_pkgs/pull/34",
+        instead_package="gazebo_ros",
+        removed=True,
+    ),
+    _Retired(
+        "tf",
+        "static_transform_publisher",
+        "tf is deprecated since ROS Hydro; tf2_ros has a 'static_transform_publisher' that publishes once, latched, "
+        "and takes no period",
+        "http://wiki.ros.org/tf2/Migration",
+    ),
+    _Retired(
+        "robot_pose_ekf",
+        None,
+        "robot_pose_ekf was dropped from the navigation stack in ROS Melodic in favour of robot_localization",
+        "https://github.com/ros-planning/navigation/issues/701",
+    ),
+)
+_BY_PACKAGE: Mapping[str, tuple[_Retired, ...]] = {
+    package: tuple(each for each in _NODES if each.package == package) for package in {each.package for each in _NODES}
+}
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _includes(rule, context)
+    yield from _nodes(rule, context)
+    yield from _joint_state_publishers(rule, context)
+    for path, launch_file in context.launch_files.items():
+        document = launch_file.document
+        old = _old_language(launch_file)
+        for tag in old.masters:
+            fix = Fix("Remove <master>", (remove_tag(document, tag.span),), True)
+            message = "roslaunch ignores <master>: it is defunct since ROS Fuerte"
+            yield rule.finding(message, Location(path, tag.head_span), severity="info", fixes=(fix,))
+        if context.environment.distro not in _OLDER_THAN_MELODIC:
+            for span in old.in_order:
+                place = Location(path, span)
+                message = "xacro processes in order since ROS Melodic: --inorder has no effect"
+                yield rule.finding(message, place, fixes=(Fix("Remove --inorder", (Edit(place, ""),), True),))
+
+
+def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
+    for include in context.tree.includes:
+        included = context.launch_files.get(include.path or "")
+        root = included.root if included is not None else None
+        told = root.value("deprecated") if root is not None else None
+        if included is not None and told is not None and told.text:
+            message = f"'{shown(included.path, context)}' is deprecated: {told.text}"
+            place = (*include.origin[:-1], include.file_location)
+            yield rule.finding(message, include.file_location, severity="warning", related=include_chain(place))
+
+
+def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
+    for node in context.tree.nodes:
+        for each in _BY_PACKAGE.get(node.package, ()):
+            if each.executable not in (None, node.executable):
+                continue
+            if each.removed and (context.environment.distro in each.still_in or node.resolved.path is not None):
+                continue
+            severity: Severity | None = "warning" if each.removed else None
+            attribute = "type" if each.executable is not None else "pkg"
+            yield rule.finding(
+                each.message,
+                attribute_location(node, attribute),
+                severity=severity,
+                related=include_chain(node.origin),
+                fixes=_fixes(context, each, node),
+            )
+
+
+def _fixes(context: Context, each: _Retired, node: LaunchNode) -> tuple[Fix, ...]:
+    if each.instead_executable:
+        return rename(context, attribute_location(node, "type"), node.executable, each.instead_executable)
+    if each.instead_package:
+        return rename(context, attribute_location(node, "pkg"), node.package, each.instead_package)
+    document = context.documents.get(node.location.file)
+    if each.package != "tf" or document is None:
+        return ()
+    package, args = attribute_location(node, "pkg"), attribute_location(node, "args")
+    # x y z and yaw pitch roll or a quaternion, two frames, the period.
+    period = _PERIOD.search(document.text, args.span.start, args.span.end)
+    if period is None or len(node.args.split()) not in (9, 10) or _text(document, package) != "tf":
+        return ()
+    edits = (Edit(package, "tf2_ros"), Edit(Location(args.file, Span(period.start(), args.span.end)), ""))
+    return (Fix("Use static_transform_publisher of tf2_ros", edits),)
+
+
+def _text(document: Document, location: Location) -> str:
+    return document.text[location.span.start : location.span.end]
+
+
+def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Its parameter `use_gui`: https://github.com/ros/joint_state_publisher/pull/34."""
+    if context.environment.distro in _OLDER_THAN_NOETIC:
+        return
+    for node in context.tree.nodes:
+        if (node.package, node.executable) != ("joint_state_publisher", "joint_state_publisher"):
+            continue
+        for name in (f"{node.name}/use_gui", os.path.join(node.namespace, "use_gui")):
+            param = context.tree.params.get(name)
+            if param is None:
+                continue
+            yield rule.finding(
+                "joint_state_publisher has no parameter 'use_gui' since ROS Noetic; for the window run "
+                "joint_state_publisher_gui of the package of that name",
+                param.name_location or param.origin[-1],
+                severity="warning" if param.value is True else None,
+                related=include_chain(param.origin),
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class _OldLanguage:
+    masters: tuple[Action, ...]
+    in_order: tuple[Span, ...]
+
+
+@per_file
+def _old_language(launch_file: LaunchFile) -> _OldLanguage:
+    masters: list[Action] = []
+    in_order: list[Span] = []
+    for action in launch_file.root.walk() if launch_file.root is not None else ():
+        command = action.value("command")
+        if action.kind == "master":
+            masters.append(action)
+        elif command is not None and "xacro" in command.text:
+            found = _IN_ORDER.search(launch_file.document.text, command.span.start, command.span.end)
+            if found is not None:
+                in_order.append(Span(*found.span()))
+    return _OldLanguage(tuple(masters), tuple(in_order))
+
+
+RULE = Rule(
+    id="LCH027",
+    name="deprecated",
+    severity="hint",
+    what="Points out an include of a file that its author has marked with `<launch deprecated=...>`, the defunct "
+    "`<master>`, and nodes, parameters and options that newer releases of ROS have removed or replaced: "
+    "`state_publisher`, the package `gazebo`, `static_transform_publisher` of tf, `robot_pose_ekf`, `use_gui` of "
+    "`joint_state_publisher`, `--inorder` of xacro.",
+    why="What is deprecated goes away with an upgrade; what was removed is not started at all.",
+    example='<node pkg="robot_state_publisher" type="state_publisher" name="state_publisher"/>',
+    instead='<node pkg="robot_state_publisher" type="robot_state_publisher" name="state_publisher"/>',
+    check=_check,
+)
