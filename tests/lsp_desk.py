@@ -39,6 +39,7 @@ def capabilities(
             did_change_configuration=types.DidChangeConfigurationClientCapabilities(dynamic_registration=dynamic),
             did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=dynamic),
             diagnostics=types.DiagnosticWorkspaceClientCapabilities(refresh_support=refresh),
+            code_lens=types.CodeLensWorkspaceClientCapabilities(refresh_support=refresh),
             inlay_hint=types.InlayHintWorkspaceClientCapabilities(refresh_support=refresh),
         ),
         text_document=types.TextDocumentClientCapabilities(
@@ -85,6 +86,7 @@ class Editor:
         self.history: list[types.PublishDiagnosticsParams] = []
         self.registered: list[str] = []
         self.refreshes = 0
+        self.lens_refreshes = 0
         self.hint_refreshes = 0
         self.progress: dict[types.ProgressToken, list[Any]] = {}
         self.on_progress: Callable[[types.ProgressToken, Any], None] = lambda token, value: None
@@ -98,6 +100,7 @@ class Editor:
         features[types.CLIENT_REGISTER_CAPABILITY] = self._registered()
         features[types.WORKSPACE_DIAGNOSTIC_REFRESH] = self._refreshed()
         features[types.WORKSPACE_INLAY_HINT_REFRESH] = self._hints_refreshed()
+        features[types.WORKSPACE_CODE_LENS_REFRESH] = self._lenses_refreshed()
         features[types.PROGRESS] = self._progressed()
         features[types.WINDOW_WORK_DONE_PROGRESS_CREATE] = self._created()
         register_lsp_features(self.client, features)
@@ -128,6 +131,13 @@ class Editor:
     def _hints_refreshed(self) -> Callable[..., None]:
         def handler(ls: LanguageClient, params: None) -> None:
             self.hint_refreshes += 1
+            self._news.set()
+
+        return handler
+
+    def _lenses_refreshed(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: None) -> None:
+            self.lens_refreshes += 1
             self._news.set()
 
         return handler
@@ -269,6 +279,13 @@ class Editor:
 
     async def rename(self, path: Path, where: types.Position, new: str) -> types.WorkspaceEdit | None:
         return await self.client.text_document_rename_async(types.RenameParams(self.id(path), where, new))
+
+    async def hierarchy(self, path: Path, where: types.Position) -> list[types.CallHierarchyItem]:
+        params = types.CallHierarchyPrepareParams(self.id(path), where)
+        return list(await self.client.text_document_prepare_call_hierarchy_async(params) or ())
+
+    async def lenses(self, path: Path) -> list[types.CodeLens]:
+        return list(await self.client.text_document_code_lens_async(types.CodeLensParams(self.id(path))) or ())
 
     async def symbols(self, path: Path) -> list[types.DocumentSymbol]:
         params = types.DocumentSymbolParams(self.id(path))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import keyword
-import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -88,10 +87,10 @@ def _argument_places(scene: Scene, subject: Subject, name: str) -> frozenset[Loc
     files = shared_arguments.sharing(index, subject.files, name, by_tag=True)
     for path in files:
         if path not in index.files:
-            raise RenameRefusedError(f"The argument '{name}' cannot be renamed: {_file(scene, path)} cannot be read")
+            raise RenameRefusedError(f"The argument '{name}' cannot be renamed: {scene.shown(path)} cannot be read")
     for root in index.entries:
         if root.path in files and any(given == name for given, _ in root.args):
-            shown = _file(scene, root.path)
+            shown = scene.shown(root.path)
             raise RenameRefusedError(
                 f"The argument '{name}' cannot be renamed: the project's settings give it to {shown}"
             )
@@ -212,12 +211,7 @@ def _check_node(scene: Scene, subject: Subject, new: str) -> None:
                 raise RenameRefusedError(f"There is a node '{node.name}' already, at {_shown(scene, node.location)}")
 
 
-def _file(scene: Scene, path: str) -> str:
-    folder = scene.workspace.environment.workspace
-    return os.path.relpath(path, folder) if folder and path.startswith(folder.rstrip("/") + "/") else path
-
-
 def _shown(scene: Scene, place: Location) -> str:
     document = scene.document(place.file)
     line = document.lines.position(place.span.start)[0] + 1 if document else 1
-    return f"{_file(scene, place.file)}:{line}"
+    return f"{scene.shown(place.file)}:{line}"

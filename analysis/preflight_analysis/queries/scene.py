@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -66,6 +67,11 @@ class Scene:
         """The files that the include with this start tag leads to, in any root."""
         found = (i.target for i in self.current.included_from(tag.file) if i.tag.span == tag.span)
         return tuple(dict.fromkeys(found))
+
+    def shown(self, path: str) -> str:
+        """A path as the user knows it: below the workspace's folder."""
+        folder = self.workspace.environment.workspace
+        return os.path.relpath(path, folder) if folder and path.startswith(folder.rstrip("/") + "/") else path
 
     def line(self, path: str, number: int) -> Location:
         """A line of a file, counted from 1, without the blanks around it; its start where there is no such line."""

@@ -41,6 +41,8 @@ class PreflightServer(LanguageServer):
         self.session: Session | None = None
         self.after_analysis: list[Callable[[], None]] = []
         """Called on the event loop whenever analyses were replaced by newer ones."""
+        self.client_commands: frozenset[str] = frozenset()
+        """Our commands that the client carries out itself."""
         self._background: set[asyncio.Task[Any]] = set()
         for module in pkgutil.iter_modules(features.__path__):
             importlib.import_module(f"{features.__name__}.{module.name}").register(self)
@@ -49,6 +51,8 @@ class PreflightServer(LanguageServer):
         """Take over what the client says of itself and of the workspace."""
         options = as_mapping(params.initialization_options)
         self.texts.encoding = self.workspace.position_encoding or types.PositionEncodingKind.Utf16
+        commands = options.get("clientCommands")
+        self.client_commands = frozenset(map(str, commands)) if isinstance(commands, list) else frozenset()
         folders = [f.uri for f in params.workspace_folders or ()] or [params.root_uri or ""]
         folder = next((path for uri in folders if (path := to_path(uri)) is not None), None)
         self.session = Session(self, folder, Settings.read(options), trusted=options.get("workspaceTrusted") is True)

@@ -21,6 +21,14 @@ async def scene_of(ls: PreflightServer, view: View) -> Scene:
     return Scene(view.path, view.analyses, view.index, await ls.session.workspace())
 
 
+async def scene_of_workspace(ls: PreflightServer, path: str = "") -> Scene:
+    """The scene of any launch file, open or not, or of none: with the analyses of all that is open."""
+    assert ls.session is not None
+    await ls.session.settled()
+    workspace = await ls.session.workspace()
+    return Scene(path, tuple(ls.session.roots()), ls.session.indexing.index, workspace)
+
+
 def converter_for(ls: PreflightServer, scene: Scene, places: Iterable[Location]) -> Converter:
     """Conversion by the very texts that the places were found in. Reads files: use it off the event loop."""
     documents = {path: scene.document(path) for path in {place.file for place in places}}

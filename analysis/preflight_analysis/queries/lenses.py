@@ -1,0 +1,33 @@
+"""What stands above the `<launch>` tag: who includes the file, how many nodes there are, and in whose context."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.queries.scene import Scene
+from preflight_analysis.workspace.index import Root
+
+
+@dataclass(frozen=True, slots=True)
+class Lenses:
+    """Of the launch file whose `<launch>` tag is `head`. `own` of the `nodes` that the shown root starts come from the
+    file and from what it includes."""
+
+    head: Span
+    includers: tuple[Location, ...]
+    own: int
+    nodes: int
+    root: Root
+
+
+def lenses(scene: Scene) -> Lenses | None:
+    """What to show; None in a file without a `<launch>` tag."""
+    launch_file = scene.launch_file(scene.path)
+    if launch_file is None or launch_file.root is None:
+        return None
+    analysis = scene.analyses[0]
+    places = dict.fromkeys(inclusion.place for inclusion in scene.current.includers(scene.path))
+    nodes = analysis.tree.nodes
+    own = sum(any(step.file == scene.path for step in node.origin) for node in nodes)
+    return Lenses(launch_file.root.head_span, tuple(places), own, len(nodes), analysis.launch)

@@ -1,0 +1,78 @@
+"""Nodes, launch files and topics of the whole workspace by a part of their name."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.workspace.index import WorkspaceIndex
+from preflight_analysis.workspace.workspace import Analysis
+
+LIMIT = 500
+"""Nobody reads further, and an editor asks again with each letter."""
+
+
+@dataclass(frozen=True, slots=True)
+class WorkspaceSymbol:
+    """Something with a name. `container` tells it from others of that name: a folder, an executable, a type."""
+
+    name: str
+    kind: Literal["node", "launch", "topic"]
+    container: str
+    location: Location
+
+
+def workspace_symbols(
+    index: WorkspaceIndex, analyses: Iterable[Analysis], folder: str | None, query: str
+) -> tuple[WorkspaceSymbol, ...]:
+    """At most `LIMIT` symbols that have the letters of `query` in that order, whatever their case, best first."""
+    letters = query.lower().replace(" ", "")
+    # Each letter at its first place after the one before: unlike `.*`, this never goes back.
+    matches = re.compile("".join(f"[^{re.escape(c)}]*{re.escape(c)}" for c in letters), re.DOTALL).match
+
+    def named(name: str) -> bool:
+        return matches(name.lower()) is not None
+
+    found = itertools.chain(_files(index, folder, named), _nodes(index, named), _topics(analyses, named))
+    return tuple(heapq.nsmallest(LIMIT, found, key=lambda symbol: _rank(symbol, letters)))
+
+
+def _rank(symbol: WorkspaceSymbol, letters: str) -> tuple[object, ...]:
+    """Whole names before beginnings of names before parts, short ones first."""
+    name = symbol.name.lower()
+    last = name.rpartition("/")[2]
+    how = (last != letters, not last.startswith(letters), letters not in last, letters not in name)
+    return (*how, len(name), name, symbol.kind, symbol.container, symbol.location.file, symbol.location.span)
+
+
+def _files(index: WorkspaceIndex, folder: str | None, named: Callable[[str], bool]) -> Iterator[WorkspaceSymbol]:
+    for path in index.files:
+        name = os.path.basename(path)
+        if named(name):
+            inside = folder is not None and path.startswith(folder.rstrip("/") + "/")
+            shown = os.path.relpath(path, folder) if inside else path
+            yield WorkspaceSymbol(name, "launch", os.path.dirname(shown), Location(path, Span(0, 0)))
+
+
+def _nodes(index: WorkspaceIndex, named: Callable[[str], bool]) -> Iterator[WorkspaceSymbol]:
+    seen: set[tuple[str, Location]] = set()
+    for _, node in index.nodes():
+        if named(node.name) and (node.name, node.location) not in seen:
+            seen.add((node.name, node.location))
+            yield WorkspaceSymbol(node.name, "node", f"{node.package}/{node.executable}", node.location)
+
+
+def _topics(analyses: Iterable[Analysis], named: Callable[[str], bool]) -> Iterator[WorkspaceSymbol]:
+    seen: set[tuple[str, Location]] = set()
+    for analysis in analyses:
+        for name, channel in analysis.graph.topics.items() if analysis.graph else ():
+            end = next((end for end in (*channel.offers, *channel.wants) if not end.endpoint.builtin), None)
+            if end is not None and named(name) and (name, end.node.location) not in seen:
+                seen.add((name, end.node.location))
+                yield WorkspaceSymbol(name, "topic", ", ".join(channel.types), end.node.location)

@@ -1,0 +1,81 @@
+"""`textDocument/codeLens`: above `<launch>` who includes the file, how many nodes it starts, and in whose context.
+
+A lens can be clicked where the client has our commands: those that it names as `clientCommands` in the initialisation
+options. `rosPreflight.showReferences` gets a URI, a position and locations, `rosPreflight.selectRoot` a URI.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from lsprotocol import types
+from preflight_analysis.queries.lenses import Lenses, lenses
+from preflight_analysis.queries.scene import Scene
+
+from preflight_server.lsp.refresher import Refresher
+from preflight_server.lsp.scenes import converter_for, scene_of
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+SHOW_REFERENCES = "rosPreflight.showReferences"
+SELECT_ROOT = "rosPreflight.selectRoot"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _titles(found: Lenses, scene: Scene) -> tuple[str, str, str]:
+    nodes = _count(found.nodes, "node")
+    if found.own != found.nodes:
+        nodes = f"{found.own} of {nodes}"
+    given = " ".join(f"{name}:={value}" for name, value in found.root.args)
+    path = "this file" if found.root.path == scene.path else scene.shown(found.root.path)
+    if found.root.path != scene.path and os.path.dirname(path) == os.path.dirname(scene.shown(scene.path)):
+        path = os.path.basename(path)
+    return _count(len(found.includers), "includer"), nodes, f"launched by {' '.join(filter(None, (path, given)))}"
+
+
+def register(server: PreflightServer) -> None:
+    """Register the handler."""
+
+    def command(title: str, name: str, *arguments: Any) -> types.Command:
+        return types.Command(title, name if name in server.client_commands else "", arguments=list(arguments))
+
+    async def answer(uri: str) -> list[types.CodeLens] | None:
+        view = await server.session.view(uri) if server.session else None
+        if server.session is None or view is None:
+            return None
+        scene = await scene_of(server, view)
+
+        def work() -> list[types.CodeLens] | None:
+            found = lenses(scene)
+            if found is None:
+                return None
+            converter = converter_for(server, scene, found.includers)
+            range_ = view.converter.positions(view.path).range(found.head)
+            places = [converter.location(place) for place in found.includers]
+            includers, nodes, root = _titles(found, scene)
+            return [
+                types.CodeLens(range_, command(includers, SHOW_REFERENCES, uri, range_.start, places)),
+                types.CodeLens(range_, command(nodes, "")),
+                types.CodeLens(range_, command(root, SELECT_ROOT, uri)),
+            ]
+
+        return await server.session.in_pool(work)
+
+    def supported() -> bool:
+        workspace = server.client_capabilities.workspace
+        return bool(workspace and workspace.code_lens and workspace.code_lens.refresh_support)
+
+    refresher = Refresher(server, answer, lambda: server.workspace_code_lens_refresh_async(None), supported)
+
+    @server.feature(types.TEXT_DOCUMENT_CODE_LENS)
+    async def code_lens(ls: PreflightServer, params: types.CodeLensParams) -> list[types.CodeLens] | None:
+        found = await answer(params.text_document.uri)
+        document = ls.texts.get(params.text_document.uri)
+        if document is not None:
+            refresher.told(document.uri, document, found)
+        return found

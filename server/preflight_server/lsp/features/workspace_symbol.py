@@ -1,0 +1,43 @@
+"""`workspace/symbol`: nodes, launch files and topics by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+from preflight_analysis.queries.workspace_symbols import workspace_symbols as query
+
+from preflight_server.lsp.scenes import converter_for, scene_of_workspace
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+_KINDS = {"node": types.SymbolKind.Class, "launch": types.SymbolKind.File, "topic": types.SymbolKind.Event}
+
+
+def register(server: PreflightServer) -> None:
+    """Register the handler."""
+
+    @server.feature(types.WORKSPACE_SYMBOL)
+    async def workspace_symbol(
+        ls: PreflightServer, params: types.WorkspaceSymbolParams
+    ) -> list[types.SymbolInformation] | None:
+        session = ls.session
+        if session is None:
+            return None
+        scene = await scene_of_workspace(ls)
+
+        def work() -> list[types.SymbolInformation]:
+            found = query(scene.current, scene.analyses, session.folder, params.query)
+            converter = converter_for(ls, scene, (symbol.location for symbol in found))
+            return [
+                types.SymbolInformation(
+                    converter.location(symbol.location),
+                    symbol.name,
+                    _KINDS[symbol.kind],
+                    container_name=symbol.container or None,
+                )
+                for symbol in found
+            ]
+
+        return await session.in_pool(work)

@@ -1,0 +1,63 @@
+"""Has the client ask again for what it shows above or beside the text, when that is no longer so."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING, Any
+
+from preflight_server.lsp.text_store import OpenDocument
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+_log = logging.getLogger(__name__)
+
+
+class Refresher:
+    """After each analysis, as soon as the user pauses, `answer` is asked for each document that the client asked
+    about, and `refresh` called when one answer is another than what the client was told."""
+
+    def __init__(
+        self,
+        server: PreflightServer,
+        answer: Callable[[str], Awaitable[Any]],
+        refresh: Callable[[], Awaitable[Any]],
+        supported: Callable[[], bool],
+    ) -> None:
+        self._server = server
+        self._answer = answer
+        self._refresh = refresh
+        self._supported = supported
+        self._told: dict[str, tuple[OpenDocument, Any]] = {}
+        self._task: asyncio.Task[None] | None = None
+        self._again = False
+        server.after_analysis.append(self._look)
+
+    def told(self, uri: str, document: OpenDocument, answer: Any) -> None:
+        """What the client was told of a document."""
+        self._told[uri] = document, answer
+
+    def _look(self) -> None:
+        self._again = True
+        if self._told and (self._task is None or self._task.done()) and self._supported():
+            self._task = self._server.spawn(self._compare())
+
+    async def _compare(self) -> None:
+        while self._again and self._server.session is not None:
+            await self._server.session.quiet()
+            self._again = False
+            for uri, told in tuple(self._told.items()):
+                if self._server.texts.get(uri) is not told[0]:
+                    del self._told[uri]  # closed, or edited: then the client asks by itself
+                elif await self._answer(uri) != told[1] and self._told.get(uri) is told:
+                    self._told.clear()
+                    await self._ask()
+                    break
+
+    async def _ask(self) -> None:
+        try:
+            await self._refresh()
+        except Exception as error:
+            _log.info("the client did not refresh: %s", error)

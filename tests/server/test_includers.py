@@ -1,0 +1,144 @@
+"""Call hierarchy over includes, workspace symbols and code lenses, through the real server."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, capabilities, editing, from_uri, position
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+OUTER = """<launch>
+  <!-- 🤖 --><include file="$(find preflight_demo)/launch/inner.launch"><arg name="rate" value="7"/></include>
+  <!-- ü --><include file="$(find preflight_demo)/launch/inner.launch" ns="b"><arg name="rate" value="8"/></include>
+  <node pkg="preflight_demo" type="listener.py" name="listener"/>
+</launch>
+"""
+INNER = """<launch>
+  <arg name="rate"/>
+  <node pkg="preflight_demo" type="talker.py" name="talker"/>
+</launch>
+"""
+COMMANDS = {"clientCommands": ["rosPreflight.showReferences", "rosPreflight.selectRoot"]}
+
+
+@pytest.fixture
+def files(desk: Desk) -> tuple[Path, Path]:
+    inner, outer = desk.launch_file.with_name("inner.launch"), desk.launch_file.with_name("outer.launch")
+    inner.write_text(INNER)
+    outer.write_text(OUTER)
+    return outer, inner
+
+
+async def titles(editor: Editor, path: Path) -> list[str]:
+    return [lens.command.title for lens in await editor.lenses(path) if lens.command is not None]
+
+
+async def reached(editor: Editor, root: Path) -> None:
+    """Wait until the root of the open file is known: why its nodes are not run is said there."""
+    await editor.until(lambda: root.as_uri() in editor.published)
+
+
+async def test_who_includes_a_file_and_what_it_includes(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk) as editor:
+        editor.open(inner, INNER + "<unfinished")
+        await reached(editor, outer)
+        (item,) = await editor.hierarchy(inner, editor.at(inner, "<launch>"))
+        assert (item.name, item.detail, item.kind) == ("inner.launch", "launch", types.SymbolKind.File)
+        (call,) = (
+            await editor.client.call_hierarchy_incoming_calls_async(types.CallHierarchyIncomingCallsParams(item)) or ()
+        )
+        assert (from_uri(call.from_.uri), call.from_.detail) == (outer, "launch, rate:=7, rate:=8")
+        starts = [
+            position(OUTER, OUTER.index(m) + len(m), "utf-16")
+            for m in ('🤖 --><include file="', 'ü --><include file="')
+        ]
+        assert [r.start for r in call.from_ranges] == starts
+
+        called = await editor.client.call_hierarchy_outgoing_calls_async(
+            types.CallHierarchyOutgoingCallsParams(call.from_)
+        )
+        (back,) = called or ()
+        assert (from_uri(back.to.uri), [r.start for r in back.from_ranges]) == (inner, starts)
+        none = await editor.client.call_hierarchy_outgoing_calls_async(types.CallHierarchyOutgoingCallsParams(item))
+        assert not none
+
+        editor.open(outer)
+        (item,) = await editor.hierarchy(outer, editor.at(outer, "find preflight_demo", -2))
+        assert item.name == "inner.launch"
+
+
+async def test_nodes_files_and_topics_of_the_workspace(desk: Desk, files: tuple[Path, Path]) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+
+        async def found(query: str) -> list[tuple[str, str, types.SymbolKind]]:
+            symbols = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams(query))
+            kinds = (s for s in symbols or () if isinstance(s, types.SymbolInformation))
+            return [(s.name, from_uri(s.location.uri).name, s.kind) for s in kinds]
+
+        assert ("/chatter", "talker_listener.launch", types.SymbolKind.Event) in await found("chatter")
+        assert ("inner.launch", "inner.launch", types.SymbolKind.File) in await found("inlaunch")
+        assert ("/b/talker", "inner.launch", types.SymbolKind.Class) in await found("BTALKER")
+
+
+async def test_lenses_and_their_commands(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk, settings=COMMANDS) as editor:
+        editor.open(inner)
+        await reached(editor, outer)
+        includers, nodes, root = await editor.lenses(inner)
+        assert includers.command is not None
+        assert (includers.command.title, includers.command.command) == ("2 includers", "rosPreflight.showReferences")
+        assert len((includers.command.arguments or [])[2]) == 2
+        assert nodes.command is not None
+        assert (nodes.command.title, nodes.command.command) == ("2 of 3 nodes", "")
+        assert root.command is not None
+        assert (root.command.title, root.command.command) == ("launched by outer.launch", "rosPreflight.selectRoot")
+        assert list(root.command.arguments or ()) == [inner.as_uri()]
+        assert editor.covered(inner, root.range) == "<launch>"
+
+
+async def test_lenses_for_a_client_without_our_commands(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, _ = files
+    async with editing(desk) as editor:
+        editor.open(outer, OUTER.replace("</launch>", "<node "))
+        found = await editor.lenses(outer)
+        assert [lens.command.command for lens in found if lens.command] == ["", "", ""]
+        assert await titles(editor, outer) == ["0 includers", "3 nodes", "launched by this file"]
+
+
+async def test_lenses_are_asked_for_again_when_another_file_changed_them(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk) as editor:
+        editor.open(inner)
+        await reached(editor, outer)
+        assert (await titles(editor, inner))[1] == "2 of 3 nodes"
+        before = editor.lens_refreshes
+        outer.write_text(OUTER.replace(' ns="b"', ' ns="b" if="false"'))
+        editor.watched(outer)
+        await editor.until(lambda: editor.lens_refreshes > before)
+        assert (await titles(editor, inner))[1] == "1 of 2 nodes"
+
+
+async def test_no_refresh_for_a_client_that_knows_none(desk: Desk, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(desk, client=capabilities(refresh=False)) as editor:
+        editor.open(inner)
+        await reached(editor, outer)
+        await editor.lenses(inner)
+        outer.write_text(OUTER.replace(' ns="b"', ' ns="b" if="false"'))
+        editor.watched(outer)
+
+        async def changed() -> None:
+            while (await titles(editor, inner))[1] != "1 of 2 nodes":
+                pass
+
+        await asyncio.wait_for(changed(), 20)
+        assert editor.lens_refreshes == 0
