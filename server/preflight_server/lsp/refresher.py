@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -15,29 +16,31 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 
+@dataclass(frozen=True, slots=True)
+class _Told:
+    document: OpenDocument
+    answer: object
+    ask: Callable[[], Awaitable[object]]
+
+
 class Refresher:
-    """After each analysis, as soon as the user pauses, `answer` is asked for each document that the client asked
-    about, and `refresh` called when one answer is another than what the client was told."""
+    """After each analysis, as soon as the user pauses, what the client was told of each document is asked for once
+    more, and `refresh` called when the answer is another one."""
 
     def __init__(
-        self,
-        server: PreflightServer,
-        answer: Callable[[str], Awaitable[Any]],
-        refresh: Callable[[], Awaitable[Any]],
-        supported: Callable[[], bool],
+        self, server: PreflightServer, refresh: Callable[[], Awaitable[object]], supported: Callable[[], bool]
     ) -> None:
         self._server = server
-        self._answer = answer
         self._refresh = refresh
         self._supported = supported
-        self._told: dict[str, tuple[OpenDocument, Any]] = {}
+        self._told: dict[str, _Told] = {}
         self._task: asyncio.Task[None] | None = None
         self._again = False
         server.after_analysis.append(self._look)
 
-    def told(self, uri: str, document: OpenDocument, answer: Any) -> None:
-        """What the client was told of a document."""
-        self._told[uri] = document, answer
+    def told(self, document: OpenDocument, answer: object, ask: Callable[[], Awaitable[object]]) -> None:
+        """What the client was told of a document, and how to ask for it again; `ask` gives None where it cannot."""
+        self._told[document.uri] = _Told(document, answer, ask)
 
     def _look(self) -> None:
         self._again = True
@@ -49,9 +52,11 @@ class Refresher:
             await self._server.session.quiet()
             self._again = False
             for uri, told in tuple(self._told.items()):
-                if self._server.texts.get(uri) is not told[0]:
+                if self._server.texts.get(uri) is not told.document:
                     del self._told[uri]  # closed, or edited: then the client asks by itself
-                elif await self._answer(uri) != told[1] and self._told.get(uri) is told:
+                    continue
+                now = await told.ask()
+                if now is not None and now != told.answer and self._told.get(uri) is told:
                     self._told.clear()
                     await self._ask()
                     break

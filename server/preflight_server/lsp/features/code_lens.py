@@ -70,12 +70,13 @@ def register(server: PreflightServer) -> None:
         workspace = server.client_capabilities.workspace
         return bool(workspace and workspace.code_lens and workspace.code_lens.refresh_support)
 
-    refresher = Refresher(server, answer, lambda: server.workspace_code_lens_refresh_async(None), supported)
+    refresher = Refresher(server, lambda: server.workspace_code_lens_refresh_async(None), supported)
 
     @server.feature(types.TEXT_DOCUMENT_CODE_LENS)
     async def code_lens(ls: PreflightServer, params: types.CodeLensParams) -> list[types.CodeLens] | None:
-        found = await answer(params.text_document.uri)
-        document = ls.texts.get(params.text_document.uri)
+        uri = params.text_document.uri
+        found = await answer(uri)
+        document = ls.texts.get(uri)
         if document is not None:
-            refresher.told(document.uri, document, found)
+            refresher.told(document, found, lambda: answer(uri))
         return found

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-import logging
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -14,17 +12,16 @@ from preflight_analysis.queries.hints import Hint
 from preflight_analysis.queries.hints import hints as query
 
 from preflight_server.lsp.positions import Positions
+from preflight_server.lsp.refresher import Refresher
 from preflight_server.lsp.text_store import OpenDocument
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
-_log = logging.getLogger(__name__)
-
 
 @dataclass(frozen=True, slots=True)
 class _Told:
-    """What the client shows of a document since it last asked."""
+    """What a client was told of a part of a document."""
 
     document: OpenDocument
     within: Span
@@ -54,51 +51,14 @@ def _converted(hints: Iterable[Hint], positions: Positions) -> list[types.InlayH
     ]
 
 
-class _Refresher:
-    """Has the client ask again when what it shows is no longer so, as soon as the user pauses."""
-
-    def __init__(self, server: PreflightServer) -> None:
-        self._server = server
-        self._told: dict[str, _Told] = {}
-        self._task: asyncio.Task[None] | None = None
-        self._again = False
-
-    def told(self, uri: str, what: _Told) -> None:
-        self._told[uri] = what
-
-    def look(self) -> None:
-        workspace = self._server.client_capabilities.workspace
-        if workspace is None or workspace.inlay_hint is None or not workspace.inlay_hint.refresh_support:
-            return
-        self._again = True
-        if self._told and (self._task is None or self._task.done()):
-            self._task = self._server.spawn(self._compare())
-
-    async def _compare(self) -> None:
-        while self._again and self._server.session is not None:
-            await self._server.session.quiet()
-            self._again = False
-            for uri, told in tuple(self._told.items()):
-                if self._server.texts.get(uri) is not told.document:
-                    del self._told[uri]  # closed, or edited: then the client asks by itself
-                    continue
-                now = await _hints(self._server, uri, told.within)
-                if now is not None and self._told.get(uri) is told and now[0].hints != told.hints:
-                    self._told.clear()
-                    await self._refresh()
-                    break
-
-    async def _refresh(self) -> None:
-        try:
-            await self._server.workspace_inlay_hint_refresh_async(None)
-        except Exception as error:
-            _log.info("the client did not refresh its hints: %s", error)
-
-
 def register(server: PreflightServer) -> None:
     """Register the handler."""
-    refresher = _Refresher(server)
-    server.after_analysis.append(refresher.look)
+
+    def supported() -> bool:
+        workspace = server.client_capabilities.workspace
+        return bool(workspace and workspace.inlay_hint and workspace.inlay_hint.refresh_support)
+
+    refresher = Refresher(server, lambda: server.workspace_inlay_hint_refresh_async(None), supported)
 
     @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
     async def inlay_hint(ls: PreflightServer, params: types.InlayHintParams) -> list[types.InlayHint] | None:
@@ -106,5 +66,11 @@ def register(server: PreflightServer) -> None:
         if found is None:
             return None
         told, positions = found
-        refresher.told(params.text_document.uri, told)
+        uri, within = params.text_document.uri, told.within
+
+        async def again() -> object:
+            now = await _hints(ls, uri, within)
+            return now[0].hints if now else None
+
+        refresher.told(told.document, told.hints, again)
         return _converted(told.hints, positions)
