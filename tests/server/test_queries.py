@@ -98,7 +98,10 @@ async def test_hover_on_arguments_values_includes_and_parameters(desk: Desk, out
         assert "inner.launch" in include
         assert "`rate` = `7`" in include
         assert "`/lab/note` = `two words` (str)" in await hovered(editor, outer, "<param", 2)
-        assert await editor.hover(outer, types.Position(0, 2)) is None
+        assert "`<launch>` The root of every launch file." in await hovered(editor, outer, "<launch", 2)
+        ns = await hovered(editor, outer, "ns=", 1)
+        assert ns.startswith("`ns`: Put everything in the group into this namespace.")
+        assert await editor.hover(outer, editor.at(outer, "  <group", 1)) is None
 
         inner = outer.with_name("inner.launch")
         editor.open(inner)

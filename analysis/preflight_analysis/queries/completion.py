@@ -10,10 +10,11 @@ from collections.abc import Iterable, Iterator
 
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.launch.schema_ros1 import TAGS, Attribute, Tag
+from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.cursor import Place, is_closed, place_at
+from preflight_analysis.queries.language import attribute_doc, tag_of
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -81,11 +82,6 @@ def _items(document: Document, place: Place) -> Iterator[Item]:
                 yield Item("end-tag", f"</{place.parent.tag}>", f"</{place.parent.tag}>")
 
 
-def tag_of(element: Element) -> Tag | None:
-    """What the language says of an element; roslaunch takes some tags in capitals, too."""
-    return TAGS.get(element.tag) or TAGS.get(element.tag.lower())
-
-
 def _elements(parent: Element | None, document: Document, less: str, *, bare: bool) -> Iterator[Item]:
     """The elements that roslaunch reads below `parent`, as templates unless more of the tag is there already."""
     if parent is None:
@@ -132,13 +128,3 @@ def _attributes(element: Element, place: Place, *, has_value: bool) -> Iterator[
                 "required" if attribute.required else "",
                 snippet=None if has_value else f'{attribute.name}="$1"',
             )
-
-
-def attribute_doc(attribute: Attribute) -> str:
-    """What an attribute is, what it may be and what it is where it is left out, as Markdown."""
-    lines = [attribute.doc]
-    if attribute.kind == "choice":
-        lines.append(f"One of {', '.join(f'`{choice}`' for choice in attribute.choices)}.")
-    if attribute.default is not None:
-        lines.append(f"Default: `{attribute.default}`.")
-    return "\n\n".join(lines)

@@ -11,13 +11,14 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.schema_ros1 import TAGS, Attribute, Kind
+from preflight_analysis.launch.schema_ros1 import Attribute, Kind
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.queries import completion_graph as from_graph
 from preflight_analysis.queries.arguments import accepted, argument_values, included_file, resolved, visible
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
 from preflight_analysis.queries.cursor import Place
+from preflight_analysis.queries.language import tag_of
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
@@ -280,7 +281,7 @@ def _pieces(asked: Asked, kind: Kind) -> Iterator[Item]:
 def _attribute(place: Place) -> Attribute | None:
     if place.element is None or place.attribute is None:
         return None
-    tag = TAGS.get(place.element.tag) or TAGS.get(place.element.tag.lower())
+    tag = tag_of(place.element)
     return tag.attributes.get(place.attribute.name) if tag is not None else None
 
 

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, ParamValue, Use
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import Action
+from preflight_analysis.queries.language import described
 from preflight_analysis.queries.places import (
     action_at,
     include_of,
@@ -60,7 +61,21 @@ class Hover:
 
 
 def hover(analysis: Analysis, file: str, offset: int) -> Hover | None:
-    """What is known of the thing at `offset`; None where there is nothing to say."""
+    """What is known of the thing at `offset`, and what the language says of a tag or attribute whose name is there.
+
+    None where there is nothing to say.
+    """
+    found = _known(analysis, file, offset)
+    document = analysis.documents.get(file)
+    language = described(document, offset) if document is not None else None
+    if language is None:
+        return found
+    if found is None:
+        return Hover(*language)
+    return Hover(f"{found.markdown}\n\n---\n\n{language[0]}", found.span)
+
+
+def _known(analysis: Analysis, file: str, offset: int) -> Hover | None:
     use = use_at(analysis.tree, file, offset)
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
