@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Origin, Span
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, ParamValue, Use
+from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import Action
 from preflight_analysis.queries.language import described
@@ -27,6 +27,8 @@ from preflight_analysis.workspace.workspace import Analysis
 _SHOWN_CONTEXTS = 3
 """A tag of a file that is included often makes many nodes; the first few say enough."""
 _SHOWN_PARAMS = 40
+_SHOWN_LINES = 12
+_SHOWN_COLUMNS = 160
 
 _SOURCES = {
     "trace": "from a run in the sandbox",
@@ -112,8 +114,32 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
             lines.append(f"- … and {len(params) - _SHOWN_PARAMS} more")
         if lines:
             yield "\n".join(["Sets", *lines])
+        made = [
+            c
+            for c in analysis.tree.commands
+            if c.location.file == file and action.head_span.contains(c.location.span.start)
+        ]
+        yield from dict.fromkeys(_command(command) for command in made[:_SHOWN_CONTEXTS])
     elif action.kind == "remap":
         yield from _remap(analysis, file, action)
+
+
+def _command(command: Command) -> str:
+    """What a command printed, or why that is not known."""
+    result = command.result
+    if result is None:
+        return f"`{command.line}` has yet to be run"
+    if result.status == "not-run":
+        return f"`{command.line}` was not run: {result.reason}"
+    if result.status == "done":
+        said, lines = "printed", result.output.splitlines()
+    else:
+        said, lines = f"failed: {result.reason}", list(result.stderr_tail)
+    shown = [line[:_SHOWN_COLUMNS] for line in lines[:_SHOWN_LINES]]
+    if len(lines) > len(shown):
+        shown.append(f"… and {len(lines) - len(shown)} more lines")
+    language = "xml" if lines and lines[0].startswith("<") else "text"
+    return "\n".join([f"`{command.line}` {said}", "", f"````{language}", *shown, "````"])
 
 
 def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:

@@ -42,19 +42,13 @@ def command_lines(tree: LaunchTree) -> tuple[str, ...]:
     return tuple(dict.fromkeys(command.line for command in tree.commands))
 
 
-def run_commands(
-    runner: CommandRunner,
-    lines: Sequence[str],
-    cancel: threading.Event,
-    on_done: Callable[[int, CommandResult], None] = lambda index, result: None,
-) -> dict[str, CommandResult]:
+def run_commands(runner: CommandRunner, lines: Sequence[str], cancel: threading.Event) -> dict[str, CommandResult]:
     """The results of command lines, from the cache or a run; of those that were cancelled none."""
     results: dict[str, CommandResult] = {}
 
     def done(index: int, result: CommandResult) -> None:
         if result.status != "not-run" or not cancel.is_set():
             results[lines[index]] = result
-        on_done(index, result)
 
     run_all(runner.run, lines, on_done=done, cancel=cancel)
     return results

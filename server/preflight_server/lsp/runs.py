@@ -15,7 +15,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
@@ -27,6 +26,7 @@ from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import PENDING, not_run
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
+from preflight_server.lsp.command_runs import CommandRuns
 from preflight_server.lsp.progress import Progress
 
 if TYPE_CHECKING:
@@ -100,6 +100,7 @@ class Runs:
         self._probed = False
         self._cancelled = False
         self._closing = False
+        self.commands = CommandRuns(server, session, lambda: self.why_not_run)
         self._tracer: Tracer | None = None
         self._known: dict[Root, dict[NodeKey, Known]] = {}
         self._batch: _Batch | None = None
@@ -127,15 +128,18 @@ class Runs:
         self._cancelled = False
         if not trusted:
             self._known.clear()
+            self.commands.clear()
             self._stop()
 
-    def set_environment(self, environment: Environment) -> None:
-        """What nodes are run with."""
-        self._tracer = Tracer(environment, TraceCache())
+    def set_workspace(self, workspace: Workspace) -> None:
+        """What nodes and commands are run with."""
+        self._tracer = Tracer(workspace.environment, TraceCache())
+        self.commands.set_workspace(workspace)
 
     def forget_requests(self) -> None:
         """Files changed: look every interface up again, but keep it until then."""
         self._cancelled = False
+        self.commands.forget()
         for nodes in self._known.values():
             nodes.update({key: replace(known, request=None) for key, known in nodes.items()})
 
@@ -152,9 +156,13 @@ class Runs:
             self._loop = self._server.spawn(self._rounds())
         elif self._batch is not None:
             self._server.spawn(self._reconsider(self._batch))
+        else:
+            self.commands.reconsider(self._session.roots())
 
     def cancel(self, token: int | str) -> None:
         """The user cancelled a batch."""
+        if self.commands.cancel(token):
+            self._cancelled = True
         if self._batch is not None and self._batch.progress.token == token:
             self._cancelled = True
             self._batch.cancel.set()
@@ -166,6 +174,7 @@ class Runs:
         self._pool.shutdown(wait=True, cancel_futures=True)
 
     def _stop(self) -> None:
+        self.commands.stop()
         if self._batch is not None:
             self._batch.cancel.set()
 
@@ -197,6 +206,8 @@ class Runs:
         tracer = self._tracer
         if tracer is None or any(document.problems for document in analysis.documents.values()):
             return  # a file in the middle of being typed is not worth a run
+        if await self.commands.round(analysis, self._pool):
+            return
         workspace = await self._session.workspace()
         requests = await self._requests(workspace, analysis)
         known = self._known.setdefault(analysis.launch, {})

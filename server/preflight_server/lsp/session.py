@@ -254,8 +254,8 @@ class Session:
         finally:
             self._detecting = None
         if (folder, package_path) == (self.folder, self.settings.package_path):
-            self._workspace = Workspace(environment, self._sources)
-            self.runs.set_environment(environment)
+            self._workspace = Workspace(environment, self._sources, commands=self.runs.commands.results)
+            self.runs.set_workspace(self._workspace)
 
     # Which roots are analysed
 

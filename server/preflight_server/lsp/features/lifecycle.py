@@ -17,6 +17,7 @@ _WATCHED = (
     "**/*.xml",
     "**/*.{launch,test,machine}",
     "**/*.{yaml,yml}",
+    "**/*.{xacro,urdf,srdf,sdf}",
     "**/*.{py,msg,srv,action}",
     "**/{scripts,nodes,bin}/**",
 )

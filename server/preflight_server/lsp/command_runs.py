@@ -1,0 +1,112 @@
+"""Runs of the commands of parameters: before the nodes of a root, which may read what they print."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner
+from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+from preflight_server.lsp.progress import Progress
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
+
+
+@dataclass(frozen=True, slots=True)
+class _Batch:
+    lines: frozenset[str]
+    progress: Progress
+    cancel: threading.Event
+
+
+class CommandRuns:
+    """The commands of one session; `results` is what its trees are made with. Call it on the event loop.
+
+    A result is kept while its command is run again, so that what depends on it does not come and go.
+    """
+
+    def __init__(self, server: PreflightServer, session: Session, why_not_run: Callable[[], str | None]) -> None:
+        self.results = CommandResults(why_not_run)
+        self._server = server
+        self._session = session
+        self._runner: CommandRunner | None = None
+        self._current: set[str] = set()
+        """Command lines whose result is up to date."""
+        self._edition = 0
+        """How often files changed: what was found before says nothing of what is there now."""
+        self._batch: _Batch | None = None
+
+    def set_workspace(self, workspace: Workspace) -> None:
+        """Where and with what environment commands are run."""
+        self._runner = CommandRunner(workspace.environment, workspace.cwd, CommandCache())
+        self.forget()
+
+    def forget(self) -> None:
+        """Files changed: look every result up again, but keep it until then."""
+        self._current.clear()
+        self._edition += 1
+
+    def clear(self) -> None:
+        """Take every result back."""
+        self.forget()
+        self.results.clear()
+
+    def stop(self) -> None:
+        """Kill what runs."""
+        if self._batch is not None:
+            self._batch.cancel.set()
+
+    def cancel(self, token: int | str) -> bool:
+        """Kill what runs if this is its progress; whether it is."""
+        ours = self._batch is not None and self._batch.progress.token == token
+        if ours:
+            self.stop()
+        return ours
+
+    def reconsider(self, analyses: Iterable[Analysis]) -> None:
+        """Kill what runs if no launch file asks for it any more."""
+        asked = {line for analysis in analyses for line in command_lines(analysis.tree)}
+        if self._batch is not None and asked.isdisjoint(self._batch.lines):
+            self.stop()
+
+    async def round(self, analysis: Analysis, pool: ThreadPoolExecutor) -> bool:
+        """Look up, then run, the commands of one root. Whether the root is to be analysed again before its nodes."""
+        runner, edition = self._runner, self._edition
+        lines = [line for line in command_lines(analysis.tree) if line not in self._current]
+        if runner is not None and lines:
+            found = await self._session.in_pool(lambda: {line: runner.lookup(line) for line in lines})
+            self._take({line: hit for line, hit in found.items() if hit is not None}, edition)
+            missing = [line for line, hit in found.items() if hit is None]
+            if missing:
+                self._take(await self._run(runner, missing, pool), edition)
+        changed = any(self.results.result(command.line) != command.result for command in analysis.tree.commands)
+        if changed:
+            self._session.interfaces_changed(analysis.launch)
+        return changed or not self._current.issuperset(lines)
+
+    def _take(self, results: Mapping[str, CommandResult], edition: int) -> None:
+        if edition == self._edition:
+            self.results.update(results)
+            self._current.update(results)
+
+    async def _run(self, runner: CommandRunner, lines: list[str], pool: ThreadPoolExecutor) -> dict[str, CommandResult]:
+        loop = asyncio.get_running_loop()
+        progress = Progress(self._server, "Running the commands of parameters in the sandbox")
+        batch = self._batch = _Batch(frozenset(lines), progress, threading.Event())
+        try:
+            return await loop.run_in_executor(pool, lambda: run_commands(runner, lines, batch.cancel))
+        except asyncio.CancelledError:  # the loop ends; the thread would go on
+            batch.cancel.set()
+            raise
+        finally:
+            self._batch = None
+            progress.end("cancelled" if batch.cancel.is_set() else f"{len(lines)} commands")
