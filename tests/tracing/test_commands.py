@@ -314,17 +314,16 @@ def test_what_it_forks_dies_with_it(desk: Desk) -> None:
     marker = f"preflight-{uuid.uuid4()}"
     line = desk.script("""
         import os, signal, sys, time
-        if os.fork() == 0:
-            os.setsid()
-            os.close(1)
-            signal.signal(signal.SIGTERM, signal.SIG_IGN)
-            while True:
-                time.sleep(1)
+        for _ in range(50):
+            if os.fork() == 0:
+                os.setsid()
+                os.close(1)
+                signal.signal(signal.SIGTERM, signal.SIG_IGN)
+                while True:
+                    time.sleep(60)
         print("done")
     """)
     assert desk.run(f"{line} {marker}").output == "done\n"
-    bomb = "bomb() { bomb | bomb & }; bomb; sleep 60"
-    assert desk.run(f"bash -c {shlex.quote(bomb)} {marker}").status in ("not-run", "failed")
     wait_for(lambda: processes_with(marker) == [])
 
 
