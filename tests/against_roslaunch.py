@@ -40,6 +40,7 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"(?P<name>[^\n]*)\nROS path", ("PKG001",)),
     (r".*file does not exist \[(?P<path>.*?)\]", ("PRM002", "PRM003")),
     (r"Invalid roslaunch XML syntax: no root <launch> tag", ("LCH003", "LCH014")),
+    (r"Invalid roslaunch XML syntax: no element found: line 1, column 0", ("LCH001", "LCH003", "LCH014")),
     (r"Invalid roslaunch XML syntax: \[Errno 2\].*", ("LCH013", "LCH002")),
     (r"Invalid roslaunch XML syntax: \[Errno \d+\].*", ("LCH014", "LCH002")),
     (r"Invalid roslaunch XML syntax: .*", ("LCH001", "LCH014", "LCH002")),
@@ -90,6 +91,7 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r".*Cannot load non-dictionary types into global namespace", ("PRM004",)),
     (r"cannot turn \[(?P<value>.*?)\] into a global name", ("LCH008", "LCH009")),
     (r"'(?P<name>file|name)'$", ("LCH006",)),
+    (r"name '(?P<name>\w+)' is not defined", ("LCH011", *ARGUMENT)),
     (r"'\w+' object is not subscriptable|can only concatenate str", ("PRM004", "LCH011")),
     (r"'ROSLaunchConfig' object has no attribute", VALUE),
     (r"(?:Invalid <param> tag: )?No (?:closing quotation|escaped character)", ("PRM008",)),
@@ -98,7 +100,7 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
 )
 """How roslaunch's messages begin, and our rules of which one has to say the same."""
 
-EXCEPTIONS = {"RecursionError": ("LCH015",), "NameError": ("LCH011", *ARGUMENT)}
+EXCEPTIONS = {"RecursionError": ("LCH015",)}
 """What is raised without a message of roslaunch's own; all else comes from an `$(eval)`."""
 WRAPPERS = re.compile(r"(?:Invalid <(?:arg|node|env|param)> tag: |error loading <rosparam> tag: \n\t)")
 TAG = re.compile(r"\. (?:\n\n)?\w+ xml is .*|\. ?\nXML is .*", re.DOTALL)
@@ -130,13 +132,14 @@ def read_stop(record: dict[str, Any]) -> Stop | None:
     if rules is None:
         return None
     says = [text for key, text in groups.items() if key in ("name", "value") and text]
-    says = [text.replace("\\n", "\n").replace("\\t", "\t") for text in says]
+    for escaped, character in (("\\n", "\n"), ("\\t", "\t"), ("\\'", "'")):
+        says = [text.replace(escaped, character) for text in says]
     says += groups["names"].split(", ")[:1] if groups.get("names") else []
     files, exact = _files(record, chain, message, exception)
     if rules == ("PRM004",):
         files |= {groups["path"]} if "path" in groups else set()
     elif groups.get("path"):
-        says.append(os.path.basename(groups["path"]))
+        says += [name for name in (os.path.basename(groups["path"]),) if name.strip(".")]
     return Stop(rules, tuple(says), frozenset(files), frozenset(_includers(record, files)), exact)
 
 
@@ -233,7 +236,7 @@ def _value_differences(record: dict[str, Any], answer: dict[str, Any]) -> Iterat
     if sorted(record["clear_params"]) != sorted(answer["clear_params"]):
         yield f"clear_params {record['clear_params']}, and ours {answer['clear_params']}"
     includes = [os.path.normpath(include["file"]) for include in record["includes"]]
-    if includes != answer["includes"]:
+    if includes != [os.path.normpath(path) for path in answer["includes"]]:
         yield f"includes {includes}, and ours {answer['includes']}"
     machines = {n: {"address": m["address"], "user": m["user"]} for n, m in record["machines"].items()}
     ours_machines = {n: {"address": m["address"], "user": m["user"] or None} for n, m in answer["machines"].items()}
@@ -268,7 +271,16 @@ def _same_value(theirs: dict[str, Any], ours: Any) -> bool:
     if "sha1" in theirs:
         text = ours if isinstance(ours, str) else json.dumps(ours, sort_keys=True)
         return hashlib.sha1(text.encode("utf-8", "surrogatepass")).hexdigest() == theirs["sha1"]
-    return json.dumps(theirs["value"], sort_keys=True) == json.dumps(ours, sort_keys=True)
+    return json.dumps(_spelled(theirs["value"]), sort_keys=True) == json.dumps(ours, sort_keys=True)
+
+
+def _spelled(value: Any) -> Any:
+    """Infinities in lists as Python writes them: the records have JavaScript's names."""
+    if isinstance(value, list):
+        return [_spelled(each) for each in value]
+    if isinstance(value, dict):
+        return {key: _spelled(each) for key, each in value.items()}
+    return {"Infinity": "inf", "-Infinity": "-inf", "NaN": "nan"}.get(value, value) if isinstance(value, str) else value
 
 
 def main() -> int:

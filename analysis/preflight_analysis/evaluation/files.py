@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Protocol
 
 from preflight_analysis.documents.document import Document
@@ -31,3 +32,17 @@ class Executables(Protocol):
 
     def find(self, package: str, name: str) -> Executable:
         """The executable as roslaunch finds it."""
+
+
+def without_dots(path: str) -> str | None:
+    """`path` without `..`, None where that goes up from a folder that is not there.
+
+    As the system reads it: behind a symbolic link `..` is the folder of what the link points to.
+    """
+    plain = os.path.normpath(path)
+    if ".." not in path:
+        return plain
+    if not os.path.isdir(os.path.dirname(path)):
+        return None
+    real = os.path.realpath(path)
+    return plain if os.path.realpath(plain) == real else real

@@ -22,11 +22,7 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
 
     Lines and columns are counted from 1, columns in code points. A float that JSON has no number for is a string.
     """
-    met: dict[Location, int] = {}
-    for number, problem in enumerate(tree.problems):
-        if problem.fatal:
-            met.setdefault(problem.location, number)
-    errors = sorted((f for f in findings if f.stops_launch), key=lambda f: met.get(f.location, len(met)))
+    errors = sorted((f for f in findings if f.stops_launch), key=lambda finding: finding.met)
     return {
         "schema": SCHEMA,
         "file": tree.file,

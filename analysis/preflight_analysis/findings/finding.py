@@ -57,3 +57,5 @@ class Finding:
     fixes: tuple[Fix, ...] = ()
     roots: tuple[str, ...] = field(default=())
     stops_launch: bool = False
+    met: int = field(default=0, compare=False)
+    """Of one that stops the launcher: its place in the order in which the launcher would meet them."""

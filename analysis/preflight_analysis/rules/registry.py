@@ -6,12 +6,15 @@ import importlib
 import logging
 import pkgutil
 import re
-from collections.abc import Iterable, Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from types import ModuleType
 
 import preflight_analysis.rules as package
+from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.suppression import apply_suppressions
 from preflight_analysis.rules.rule import Context, Rule, in_root
@@ -52,13 +55,27 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
             continue
         ran.add(rule.id)
-        raw.extend(found)
+        raw.extend(_in_order(rule, found, context) if rule.problems else found)
     filtered = apply_suppressions(unique(raw), context.documents)
     kept = list(filtered.kept)
     judge = next((rule for rule in chosen if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
         kept += [judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran]
     return sorted((in_root(finding, context.root) for finding in kept), key=_place)
+
+
+def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iterator[Finding]:
+    """The findings of a rule, those that stop the launcher with their place in the order in which it meets them.
+
+    One place can stop it in several ways: where a file is included twice, each time with other arguments.
+    """
+    met: dict[Location, deque[int]] = {}
+    for number, problem in enumerate(context.tree.problems):
+        if problem.fatal and problem.kind in rule.problems:
+            met.setdefault(problem.location, deque()).append(number)
+    for finding in findings:
+        numbers = met.get(finding.location) if finding.stops_launch else None
+        yield replace(finding, met=numbers.popleft()) if numbers else finding
 
 
 def unique(findings: Iterable[Finding]) -> list[Finding]:

@@ -10,7 +10,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.commands import Commands, NoResults
-from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.memo import Memo, arg_origins, key_of
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
@@ -194,11 +194,18 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     if not file.known:
         state.unknown("<include>", "its file is not known", scope, file_attribute.value.span)
         return default_machine
-    path = os.path.normpath(os.path.join(state.cwd, file.text))
+    # The empty path is not the working directory.
+    real = without_dots(os.path.join(state.cwd, file.text)) if file.text else None
+    path = real or os.path.normpath(os.path.join(state.cwd, file.text))
     state.uses.append(Use("include", place, file.text, path, Location(path, Span(0, 0))))
     if _too_deep(state, scope, action):
         return default_machine
-    found = _included(state, scope, path, passed, scope.origin(file_attribute.value.span))
+    file_origin = scope.origin(file_attribute.value.span)
+    if real is None:
+        state.problem("include-not-found", file_origin, path=path, reason="does not exist")
+        state.unknown("<include>", f"{path} does not exist", scope, file_attribute.value.span)
+        return default_machine
+    found = _included(state, scope, path, passed, file_origin)
     if found is None:
         return default_machine
     inside.file, inside.chain = path, origin

@@ -82,7 +82,7 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
         if isinstance(found, bytes):
             return found
         text = found.text
-        state.uses.append(_file_use(scope, action, source, path))
+        state.uses.append(_file_use(scope, action, source, found.path))
     try:
         return values.convert(text, type_name)
     except values.BadValueError as error:
@@ -187,8 +187,8 @@ def _yaml_text(state: State, scope: Scope, action: Action, file: str | None) -> 
         report_file(state, scope, action, "file", found)
         state.unknown("<rosparam>", f"the file {path} {found.reason}", scope, action.kind_span)
         return None
-    state.uses.append(_file_use(scope, action, "file", path))
-    return _YamlText(found.text, path, 0)
+    state.uses.append(_file_use(scope, action, "file", found.path))
+    return _YamlText(found.text, found.path, 0)
 
 
 def _substituted(state: State, scope: Scope, action: Action, text: _YamlText) -> _YamlText | None:

@@ -10,7 +10,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
-from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.ros1.memo import Memo, Record
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
@@ -183,10 +183,16 @@ class State:
 
     def read_text(self, path: str) -> Document | Unreadable:
         """A text file, noted as an input."""
-        self.inputs[path] = self.digest(path)
-        return self.files.text(path)
+        real = without_dots(path)
+        if real is None:
+            return Unreadable(path, "does not exist", "missing")
+        self.inputs[real] = self.digest(real)
+        return self.files.text(real)
 
     def read_data(self, path: str) -> bytes | Unreadable:
         """The bytes of a file, noted as an input."""
-        self.inputs[path] = self.digest(path)
-        return self.files.data(path)
+        real = without_dots(path)
+        if real is None:
+            return Unreadable(path, "does not exist", "missing")
+        self.inputs[real] = self.digest(real)
+        return self.files.data(real)
