@@ -9,7 +9,7 @@ from query_desk import at_cursor
 def told(text: str) -> tuple[str, str] | None:
     """The text, and what it speaks of."""
     there = at_cursor(text)
-    found = hover(there.analysis, there.file, there.offset)
+    found = hover((there.analysis,), there.file, there.offset)
     return (found.markdown, there.text(found.span)) if found else None
 
 

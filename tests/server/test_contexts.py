@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,19 @@ async def test_a_file_is_shown_as_its_roots_include_it(desk: Desk) -> None:
         assert sorted(root.uri for root in answer.roots) == [fast.as_uri(), slow.as_uri()]
         assert answer.shown == answer.roots[0]
         assert "50" in await shown_value(editor, fragment)
+
+
+async def test_hover_says_what_it_is_in_each_root(desk: Desk) -> None:
+    fragment, _, _ = lay(desk)
+    async with editing(desk) as editor:
+        editor.open(fragment, FRAGMENT + "<unfinished")
+
+        async def both() -> str:
+            while "By launch:" not in (text := await shown_value(editor, fragment)):
+                pass
+            return text
+
+        assert "- `50` in `fast.launch`\n- `2` in `slow.launch`" in await asyncio.wait_for(both(), 20)
 
 
 async def test_the_user_selects_root_and_arguments(desk: Desk) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Origin, Span
@@ -19,7 +19,9 @@ from preflight_analysis.queries.places import (
     params_of,
     place,
     remaps_of,
+    shown_path,
     use_at,
+    uses_at,
 )
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
@@ -29,6 +31,11 @@ _SHOWN_CONTEXTS = 3
 _SHOWN_PARAMS = 40
 _SHOWN_LINES = 12
 _SHOWN_COLUMNS = 160
+_SHOWN_ROOTS = 8
+_SHOWN_VALUES = 4
+
+_OF_THE_TAG = ("value", "executable", "include")
+"""Uses of which the tag around them tells more."""
 
 _SOURCES = {
     "trace": "from a run in the sandbox",
@@ -62,13 +69,17 @@ class Hover:
     span: Span
 
 
-def hover(analysis: Analysis, file: str, offset: int) -> Hover | None:
-    """What is known of the thing at `offset`, and what the language says of a tag or attribute whose name is there.
+def hover(analyses: Sequence[Analysis], file: str, offset: int, unseen: int = 0) -> Hover | None:
+    """What is known of the thing at `offset`, in the first of the roots in which there is something to say, what it
+    comes to in each where that is not the same, and what the language says of a tag or attribute whose name is there.
 
-    None where there is nothing to say.
+    None where there is nothing to say. `unseen` is how many more roots there are that reach the file.
     """
-    found = _known(analysis, file, offset)
-    document = analysis.documents.get(file)
+    found = next((h for a in analyses if (h := _known(a, file, offset)) is not None), None)
+    contexts = _contexts(analyses, file, offset, unseen) if found else ""
+    if found is not None and contexts:
+        found = Hover(f"{found.markdown}\n\n{contexts}", found.span)
+    document = next((a.documents[file] for a in analyses if file in a.documents), None)
     language = described(document, offset) if document is not None else None
     if language is None:
         return found
@@ -81,7 +92,7 @@ def _known(analysis: Analysis, file: str, offset: int) -> Hover | None:
     use = use_at(analysis.tree, file, offset)
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
-    if use is not None and use.kind not in ("value", "executable", "include"):
+    if use is not None and use.kind not in _OF_THE_TAG:
         return Hover(_use(analysis, use), use.location.span)
     blocks = list(_action(analysis, file, action)) if action is not None else []
     if blocks and action is not None:
@@ -89,6 +100,70 @@ def _known(analysis: Analysis, file: str, offset: int) -> Hover | None:
     if use is not None:
         return Hover(_use(analysis, use), use.location.span)
     return None
+
+
+def _contexts(analyses: Sequence[Analysis], file: str, offset: int, unseen: int) -> str:
+    """What the thing comes to, and in which roots; nothing where it is the same in all."""
+    known = [(analysis, found) for analysis in analyses if (found := _values(analysis, file, offset))]
+    common = frozenset.intersection(*(frozenset(found) for _, found in known)) if known else frozenset[str]()
+    roots: dict[tuple[str, ...], list[str]] = {}
+    for analysis, found in known:
+        one = _is_of_use(analysis, file, offset)
+        differing = tuple(value for value in found if one or value not in common)
+        if differing:
+            roots.setdefault(differing, []).append(_root(analysis))
+    if not roots or (len(roots) == 1 and len(known) == len(next(iter(roots.values()))) and len(next(iter(roots))) == 1):
+        return ""
+    lines, left = ["By launch:"], _SHOWN_ROOTS
+    for values, launches in roots.items():
+        more = [f"… and {len(values) - _SHOWN_VALUES} more"] if len(values) > _SHOWN_VALUES else []
+        if shown := launches[:left]:
+            lines.append(f"- {', '.join((*values[:_SHOWN_VALUES], *more))} in {', '.join(f'`{n}`' for n in shown)}")
+        left -= len(shown)
+    if hidden := unseen + sum(map(len, roots.values())) - (_SHOWN_ROOTS - left):
+        lines.append(f"- … and {hidden} more")
+    return "\n".join(lines)
+
+
+def _root(analysis: Analysis) -> str:
+    path = shown_path(analysis.root, analysis.environment.workspace)
+    return " ".join((path, *(f"{name}:={value}" for name, value in analysis.args)))
+
+
+def _values(analysis: Analysis, file: str, offset: int) -> tuple[str, ...]:
+    """What the thing at `offset` comes to in one root, once for each context in which its file is included."""
+    uses = uses_at(analysis.tree, file, offset)
+    if _is_of_use(analysis, file, offset):
+        uses = [u for u in uses if u.location == uses[0].location and u.kind == uses[0].kind]
+        return tuple(dict.fromkeys(_value(use.value) for use in uses))
+    launch_file = analysis.launch_files.get(file)
+    action = action_at(launch_file, offset) if launch_file else None
+    return tuple(dict.fromkeys(_made(analysis, file, action))) if action else ()
+
+
+def _is_of_use(analysis: Analysis, file: str, offset: int) -> bool:
+    """Whether the hover speaks of a name in a value, not of what the tag around it makes."""
+    use = use_at(analysis.tree, file, offset)
+    if use is None or use.kind not in _OF_THE_TAG:
+        return use is not None
+    launch_file = analysis.launch_files.get(file)
+    action = action_at(launch_file, offset) if launch_file else None
+    return action is None or not any(_made(analysis, file, action))
+
+
+def _made(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
+    if action.kind in ("node", "test"):
+        yield from (f"`{node.name}`" for _, node in nodes_of(analysis, file, action))
+    elif action.kind == "include":
+        for include in analysis.tree.includes:
+            if include.origin[-1].file == file and include.origin[-1].span == action.head_span:
+                given = (f" `{name}:={value}`" for name, value in include.args.items())
+                yield f"`{include.path or 'not known'}`{''.join(given)}"
+    elif action.kind in ("param", "rosparam"):
+        yield from (f"`{p.name}` = {_value(p.value)}" for p in params_of(analysis.tree, file, action))
+    elif action.kind == "remap":
+        for node, remap in remaps_of(analysis.tree, file, action):
+            yield f"`{names.resolve(remap.source, node.name)}` → `{names.resolve(remap.target, node.name)}`"
 
 
 def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,10 +15,17 @@ from preflight_analysis.workspace.workspace import Analysis
 
 def use_at(tree: LaunchTree, file: str, offset: int) -> Use | None:
     """The innermost use of a name at `offset`, in the first context in which its value is known."""
+    return next(iter(uses_at(tree, file, offset)), None)
+
+
+def uses_at(tree: LaunchTree, file: str, offset: int) -> list[Use]:
+    """The uses of a name at `offset`, the innermost first, those whose value is known before others."""
     found = [u for u in tree.uses if u.location.file == file and u.location.span.contains(offset)]
-    if not found:
-        return None
-    return min(found, key=lambda u: (u.location.span.end - u.location.span.start, u.kind == "value", u.value is None))
+    return sorted(found, key=_innermost_known)
+
+
+def _innermost_known(use: Use) -> tuple[int, bool, bool]:
+    return use.location.span.end - use.location.span.start, use.kind == "value", use.value is None
 
 
 def nodes_of(analysis: Analysis, file: str, action: Action) -> Iterator[tuple[int, LaunchNode]]:
@@ -55,6 +63,11 @@ def line_of(analysis: Analysis, location: Location) -> int | None:
     """The line of a location, counted from 1; None in a file that is not an analysed document."""
     document = analysis.documents.get(location.file)
     return document.lines.position(location.span.start)[0] + 1 if document else None
+
+
+def shown_path(path: str, folder: str | None) -> str:
+    """A path as the user knows it: below the workspace's folder where it is in there."""
+    return os.path.relpath(path, folder) if folder and path.startswith(folder.rstrip("/") + "/") else path
 
 
 def link(file: str, line: int | None) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,6 +11,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.queries.places import shown_path
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.indexing import entry_of, written_includes
@@ -70,8 +70,7 @@ class Scene:
 
     def shown(self, path: str) -> str:
         """A path as the user knows it: below the workspace's folder."""
-        folder = self.workspace.environment.workspace
-        return os.path.relpath(path, folder) if folder and path.startswith(folder.rstrip("/") + "/") else path
+        return shown_path(path, self.workspace.environment.workspace)
 
     def line(self, path: str, number: int) -> Location:
         """A line of a file, counted from 1, without the blanks around it; its start where there is no such line."""
@@ -86,7 +85,7 @@ class Scene:
 
 def with_analyses(index: WorkspaceIndex, analyses: Sequence[Analysis]) -> WorkspaceIndex:
     """The index brought up to what newer analyses know; the very same where they know nothing new."""
-    now = {path: found for analysis in analyses for path, found in analysis.launch_files.items()}
+    now = {path: found for analysis in reversed(analyses) for path, found in analysis.launch_files.items()}
     stale = {p: f for p, f in now.items() if p not in index.files or index.files[p].digest != f.document.digest}
     trees = {analysis.launch: analysis.tree for analysis in analyses}
     newer = {

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.queries.places import shown_path
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -55,9 +56,8 @@ def _files(index: WorkspaceIndex, folder: str | None, named: Callable[[str], boo
     for path in index.files:
         name = os.path.basename(path)
         if named(name):
-            inside = folder is not None and path.startswith(folder.rstrip("/") + "/")
-            shown = os.path.relpath(path, folder) if inside else path
-            yield WorkspaceSymbol(name, "launch", os.path.dirname(shown), Location(path, Span(0, 0)))
+            where = os.path.dirname(shown_path(path, folder))
+            yield WorkspaceSymbol(name, "launch", where, Location(path, Span(0, 0)))
 
 
 def _nodes(index: WorkspaceIndex, named: Callable[[str], bool]) -> Iterator[WorkspaceSymbol]:

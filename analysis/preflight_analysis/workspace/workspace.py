@@ -83,7 +83,7 @@ class Workspace:
         key = (path, tuple(sorted(args.items())))
         with self._lock:
             known = self._static.get(key)
-        if known is not None and self._unchanged(known.tree):
+        if known is not None and self.is_current(known.tree):
             return known
         tree = self._remembering_tree(path, args)
         documents, launch_files = self._documents(tree)
@@ -152,7 +152,8 @@ class Workspace:
         )
         return replace(analysis, graph=graph, findings=tuple(run_rules(context)), why_not_run=why_not_run)
 
-    def _unchanged(self, tree: LaunchTree) -> bool:
+    def is_current(self, tree: LaunchTree) -> bool:
+        """Whether nothing that it was made of has changed since."""
         return all(self.sources.digest(path) == known for path, known in tree.inputs.items()) and all(
             self.commands.result(command.line) == command.result for command in tree.commands
         )

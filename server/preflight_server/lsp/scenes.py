@@ -16,17 +16,21 @@ if TYPE_CHECKING:
 
 
 async def scene_of(ls: PreflightServer, view: View) -> Scene:
-    """The scene of an open launch file."""
+    """The scene of an open launch file. What was not analysed since the last edit is left out: its places are gone."""
     assert ls.session is not None
-    return Scene(view.path, view.analyses, view.index, await ls.session.workspace())
+    session, workspace = ls.session, await ls.session.workspace()
+    others = await session.in_pool(lambda: [a for a in view.analyses[1:] if workspace.is_current(a.tree)])
+    return Scene(view.path, (view.analysis, *others), view.index, workspace)
 
 
 async def scene_of_workspace(ls: PreflightServer, path: str = "") -> Scene:
     """The scene of any launch file, open or not, or of none: with the analyses of all that is open."""
     assert ls.session is not None
-    await ls.session.settled()
-    workspace = await ls.session.workspace()
-    return Scene(path, tuple(ls.session.roots()), ls.session.indexing.index, workspace)
+    session = ls.session
+    await session.settled()
+    workspace, analyses = await session.workspace(), session.roots()
+    current = await session.in_pool(lambda: tuple(a for a in analyses if workspace.is_current(a.tree)))
+    return Scene(path, current, session.indexing.index, workspace)
 
 
 def converter_for(ls: PreflightServer, scene: Scene, places: Iterable[Location]) -> Converter:

@@ -8,6 +8,7 @@ from lsprotocol import types
 from preflight_analysis.queries.hover import hover as query
 
 from preflight_server.lsp.markup import markup
+from preflight_server.lsp.scenes import scene_of
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -28,5 +29,7 @@ def register(server: PreflightServer) -> None:
             return None
         positions = view.converter.positions(view.path)
         offset = positions.offset(params.position)
-        found = await ls.session.in_pool(lambda: query(view.analysis, view.path, offset))
+        scene = await scene_of(ls, view)
+        unseen = max(0, len(ls.session.roots_of(view.path)) - len(view.analyses))
+        found = await ls.session.in_pool(lambda: query(scene.analyses, view.path, offset, unseen))
         return types.Hover(_content(ls, found.markdown), positions.range(found.span)) if found else None
