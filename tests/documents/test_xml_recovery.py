@@ -517,3 +517,195 @@ def test_spans_cover_what_they_name() -> None:
     start = "<node pkg=\"a\" type= name='n'>"
     values = ["pkg", "a", 'pkg="a"', "type", "", "type=", "name", "n", "name='n'"]
     assert source(node) == ["node", start, start + "\n    text\n  </node>", *values]
+
+
+def test_quotes_that_are_half_there_doubled_mixed_or_curly() -> None:
+    check(
+        """
+        <launch>
+          <node pkg="a" type=b" name="n"/>
+                             ^^ the opening " is missing
+          <node pkg="a" type=""b" name="n"/>
+                              ^ there is one " too many
+          <node pkg="a" type="b' name="n"/>
+                             ^^^ the value starts with " and ends with '
+          <node pkg="a" type='b" name="n"/>
+                             ^^^ the value starts with ' and ends with "
+          <node pkg="a" type=“b” name="n"/>
+                             ^^^ the quotes must be straight ones
+          <node pkg="a" type "b" name="n"/>
+                        ^^^^ '=' is missing after 'type'
+        </launch>
+        """,
+        "<launch>" + " ".join(["<node pkg=a type=b name=n/>"] * 6) + "</>",
+    )
+
+
+def test_what_looks_like_a_tag_or_a_comment() -> None:
+    check(
+        """
+        <launch>
+          < node pkg="a"/>
+          ^^^^^^ there cannot be a blank after the '<' of a tag
+          <<node pkg="b"/>
+          ^ there is one '<' too many
+          <!- one -->
+          ^^^ a comment starts with '<!--'
+          <-- two -->
+          ^^^ a comment starts with '<!--'
+          <node pkg="c"\\>
+                       ^ '\\' must be '/'
+        <<<<<<< HEAD
+        ^^^^^^^ this is the mark of a merge conflict
+        </launch>
+        """,
+        "<launch><node pkg=a/> <node pkg=b/> #one# #two# <node pkg=c/> 'HEAD'</>",
+    )
+
+
+def test_a_comment_in_a_tag() -> None:
+    check(
+        """
+        <launch>
+          <node pkg="a" <!-- type="b" --> name="n"/>
+                        ^^^^^^^^^^^^^^^^^ a comment cannot stand in a tag
+          <node pkg="a"
+                ^^^^^^^ the tag <node> has no '>'
+          <!-- type="b" -->
+          <node pkg="c"/>
+        </launch>
+        """,
+        '<launch><node pkg=a name=n/> <node pkg=a>#type="b"#</> <node pkg=c/></>',
+    )
+
+
+def test_an_end_tag_of_the_wrong_name_where_the_right_one_should_stand() -> None:
+    check(
+        """
+        <launch>
+          <group ns="a">
+            <node pkg="b">
+            </group>
+              ^^^^^ expected </node>
+          </node>
+            ^^^^ expected </group>
+          <node pkg="c"/>
+        </launch>
+        """,
+        "<launch><group ns=a><node pkg=b/></> <node pkg=c/></>",
+    )
+
+
+def test_an_end_tag_too_many_is_not_taken_for_that_of_the_element_around_it() -> None:
+    check(
+        """
+        <launch>
+          <group ns="a">
+            <node pkg="b"/>
+            </node>
+              ^^^^ </node> closes nothing, it is closed by its '/>' already
+          </group>
+          </group>
+            ^^^^^ </group> closes nothing
+        </launch>
+        """,
+        "<launch><group ns=a><node pkg=b/></></>",
+    )
+
+
+def test_an_end_tag_without_its_slash_or_its_bracket() -> None:
+    check(
+        """
+        <launch>
+          <group ns="a">
+            <node pkg="b"/>
+          <group>
+           ^^^^^ '/' is missing: </group> is expected
+          <group ns="c">
+            <node pkg="d"/>
+          /group>
+          ^^^^^^^ '<' is missing before '/group>'
+          <node pkg="e"/>
+        </launch>
+        """,
+        "<launch><group ns=a><node pkg=b/></> <group/> <group ns=c><node pkg=d/> '/group>'</> <node pkg=e/></>",
+    )
+
+
+def test_a_start_tag_without_its_bracket() -> None:
+    check(
+        """
+        <launch>
+          node pkg="a" type="b">
+          ^^^^ '<' is missing before 'node'
+            <param name="c"/>
+          </node>
+        </launch>
+        """,
+        '<launch>\'node pkg="a" type="b">\' <param name=c/></>',
+    )
+
+
+def test_an_end_tag_that_is_typed_while_the_element_has_its_own() -> None:
+    check(
+        """
+        <launch>
+          <group ns="a">
+            <node pkg="b"/>
+          </
+          ^^ expected </group>
+          <node pkg="c"/>
+          </
+          ^^ the name of an end tag is missing
+          <node pkg="d"/>
+        </launch>
+        """,
+        "<launch><group ns=a><node pkg=b/></> <node pkg=c/> <node pkg=d/></>",
+    )
+
+
+def test_a_reference_without_its_semicolon() -> None:
+    check(
+        """
+        <launch>
+          <group if="$(eval a &lt 3)">&amplify</group>
+                              ^^^ ';' is missing after '&lt'
+                                      ^ '&' must be written as &amp;
+        </launch>
+        """,
+        "<launch><group if=$(eval a &lt 3)>'&amplify'</></>",
+    )
+
+
+def test_the_xml_declaration() -> None:
+    check(
+        """
+        <xml version="1.0"?>
+        ^^^^ the XML declaration starts with '<?xml'
+        <launch/>
+        """,
+        "<launch/>",
+    )
+    check(
+        """
+        <?xml version="1.0?>
+        ^^^^^^^^^^^^^^^^^^^ not well-formed XML: XML declaration not well-formed
+        <launch/>
+        """,
+        "<launch/>",
+    )
+
+
+def test_an_encoding_that_the_file_does_not_have() -> None:
+    for name in ("UTF-16", "latin-9x"):
+        message = f"the file is not in the encoding '{name}', or XML does not know it; it is UTF-8"
+        check(
+            f"""
+            <?xml version="1.0" encoding="{name}"?>
+                                          {"^" * len(name)} {message}
+            <launch/>
+            """,
+            "<launch/>",
+        )
+    for name in ("UTF-8", "utf8", "ISO-8859-1", "us-ascii"):
+        check(f"<?xml version='1.0' encoding='{name}'?><launch/>", "<launch/>")

@@ -14,6 +14,8 @@ MAX_PROBLEMS = 100
 """A text that is no XML at all has one per character or so; nobody reads them."""
 
 _WORD = re.compile(f"</?(?:{NAME})?|{NAME}|[^ \t\r\n]")
+_DECLARATION = re.compile("\ufeff?<\\?xml[ \t\r\n][^>]*")
+_ENCODING = re.compile("[ \t\r\n]encoding[ \t\r\n]*=[ \t\r\n]*(?:\"([^\"]*)\"|'([^']*)')")
 _CONTINUATION_BYTES = bytes(range(0x80, 0xC0))
 _PARAMETER_REFERENCE = re.compile(f"%{NAME};")
 
@@ -21,13 +23,14 @@ _PARAMETER_REFERENCE = re.compile(f"%{NAME};")
 def parse_xml(path: str, text: str) -> Document:
     """Parse the text of an XML file, whatever it looks like, in time linear in its length. Never raises.
 
-    `problems` is empty exactly when expat, the parser that roslaunch uses through minidom, takes the text (an empty
-    one aside: it has no root and no problem). Values are decoded and normalised as XML says. The entities of a
-    DOCTYPE are not expanded, so what is wrong inside of their replacement text is not seen.
+    `problems` is empty exactly when expat, the parser that roslaunch uses through minidom, takes the text and the
+    encoding that it declares (an empty text aside: it has no root and no problem). Values are decoded and normalised
+    as XML says. The entities of a DOCTYPE are not expanded, so what is wrong inside of their replacement text is not
+    seen.
     """
     lines = LineIndex(text)
     scanned = scan(text, lines)
-    complaint = _expat_complaint(text, scanned)
+    complaint = _expat_complaint(text, scanned) or _encoding_complaint(text)
     if complaint is None:
         problems: tuple[SyntaxProblem, ...] = ()
     elif scanned.problems:
@@ -52,7 +55,33 @@ def _expat_complaint(text: str, scanned: Scan) -> SyntaxProblem | None:
             return None
         # expat counts bytes, we code points: each has one byte that is no continuation byte.
         before = data[: parser.ErrorByteIndex].translate(None, _CONTINUATION_BYTES)
-        return SyntaxProblem(_message(error.code), _span_at(text, len(before)))
+        span = _span_at(text, len(before))
+        if error.code == expat.errors.codes[expat.errors.XML_ERROR_XML_DECL]:
+            span = _declaration(text) or span
+        return SyntaxProblem(_message(error.code), span)
+    return None
+
+
+def _declaration(text: str) -> Span | None:
+    found = _DECLARATION.match(text, 0, 300)
+    return Span(found.start() + (text[0] == "\ufeff"), found.end()) if found else None
+
+
+def _encoding_complaint(text: str) -> SyntaxProblem | None:
+    """What expat has against the encoding that the XML declaration names, of a file that is UTF-8."""
+    if "encoding" not in text[:300]:
+        return None
+    declaration = _declaration(text)
+    found = _ENCODING.search(text, declaration.start, declaration.end) if declaration else None
+    if found is None:
+        return None
+    if found[1] in ("utf-8", "UTF-8"):
+        return None
+    name, span = found[1] or found[2] or "", Span(*found.span(1 if found[1] is not None else 2))
+    try:
+        expat.ParserCreate().Parse(f'<?xml version="1.0" encoding="{name}"?><a/>'.encode(), True)
+    except (expat.ExpatError, LookupError, ValueError):
+        return SyntaxProblem(f"the file is not in the encoding '{name}', or XML does not know it; it is UTF-8", span)
     return None
 
 

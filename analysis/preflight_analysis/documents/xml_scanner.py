@@ -9,6 +9,7 @@ well-formed text nothing was guessed. No pattern can backtrack more than linearl
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections import Counter, deque
 from dataclasses import dataclass
 
@@ -30,6 +31,7 @@ _S = "[ \t\r\n]"
 _ATTRIBUTE = re.compile(f"{_S}+({NAME}){_S}*={_S}*(?:\"([^<\"]*)\"|'([^<']*)')")
 _START_TAG = re.compile(f"<({NAME})((?:{_S}+{NAME}{_S}*={_S}*(?:\"[^<\"]*\"|'[^<']*'))*){_S}*(/?)>")
 _END_TAG = re.compile(f"</({NAME}){_S}*>")
+_TAG_MARK = re.compile(f"<(/?)({NAME})(?:[^<>\"']|\"[^\"<]*\"|'[^'<]*')*?(/?)>")
 _SPACE = re.compile(f"{_S}*")
 _NAME = re.compile(NAME)
 _NAME_EQUALS = re.compile(f"{NAME}{_S}*=")
@@ -39,12 +41,23 @@ _JUNK = re.compile(f"[^{_NAME_START} \t\r\n<>/\"'=]+")
 _TEXT_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?")
 _VALUE_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?|[\n\t]")
 _TO_DECODE = re.compile("[&\r\n\t]")
+_MISSPELT_COMMENT = re.compile(r"<!?--?(?=[ \t\r\n])")
+_SPACED_TAG = re.compile(f"<[ \t]+({NAME})(?={_S}+{NAME}{_S}*=|{_S}*/?>)")
+_CONFLICT = re.compile(r"<{7}(?=[ \r\n])")
+_AFTER_COMMENT = re.compile(f"{_S}*(?:{NAME}{_S}*=|/?>)")
+_UNFINISHED_REFERENCE = re.compile("&(?:lt|gt|amp|quot|apos)(?![A-Za-z0-9])")
+_TEXT_OF_TAG = re.compile(f"(?<![\\w<])({NAME}){_S}+{NAME}{_S}*=")
+_STRAIGHT_END = re.compile("[^<>\"'= \t\r\n]*[\"'](?=[ \t\r\n/>])")
 _COMMENT_MARK = re.compile("<!--|-->")
 _NOT_A_CHARACTER = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]+")
 _ENTITY_DECLARATION = re.compile(f"<!ENTITY{_S}+({NAME}){_S}")
 _EXTERNAL = re.compile(f"<!DOCTYPE{_S}+{NAME}{_S}+(?:SYSTEM|PUBLIC)\\b|%{NAME};")
 _SUBSET_MARK = re.compile("<!--|<\\?|[\"'\\[\\]<>]")
 _PREDEFINED = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
+_CURLY_QUOTES = "\u201c\u201d\u201e\u2018\u2019"
+_LOOK_BACK = 50
+"""How many nodes before an end tag without a start tag are looked at for one that it might belong to, and how deep
+an indentation counts: what is broken again and again must not cost more than its length each time."""
 _VALUE_BLANKS = {ord("\n"): " ", ord("\t"): " "}
 
 
@@ -112,6 +125,7 @@ class _Scanner:
         self.doctype = Span(0, 0)
         self.found_at: dict[str, tuple[int, int]] = {}
         self.comment_ends: dict[int, int] | None = None
+        self.marks: dict[str, tuple[list[int], list[int]]] | None = None
 
     def scan(self) -> Scan:
         text = self.text
@@ -208,7 +222,11 @@ class _Scanner:
         span = Span(at, at + len(reference))
         name = reference[1:-1]
         if reference == "&":
-            self._problem("'&' must be written as &amp;", at, at + 1)
+            unfinished = _UNFINISHED_REFERENCE.match(self.text, at)
+            if unfinished:
+                self._problem(f"';' is missing after '{unfinished[0]}'", at, unfinished.end())
+            else:
+                self._problem("'&' must be written as &amp;", at, at + 1)
         elif name.startswith("#"):
             code = _code_point(name[1:])
             if code is not None:
@@ -276,11 +294,19 @@ class _Scanner:
             if char == ">":
                 self._opened(name[0], Span(*name.span()), attributes, at + 1, empty=False)
                 return at + 1
+            if char == "<" and (comment := self._comment_in_tag(at)) > 0:
+                at, told = comment, True
+                last_end = at
+                continue
             if char in ("", "<"):
                 if not told:
                     self._problem(f"the tag <{name[0]}> has no '>'", last_start, last_end)
                 self._opened(name[0], Span(*name.span()), attributes, last_end, empty=False, broken=True)
                 return at
+            if char == "\\" and text.startswith(">", at + 1):
+                self._problem("'\\' must be '/'", at, at + 1)
+                self._opened(name[0], Span(*name.span()), attributes, at + 2, empty=True)
+                return at + 2
             if char == "/":
                 after = _skip(_SPACE, text, at + 1)
                 if text[after : after + 1] in (">", "<", ""):
@@ -305,6 +331,16 @@ class _Scanner:
                 told = True
             last_end = at
 
+    def _comment_in_tag(self, at: int) -> int:
+        """End of the comment at `at` if the tag goes on behind it, else -1."""
+        if not self.text.startswith("<!--", at):
+            return -1
+        close = self._find("-->", at + 4)
+        if close < 0 or not _AFTER_COMMENT.match(self.text, close + 3):
+            return -1
+        self._problem("a comment cannot stand in a tag", at, close + 3)
+        return close + 3
+
     def _stray(self, at: int, tag: str) -> int:
         """Something in a start tag that is no attribute. Returns where it ends."""
         text = self.text
@@ -321,6 +357,10 @@ class _Scanner:
         text = self.text
         name_span = Span(*name.span())
         equals = _skip(_SPACE, text, name.end())
+        if equals > name.end() and text[equals : equals + 1] in ('"', "'") and self._line_end(name.end()) > equals:
+            self._problem(f"'=' is missing after '{name[0]}'", *name.span())
+            value, end = self._broken_quote(equals, text[equals])
+            return Attribute(name[0], name_span, value, Span(name.start(), end))
         if text[equals : equals + 1] != "=":
             self._problem(f"the attribute '{name[0]}' has no value", *name.span())
             return Attribute(name[0], name_span, SpannedText("", Span(name.end(), name.end())), name_span)
@@ -339,14 +379,28 @@ class _Scanner:
         if unquoted is None or on_next_line or _NAME_EQUALS.match(text, at):
             self._problem(f"a value in quotes is missing after '{text[start:after_equals]}'", start, after_equals)
             return SpannedText("", Span(after_equals, after_equals)), after_equals
-        self._problem("the value must stand in quotes", *unquoted.span())
-        return self._decoded(*unquoted.span(), _VALUE_SPECIAL), unquoted.end()
+        end = unquoted.end()
+        if text[end : end + 1] in ('"', "'") and _STRAIGHT_END.match(text, end):
+            self._problem(f"the opening {text[end]} is missing", at, end + 1)
+            return self._decoded(at, end, _VALUE_SPECIAL), end + 1
+        if text[at] in _CURLY_QUOTES and text[end - 1] in _CURLY_QUOTES and end > at + 1:
+            self._problem("the quotes must be straight ones", at, end)
+            return self._decoded(at + 1, end - 1, _VALUE_SPECIAL), end
+        self._problem("the value must stand in quotes", at, end)
+        return self._decoded(at, end, _VALUE_SPECIAL), end
 
     def _broken_quote(self, at: int, quote: str) -> tuple[SpannedText, int]:
         """A value that starts with a quote: it may lack its closing one, or hold a `<`."""
         start = at + 1
         close = self._find(quote, start)
+        doubled = _STRAIGHT_END.match(self.text, start + 1) if close == start else None
+        if doubled and doubled.end() > start + 2:
+            self._problem(f"there is one {quote} too many", start, start + 1)
+            return self._decoded(start + 1, doubled.end() - 1, _VALUE_SPECIAL), doubled.end()
         end = self._unclosed_value_end(start, close)
+        if end >= 0 and (mixed := _STRAIGHT_END.match(self.text, start)):
+            self._problem(f"the value starts with {quote} and ends with {mixed[0][-1]}", at, mixed.end())
+            return self._decoded(start, mixed.end() - 1, _VALUE_SPECIAL), mixed.end()
         if end < 0:
             less = self.text.find("<", start, close)
             while less >= 0:
@@ -385,6 +439,10 @@ class _Scanner:
         """What starts with `<` and is neither a start tag nor an end tag in order. Returns where it ends."""
         text = self.text
         if name := _NAME.match(text, less + 1):
+            if name[0] == "xml" and not self.stack and not self.root_seen:
+                self._problem("the XML declaration starts with '<?xml'", less, name.end())
+                greater = text.find(">", less, self._line_end(less))
+                return greater + 1 if greater >= 0 else self._line_end(less)
             return self._broken_start_tag(name)
         if text.startswith("</", less):
             return self._broken_end_tag(less)
@@ -396,6 +454,25 @@ class _Scanner:
             return self._instruction(less)
         if text.startswith("<!DOCTYPE", less) and not self.stack:
             return self._doctype(less)
+        if spaced := _SPACED_TAG.match(text, less):
+            self._problem("there cannot be a blank after the '<' of a tag", less, spaced.end())
+            name = _NAME.match(text, spaced.start(1))
+            if name is not None:
+                return self._broken_start_tag(name)
+        if misspelt := _MISSPELT_COMMENT.match(text, less):
+            self._problem("a comment starts with '<!--'", *misspelt.span())
+            close = self._find("-->", misspelt.end())
+            if 0 <= close < self._line_end(less):
+                content = SpannedText(text[misspelt.end() : close], Span(misspelt.end(), close))
+                self.children.append(Comment(content, Span(less, close + 3)))
+                return close + 3
+            return misspelt.end()
+        if conflict := _CONFLICT.match(text, less):
+            self._problem("this is the mark of a merge conflict", *conflict.span())
+            return conflict.end()
+        if text.startswith("<<", less):
+            self._problem("there is one '<' too many", less, less + 1)
+            return less + 1
         self._problem("'<' must be written as &lt; where it starts no tag", less, less + 1)
         end = text.find("<", less + 1)
         end = len(text) if end < 0 else end
@@ -519,9 +596,8 @@ class _Scanner:
         end = greater + 1 if greater >= 0 else at
         if name is None:
             # Half typed: it is meant for the innermost element, unless that one's own end tag is the next thing.
-            following = _END_TAG.match(text, _skip(_SPACE, text, end))
             inner = self.stack[-1] if self.stack else None
-            if inner is None or (following and following[1] == inner.tag):
+            if inner is None or self._closed_later(inner.tag, end):
                 self._problem("the name of an end tag is missing", less, at)
             else:
                 self._problem(f"expected </{inner.tag}>", less, at)
@@ -537,14 +613,75 @@ class _Scanner:
     def _end_tag(self, tag: str, tag_span: Span, start: int, end: int) -> None:
         if self.stack and self.stack[-1].tag == tag:
             self._close(len(self.stack) - 1, start, end)
+        elif self.stack and self._stands_for_another(tag, start, end):
+            self._problem(f"expected </{self.stack[-1].tag}>", tag_span.start, tag_span.end)
+            self._close(len(self.stack) - 1, start, end)
         elif self.open_tags[tag]:
             index = next(i for i in range(len(self.stack) - 1, -1, -1) if self.stack[i].tag == tag)
             self._close(index, start, end)
         elif self.stack and _resembles(tag, self.stack[-1].tag):
             self._problem(f"expected </{self.stack[-1].tag}>", tag_span.start, tag_span.end)
             self._close(len(self.stack) - 1, start, end)
+        elif (lost := self._lost_start(tag)) is not None:
+            self._problem(f"'<' is missing before '{tag}'", lost, lost + len(tag))
         else:
-            self._problem(f"</{tag}> closes nothing", tag_span.start, tag_span.end)
+            how = ", it is closed by its '/>' already" if self._closed_itself(tag, start) else ""
+            self._problem(f"</{tag}> closes nothing{how}", tag_span.start, tag_span.end)
+
+    def _closed_later(self, tag: str, at: int) -> bool:
+        """Whether the innermost element, of this tag, has an end tag of its own behind `at`."""
+        if self.marks is None:
+            self.marks = {}
+            for mark in _TAG_MARK.finditer(self.text):
+                if not mark[3]:
+                    self.marks.setdefault(mark[2], ([], []))[bool(mark[1])].append(mark.start())
+        starts, ends = self.marks.get(tag, ([], []))
+        still_open = self.open_tags[tag] + len(starts) - bisect_left(starts, at)
+        return len(ends) - bisect_left(ends, at) >= still_open
+
+    def _stands_for_another(self, tag: str, start: int, end: int) -> bool:
+        """Whether an end tag of the wrong name stands where that of the innermost element should, by its indentation.
+
+        It does not if the right one follows, unless the two are swapped.
+        """
+        inner = self.stack[-1]
+        column = self._indentation(start)
+        if column is None or column != self._indentation(inner.open_span.start):
+            return False
+        following = _END_TAG.match(self.text, _skip(_SPACE, self.text, end))
+        right_one_follows = following is not None and following[1] == inner.tag
+        if not self.open_tags[tag]:
+            return not right_one_follows
+        outer = self.stack[-2] if len(self.stack) > 1 else None
+        return right_one_follows and outer is not None and outer.tag == tag and inner.tag != tag
+
+    def _indentation(self, at: int) -> int | None:
+        """The column of `at` if nothing stands before it on its line."""
+        _, column = self.lines.position(at)
+        return column if column <= _LOOK_BACK and not self.text[at - column : at].strip(_BLANK) else None
+
+    def _lost_start(self, tag: str) -> int | None:
+        """Where `tag name=` stands in the text before an end tag that has no start."""
+        for node in self.children[: -_LOOK_BACK - 1 : -1]:
+            if (
+                isinstance(node, Text)
+                and self.text.find(tag, node.content.span.start, node.content.span.start + 200) >= 0
+            ):
+                for found in _TEXT_OF_TAG.finditer(node.content.text, 0, 200):
+                    if found[1] == tag:
+                        return node.content.to_document(found.start(1))
+        return None
+
+    def _closed_itself(self, tag: str, start: int) -> bool:
+        """Whether an element of the tag before it, as deep as the end tag, ends with `/>`."""
+        _, column = self.lines.position(start)
+        return any(
+            isinstance(node, Element)
+            and node.tag == tag
+            and node.span == node.open_span
+            and self.lines.position(node.span.start)[1] == column
+            for node in self.children[: -_LOOK_BACK - 1 : -1]
+        )
 
     def _close(self, index: int, start: int, end: int) -> None:
         """The end tag at `start` belongs to `stack[index]`; what is open in it has none."""
@@ -561,13 +698,23 @@ class _Scanner:
         Its children from the first that is not indented deeper are its siblings, as whoever wrote them sees it.
         """
         siblings: deque[Node] = deque()
+        told = False
         while len(self.stack) > keep:
             opened = self.stack.pop()
             self.open_tags[opened.tag] -= 1
-            if not opened.broken:
-                self._problem(f"<{opened.tag}> is not closed", opened.tag_span.start, opened.tag_span.end)
             self.children = self.stack[-1].children if self.stack else self.top
             cut = self._first_sibling(opened)
+            if not opened.broken and not told:
+                if len(self.stack) > keep and self._is_end_tag(opened, self.stack[-1]):
+                    self._problem(f"'/' is missing: </{opened.tag}> is expected", *_ends(opened.tag_span))
+                    told = True
+                elif lost := self._lost_end(opened, cut):
+                    cut = lost[0]
+                    self._problem(f"'<' is missing before '/{opened.tag}>'", *lost[1])
+                else:
+                    self._problem(f"<{opened.tag}> is not closed", *_ends(opened.tag_span))
+            else:
+                told = False
             if cut < len(opened.children):
                 siblings.extendleft(reversed(opened.children[cut:]))
                 del opened.children[cut:]
@@ -576,6 +723,21 @@ class _Scanner:
                     opened.children.append(siblings.popleft())
             self.children.append(opened.closed(_start(siblings[0]) if siblings else at))
         self.children.extend(siblings)
+
+    def _is_end_tag(self, opened: _Open, outer: _Open) -> bool:
+        """Whether an unclosed element in an unclosed one of the same name is the end tag of that without its `/`."""
+        if opened.attributes or opened.tag != outer.tag or not outer.children:
+            return False
+        column = self._indentation(opened.open_span.start)
+        return column is not None and column == self._indentation(outer.open_span.start)
+
+    def _lost_end(self, opened: _Open, cut: int) -> tuple[int, tuple[int, int]] | None:
+        """Where `/tag>` stands in the text of an element: how many of its children come before, and the place."""
+        mark = f"/{opened.tag}>"
+        for index, node in enumerate(opened.children[:cut]):
+            if isinstance(node, Text) and (at := node.content.text.find(mark)) >= 0:
+                return index + 1, _ends(node.content.slice_span(at, at + len(mark)))
+        return None
 
     def _first_sibling(self, opened: _Open) -> int:
         return next(
@@ -590,6 +752,10 @@ class _Scanner:
         if node_line == line:
             return opened.broken
         return node_column <= column
+
+
+def _ends(span: Span) -> tuple[int, int]:
+    return span.start, span.end
 
 
 def _skip(pattern: re.Pattern[str], text: str, at: int) -> int:
