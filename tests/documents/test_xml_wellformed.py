@@ -150,9 +150,9 @@ def test_billion_laughs_cost_nothing(use: str, kind: str) -> None:
     declarations = f'<!ENTITY {kind}e0 "lol">' + "".join(
         f'<!ENTITY {kind}e{i} "{f"{mark}e{i - 1};" * 10}">' for i in range(1, 31)
     )
-    started = time.perf_counter()
+    started = time.process_time()
     document = parse_xml("/a", f"<!DOCTYPE launch [{declarations}{'%e30;' if kind else ''}]>{use}")
-    assert time.perf_counter() - started < 1.0
+    assert time.process_time() - started < 1.0
     assert [name for name, _ in document.entities] == (["e30"] if "&" in use else [])
     if not kind:
         assert document.problems == ()
@@ -210,9 +210,9 @@ def test_external_entities_are_not_opened(tmp_path: Path) -> None:
     ids=lambda text: repr(text[:14]),
 )
 def test_long_and_deep_texts_take_linear_time(text: str) -> None:
-    started = time.perf_counter()
+    started = time.process_time()
     document = parse_xml("/a", text)
-    assert time.perf_counter() - started < 3.0
+    assert time.process_time() - started < 3.0
     assert len(document.problems) <= MAX_PROBLEMS
     assert bool(document.problems) == (not well_formed(text))
 
