@@ -111,3 +111,15 @@ def test_bad_files_are_findings(desk: Desk, preflight: Run, content: bytes) -> N
     assert done.code == 1
     assert done.json["findings"]
     assert desk.sandbox_starts() <= 1, "at most the probe"
+
+
+def test_a_file_that_is_included_twice_is_told_of_once(desk: Desk, preflight: Run) -> None:
+    inner = desk.workspace / "inner.launch"
+    inner.write_text('<launch>\n  <arg name="id"/>\n  <include file="$(dirname)/$(arg id).launch"/>\n</launch>\n')
+    include = '  <include file="$(dirname)/inner.launch"><arg name="id" value="{}"/></include>\n'
+    outer = desk.workspace / "outer.launch"
+    outer.write_text("<launch>\n" + "".join(include.format(name) for name in ("north", "south")) + "</launch>\n")
+    (finding,) = preflight("check", outer, "--no-run", "--format", "json").json["findings"]
+    assert (finding["rule"], finding["file"], finding["roots"]) == ("LCH013", str(inner), [str(outer)])
+    related = [(r["message"].split(":")[0], r["file"], r["range"]["start"]["line"]) for r in finding["related"]]
+    assert related == [("included here", str(outer), 2), ("in another context", str(outer), 3)]

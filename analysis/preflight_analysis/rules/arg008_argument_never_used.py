@@ -4,13 +4,12 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import LaunchFile, Value
 from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.per_file import per_file
-from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
@@ -30,11 +29,9 @@ class _Arguments:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     passed: dict[str, set[str]] = {}
-    origins: dict[str, Origin] = {}
     for include in context.tree.includes:
         if include.path is not None:
             passed.setdefault(include.path, set()).update(include.args)
-            origins.setdefault(include.path, include.origin)
     for path, launch_file in context.launch_files.items():
         # What is malformed may hide the rest of the file.
         if launch_file.document.problems or launch_file.document.entities:
@@ -52,12 +49,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             tags = declared[name]
             value = tags[0].value("name")
             span = value.span if value is not None else tags[0].head_span
-            origin = (*origins.get(path, ()), Location(path, span))
             edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
             yield rule.finding(
                 f"argument '{name}' is declared and never used in this file",
                 Location(path, span),
-                related=include_chain(origin),
                 fixes=(Fix(f"Remove the declaration of '{name}'", edits),),
             )
 

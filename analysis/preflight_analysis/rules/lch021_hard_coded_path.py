@@ -10,7 +10,6 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.model import Action, LaunchFile, Literal
 from preflight_analysis.rules.per_file import per_file
-from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _END = r"[^\s'\":;,<>|)]*"
@@ -26,7 +25,6 @@ _SYSTEM = ("/usr/", "/etc/", "/opt/", "/dev/", "/tmp/", "/proc/", "/sys/", "/var
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    origins = {include.path: include.origin for include in reversed(context.tree.includes)}
     for path, launch_file in context.launch_files.items():
         for start, text in _absolute_paths(launch_file):
             what = _what(text, context)
@@ -41,7 +39,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 location,
                 severity=_severity(text, in_package),
                 confidence="certain" if in_package else "likely",
-                related=include_chain((*origins.get(path, ()), location)),
                 fixes=fixes,
             )
 

@@ -11,7 +11,6 @@ from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.rules.per_file import per_file
-from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -24,7 +23,6 @@ _TEST_FOLDERS = ("test", "tests")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     packages = context.environment.packages
     by_folder = {package.share.rstrip("/"): package for package in packages.values()}
-    origins = {include.path: include.origin for include in reversed(context.tree.includes)}
     for path, launch_file in context.launch_files.items():
         owner = _owner(path, by_folder)
         if owner is None or any(owner.share.startswith(f"{p}/") for p in context.environment.system_prefixes):
@@ -38,7 +36,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"package '{name}' is not among the dependencies that the {manifest} of '{owner.name}' names",
                 location,
-                related=include_chain((*origins.get(path, ()), location)),
                 fixes=_fixes(context, owner, name, path),
             )
 

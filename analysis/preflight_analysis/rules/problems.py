@@ -62,9 +62,12 @@ def check_names(message: Callable[[Problem], str], wrong: str, known: str) -> Ch
     return check
 
 
+INCLUDED_HERE = "included here"
+
+
 def include_chain(origin: Origin) -> tuple[Related, ...]:
     """The include tags on the way to a place, the innermost first."""
-    return tuple(Related("included here", location) for location in reversed(origin[:-1]))
+    return tuple(Related(INCLUDED_HERE, location) for location in reversed(origin[:-1]))
 
 
 def rename(context: Context, location: Location, old: str, new: str, *, preferred: bool = True) -> tuple[Fix, ...]:

@@ -7,7 +7,7 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -15,11 +15,14 @@ from types import ModuleType
 
 import preflight_analysis.rules as package
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import apply_suppressions
+from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
 _log = logging.getLogger(__name__)
+_MOST_CONTEXTS = 5
+"""Further includes that a finding tells of: a file may be included a thousand times."""
 _RULE_MODULE = re.compile(r"[a-z]{3}\d{3}_")
 
 
@@ -57,7 +60,8 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         ran.add(rule.id)
         raw.extend(_in_order(rule, found, context) if rule.problems else found)
     filtered = apply_suppressions(unique(raw), context.documents)
-    kept = list(filtered.kept)
+    chains = _first_chains(context)
+    kept = [_with_include_chain(finding, chains) for finding in filtered.kept]
     judge = next((rule for rule in chosen if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
         kept += [judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran]
@@ -79,11 +83,42 @@ def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iter
 
 
 def unique(findings: Iterable[Finding]) -> list[Finding]:
-    """One finding for each rule, place and message: a file that is included twice shows its error once."""
-    first: dict[tuple[str, object, str], Finding] = {}
+    """Each rule says each thing of a place once, and what it says of it in further includes of the same file (other
+    arguments, another namespace) becomes a related place of what it says in the first one that is as severe as any."""
+    places: dict[tuple[str, Location], dict[tuple[Location, ...], dict[str, Finding]]] = {}
     for finding in findings:
-        first.setdefault((finding.rule, finding.location, finding.message), finding)
-    return list(first.values())
+        chain = tuple(related.location for related in finding.related if related.message == INCLUDED_HERE)
+        contexts = places.setdefault((finding.rule, finding.location), {})
+        contexts.setdefault(chain, {}).setdefault(finding.message, finding)
+    kept: list[Finding] = []
+    for (_, place), contexts in places.items():
+        ranks = {chain: max(SEVERITIES.index(f.severity) for f in said.values()) for chain, said in contexts.items()}
+        lead = max(ranks, key=ranks.__getitem__)
+        first, *more = contexts.pop(lead).values()
+        told = {first.message, *(finding.message for finding in more)}
+        others: list[Related] = []
+        for chain, said in contexts.items():
+            where = chain[0] if chain else place
+            others += [Related(f"in another context: {message}", where) for message in said if message not in told]
+            told.update(said)
+        kept += [replace(first, related=(*first.related, *others[:_MOST_CONTEXTS])), *more]
+    return kept
+
+
+def _with_include_chain(finding: Finding, chains: Mapping[str, tuple[Related, ...]]) -> Finding:
+    """A finding about a file, whatever includes it, says how the file is reached."""
+    chain = chains.get(finding.location.file)
+    if not chain or any(related.message == INCLUDED_HERE for related in finding.related):
+        return finding
+    return replace(finding, related=(*finding.related, *chain))
+
+
+def _first_chains(context: Context) -> dict[str, tuple[Related, ...]]:
+    chains: dict[str, tuple[Related, ...]] = {context.root: ()}
+    for include in context.tree.includes:
+        if include.path is not None and include.path not in chains:
+            chains[include.path] = include_chain((*include.origin, include.file_location))
+    return chains
 
 
 def _place(finding: Finding) -> tuple[str, int, int, int, str, str]:
