@@ -129,3 +129,21 @@ def test_a_machine_gets_the_name_of_the_nearest() -> None:
 )
 def test_an_unused_suppression_is_removed(comment: str, after: str) -> None:
     assert fixed(comment, "LCH019") == after
+
+
+@pytest.mark.parametrize(
+    ("tag", "after"),
+    [
+        (
+            '<nod pkg="p" type="t" name="n"><!-- </nod> --></nod >',
+            '<node pkg="p" type="t" name="n"><!-- </nod> --></node >',
+        ),
+        ("<gruop>\n  <gruop/>\n</gruop>", "<group>\n  <gruop/>\n</group>"),
+    ],
+)
+def test_the_name_of_an_element_is_mended_in_both_of_its_tags(tag: str, after: str) -> None:
+    assert fixed(tag, "LCH004") == after
+
+
+def test_no_attribute_becomes_a_second_one_of_its_name() -> None:
+    assert unfixable('<param name="a" value="1" vaule="2"/>', "LCH005")

@@ -422,3 +422,19 @@ def test_the_file_that_was_meant_may_be_in_another_folder(tmp_path: Path) -> Non
     assert finding.message.endswith("did you mean 'camera/config/calibration/left_7cd1.yaml'?")
     assert finding.confidence == "likely"
     assert [(edit.text) for edit in finding.fixes[0].edits] == ["/config/calibration/"]
+
+
+def test_a_dictionary_for_a_node_that_is_called_otherwise() -> None:
+    text = """
+        <launch>
+          <rosparam file="/a.yaml"/>
+          <node pkg="p" type="t" name="talker"/>
+        </launch>
+        //- /a.yaml
+        talkr:
+        ^^^^^ warning[PRM007] for which parameter '/talkr/rate' and 1 more are set; did you mean '/talker'?
+          rate: 3
+          sub: {limit: 4}
+    """
+    (finding,) = check(text)
+    assert apply(text, finding.fixes[0].edits)["/a.yaml"].startswith("talker:\n  rate: 3")

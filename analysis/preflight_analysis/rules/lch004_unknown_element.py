@@ -1,7 +1,45 @@
 """LCH004: an element that roslaunch does not know."""
 
-from preflight_analysis.rules.problems import check_names
-from preflight_analysis.rules.rule import Rule
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    tags = Tags(context.launch_files)
+    for problem in problems_of(rule, context):
+        name = str(problem.data["tag"])
+        near = nearest(name, problem.data["allowed"])
+        message = f"<{name}> is not known in <{problem.data['parent']}> and is skipped{did_you_mean(near)}"
+        fixes: list[Fix] = []
+        if near is not None:
+            renamed = rename(context, problem.location, name, near)
+            fixes = [_both_tags(context, tags, problem, near, fix) for fix in renamed]
+        yield problem_finding(rule, problem, message, fixes=fixes)
+
+
+def _both_tags(context: Context, tags: Tags, problem: Problem, name: str, fix: Fix) -> Fix:
+    """The fix of the start tag for the end tag too, if there is one."""
+    document, tag = context.documents.get(problem.location.file), tags.named_at(problem.location)
+    if document is None or tag is None:
+        return fix
+    old, end = str(problem.data["tag"]), tag.action.span.end
+    found = re.search(rf"</({re.escape(old)})[ \t\r\n]*>\Z", document.text[tag.action.head_span.end : end])
+    if found is None:
+        return fix
+    start = tag.action.head_span.end + found.start(1)
+    return replace(fix, edits=(*fix.edits, Edit(Location(document.path, Span(start, start + len(old))), name)))
+
 
 RULE = Rule(
     id="LCH004",
@@ -12,10 +50,6 @@ RULE = Rule(
     "is not set, the node is not started.",
     example='<node pkg="camera" type="driver" name="camera">\n  <parm name="rate" value="30"/>\n</node>',
     instead='<node pkg="camera" type="driver" name="camera">\n  <param name="rate" value="30"/>\n</node>',
-    check=check_names(
-        lambda problem: f"<{problem.data['tag']}> is not known in <{problem.data['parent']}> and is skipped",
-        "tag",
-        "allowed",
-    ),
+    check=_check,
     problems=("unknown-element",),
 )

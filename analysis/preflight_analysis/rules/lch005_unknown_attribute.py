@@ -1,7 +1,29 @@
 """LCH005: an attribute that roslaunch does not know."""
 
-from preflight_analysis.rules.problems import check_names
-from preflight_analysis.rules.rule import Rule
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    tags = Tags(context.launch_files)
+    for problem in problems_of(rule, context):
+        name = str(problem.data["name"])
+        near = nearest(name, problem.data["allowed"])
+        fixes: tuple[Fix, ...] = ()
+        if near is not None:
+            tag = tags.around(problem.location)
+            if tag is None or tag.action.attribute(near) is None:  # a second one of the name would be malformed
+                fixes = rename(context, problem.location, name, near)
+        message = f"<{problem.data['tag']}> has no attribute '{name}'{did_you_mean(near)}"
+        yield problem_finding(rule, problem, message, fixes=fixes)
+
 
 RULE = Rule(
     id="LCH005",
@@ -11,8 +33,6 @@ RULE = Rule(
     why="`roslaunch` mentions it and goes on without it: what the attribute was to do does not happen.",
     example='<node pkg="camera" type="driver" name="camera" respwan="true"/>',
     instead='<node pkg="camera" type="driver" name="camera" respawn="true"/>',
-    check=check_names(
-        lambda problem: f"<{problem.data['tag']}> has no attribute '{problem.data['name']}'", "name", "allowed"
-    ),
+    check=_check,
     problems=("unknown-attribute",),
 )

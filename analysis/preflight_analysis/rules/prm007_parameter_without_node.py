@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.graph.model import Graph
@@ -15,6 +15,8 @@ from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_for_tools
 
+_FAR = 2000
+"""How far above a parameter the YAML key of its dictionary is looked for."""
 _DIGITS = re.compile(r"\d+")
 
 
@@ -44,13 +46,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         meant = f"{parent}/{near}"
         if meant in known:
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
+        places = [_prefix_place(context, param, leaf) for param in params]
         related = (Related(f"{meant} is started here", node_location(nodes[meant])),) if meant in nodes else ()
         yield rule.finding(
             f"no node is called '{prefix}', for which {_what(params)}; did you mean '{meant}'?",
-            _place(params[0]),
+            places[0],
             confidence="likely",
             related=(*related, *include_chain(params[0].origin)),
-            fixes=_fixes(context, params, leaf, near),
+            fixes=_fixes(context, places, leaf, near),
         )
 
 
@@ -124,10 +127,25 @@ def _place(param: Param) -> Location:
     return param.name_location or param.origin[-1]
 
 
-def _fixes(context: Context, params: list[Param], leaf: str, near: str) -> tuple[Fix, ...]:
-    """The name corrected wherever it is written together with a parameter's."""
-    found = [fix for param in params for fix in rename(context, _place(param), leaf, near)]
-    if len(found) < len(params):
+def _prefix_place(context: Context, param: Param, leaf: str) -> Location:
+    """Where the name at fault is written: with the parameter's own, or as a key above it in YAML."""
+    place = _place(param)
+    document = context.documents.get(place.file)
+    if document is None or leaf in document.text[place.span.start : place.span.end]:
+        return place
+    above = document.text[max(0, place.span.start - _FAR) : place.span.start]
+    keys = list(re.finditer(rf"(?<![\w/]){re.escape(leaf)}(?=[\"']?[ \t]*:)", above))
+    if not keys:
+        return place
+    start = place.span.start - len(above) + keys[-1].start()
+    return Location(place.file, Span(start, start + len(leaf)))
+
+
+def _fixes(context: Context, places: list[Location], leaf: str, near: str) -> tuple[Fix, ...]:
+    """The name corrected wherever it is written, each place once."""
+    distinct = list(dict.fromkeys(places))
+    found = [fix for place in distinct for fix in rename(context, place, leaf, near)]
+    if len(found) < len(distinct):
         return ()
     return (Fix(found[0].title, tuple(edit for fix in found for edit in fix.edits), True),)
 
