@@ -34,9 +34,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     anonymous = {name: node for node in context.tree.nodes if (name := _plain_name(node)) is not None}
     if not anonymous:
         return
+    # Nearly no text has one of the names in it, and looking is quick.
+    leaves = tuple({f"{name.rpartition('/')[2]}/" for name in anonymous})
     real = _with_namespaces(node.name for node in context.tree.nodes)
     seen: set[Location] = set()
-    for reference in _references(context.tree):
+    for reference in _references(context.tree, leaves):
         node = _named(reference.name, anonymous, real)
         if node is None or reference.origin[-1] in seen:
             continue
@@ -84,23 +86,26 @@ def _named(name: str, anonymous: dict[str, LaunchNode], real: set[str]) -> Launc
     return None
 
 
-def _references(tree: LaunchTree) -> Iterator[_Reference]:
+def _references(tree: LaunchTree, leaves: tuple[str, ...]) -> Iterator[_Reference]:
+    """What in the launch names something below one of `leaves`."""
+    hit = re.compile("|".join(map(re.escape, leaves))).search
     for node in tree.nodes:
         for remap in node.remaps:
             for side, place in ((remap.source, remap.source_location), (remap.target, remap.target_location)):
-                origin = (*remap.origin[:-1], place)
-                yield _Reference(names.resolve(side, node.name), side, "the name", origin)
-        arguments = node.action.value("args")
-        if arguments is not None and node.args:
+                if hit(side):
+                    origin = (*remap.origin[:-1], place)
+                    yield _Reference(names.resolve(side, node.name), side, "the name", origin)
+        if node.args and hit(node.args):
             origin = (*node.origin[:-1], attribute_location(node, "args"))
             for found in _GRAPH_NAME.finditer(node.args):
                 yield _Reference(found[0], found[0], "in the arguments,", origin, "possible")
     for param in tree.params.values():
-        if param.owner is None:
+        if param.owner is None and hit(param.name):
             place = param.name_location or param.origin[-1]
             yield _Reference(param.name, param.name, "parameter", (*param.origin[:-1], place))
-        if isinstance(param.value, str) and param.value.startswith("/") and names.is_legal(param.value):
-            yield _Reference(param.value, param.value, "the name", param.origin, "possible")
+        value = param.value
+        if isinstance(value, str) and value.startswith("/") and hit(value) and names.is_legal(value):
+            yield _Reference(value, value, "the name", param.origin, "possible")
 
 
 def _fixes(context: Context, node: LaunchNode, reference: _Reference, plain: str) -> tuple[Fix, ...]:

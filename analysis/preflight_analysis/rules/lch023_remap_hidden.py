@@ -53,6 +53,8 @@ def _hidden(rule: Rule, context: Context, tags: Tags, old: Remap, winner: Remap)
 
 def _same_name(rule: Rule, node: LaunchNode) -> Iterator[Finding]:
     """Remaps whose names are written differently and come to the same: `/scan` and `scan` of a node in `/`."""
+    if all(remap.source[0] not in "/~" for remap in node.remaps):
+        return  # all relative: then different texts are different names
     by_name: dict[str, list[Remap]] = {}
     for remap in node.remaps:
         by_name.setdefault(names.resolve(remap.source, node.name), []).append(remap)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.tree import LaunchNode, Remap
+from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -13,14 +13,16 @@ from preflight_analysis.rules.syntax import Tags, removal
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    reached: dict[Location, list[tuple[LaunchNode, Remap]]] = {}
+    # Names that are written as they are are the same in every context: no other use of the tag has to be looked at.
+    reached: dict[Location, list[Remap]] = {}
     for node in context.tree.nodes:
         for remap in node.remaps:
-            reached.setdefault(remap.origin[-1], []).append((node, remap))
+            if remap.source == remap.target:
+                reached.setdefault(remap.origin[-1], []).append(remap)
     tags = Tags(context.launch_files)
-    for location, uses in reached.items():
-        if all(_idle(node, remap) for node, remap in uses) and _literal(context, uses[0][1]):
-            remap = uses[0][1]
+    for location, remaps in reached.items():
+        remap = remaps[0]
+        if all(map(_idle, remaps)) and _literal(context, remap):
             yield rule.finding(
                 f"'{remap.source}' is remapped to itself, which has no effect",
                 location,
@@ -29,9 +31,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-def _idle(node: LaunchNode, remap: Remap) -> bool:
-    """Whether the remap changes nothing for the node; one that undoes an outer one does."""
-    return remap.source == remap.target and all(old.target == remap.target for old in remap.replaces)
+def _idle(remap: Remap) -> bool:
+    """Whether the remap changes nothing; one that undoes an outer one does."""
+    return all(old.target == remap.target for old in remap.replaces)
 
 
 def _literal(context: Context, remap: Remap) -> bool:

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import expression, values
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.substitutions import is_eval
+from preflight_analysis.rules.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import CONDITIONS, has_condition
 
@@ -26,19 +27,26 @@ class _Fixed:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for launch_file in context.launch_files.values():
-        if launch_file.root is None:
-            continue
-        conditions = [
-            (action, attribute)
-            for action in launch_file.root.walk()
-            for name in CONDITIONS
-            if (attribute := action.attribute(name)) is not None
-        ]
-        fixed = _fixed_args(launch_file) if conditions else {}
-        for action, attribute in conditions:
-            if any(action.attribute(name) is None for name in CONDITIONS):  # both together stop the launch: LCH007
-                yield from _constant(rule, launch_file, fixed, action, attribute)
-            yield from _unequal(rule, launch_file, attribute.value)
+        yield from _findings(launch_file)
+
+
+@per_file
+def _findings(launch_file: LaunchFile) -> tuple[Finding, ...]:
+    if launch_file.root is None:
+        return ()
+    conditions = [
+        (action, attribute)
+        for action in launch_file.root.walk()
+        for name in CONDITIONS
+        if (attribute := action.attribute(name)) is not None
+    ]
+    fixed = _fixed_args(launch_file) if conditions else {}
+    found: list[Finding] = []
+    for action, attribute in conditions:
+        if any(action.attribute(name) is None for name in CONDITIONS):  # both together stop the launch: LCH007
+            found.extend(_constant(RULE, launch_file, fixed, action, attribute))
+        found.extend(_unequal(RULE, launch_file, attribute.value))
+    return tuple(found)
 
 
 def _constant(

@@ -72,17 +72,27 @@ def _homeless(tree: LaunchTree, homes: Mapping[str, set[str]], read: Container[s
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
     found: dict[str, list[Param]] = {}
     names = {node.name for node in tree.nodes}
+    at_fault: dict[str, str | None] = {}
     for param in tree.params.values():
-        prefix = ""
-        for part in param.name.split("/")[1:-1]:
-            if part not in homes.get(prefix, ()):
-                if not is_for_tools(param.name) and param.name not in read:
-                    found.setdefault(f"{prefix}/{part}", []).append(param)
-                break
-            prefix = f"{prefix}/{part}"
-            if prefix in names:
-                break
+        namespace = param.name.rpartition("/")[0]
+        if namespace not in at_fault:
+            at_fault[namespace] = _at_fault(namespace, homes, names)
+        prefix = at_fault[namespace]
+        if prefix is not None and not is_for_tools(param.name) and param.name not in read:
+            found.setdefault(prefix, []).append(param)
     return found
+
+
+def _at_fault(namespace: str, homes: Mapping[str, set[str]], names: Container[str]) -> str | None:
+    """The first part of the namespace in which nothing lives, None if it leads to a node or to where nodes live."""
+    prefix = ""
+    for part in namespace.split("/")[1:]:
+        if part not in homes.get(prefix, ()):
+            return f"{prefix}/{part}"
+        prefix = f"{prefix}/{part}"
+        if prefix in names:
+            break
+    return None
 
 
 def _near(leaf: str, others: Iterable[str]) -> str | None:

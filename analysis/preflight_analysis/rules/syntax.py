@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.rules.per_file import per_file
 from preflight_analysis.rules.rule import Context
 
 CONDITIONS = ("if", "unless")
@@ -23,11 +24,10 @@ class Tag:
 
 
 class Tags:
-    """The tags of launch files by the place of their start tag, each file read when it is first asked for."""
+    """The tags of launch files by the place of their start tag."""
 
     def __init__(self, launch_files: Mapping[str, LaunchFile]) -> None:
         self._launch_files = launch_files
-        self._known: dict[str, dict[int, Tag]] = {}
 
     def at(self, location: Location) -> Tag | None:
         """The tag whose start tag begins at the place."""
@@ -56,14 +56,16 @@ class Tags:
         tag = self.at(location)
         return tag is not None and has_condition(tag.action)
 
-    def _of_file(self, file: str) -> dict[int, Tag]:
-        by_start = self._known.get(file)
-        if by_start is None:
-            launch_file = self._launch_files.get(file)
-            root = launch_file.root if launch_file is not None else None
-            by_start = {tag.action.head_span.start: tag for tag in _tags(root, ())} if root is not None else {}
-            self._known[file] = by_start
-        return by_start
+    def _of_file(self, file: str) -> Mapping[int, Tag]:
+        launch_file = self._launch_files.get(file)
+        return _by_start(launch_file) if launch_file is not None else {}
+
+
+@per_file
+def _by_start(launch_file: LaunchFile) -> Mapping[int, Tag]:
+    if launch_file.root is None:
+        return {}
+    return {tag.action.head_span.start: tag for tag in _tags(launch_file.root, ())}
 
 
 def removal(context: Context, tags: Tags, location: Location, title: str) -> tuple[Fix, ...]:
