@@ -103,3 +103,12 @@ def test_untrusted_workspace_runs_nothing_and_says_why(neovim: Neovim, untrusted
     assert "not trusted" in seen["reason"]
     assert seen["chatter"] == 0
     assert untrusted_desk.sandbox_starts() == 0
+
+
+def test_the_user_chooses_in_whose_context_a_file_is_shown(neovim: Neovim, untrusted_desk: Desk) -> None:
+    seen = drive(neovim, untrusted_desk, "root")
+
+    assert seen["before"] == ["0 includers", "2 nodes", "launched by this file"]
+    assert seen["offered"] == ["launch/talker_listener.launch"]
+    assert seen["default"] == ""
+    assert seen["after"] == ["0 includers", "2 nodes", "launched by this file speed:=3"]

@@ -9,6 +9,7 @@ import {
 } from "vscode-languageclient/node";
 import { launchFiles } from "./documents";
 import type { ServerCommand } from "./findServer";
+import { clientCommands } from "./rootCommands";
 
 /** Tells a running server that the user has come to trust the workspace. */
 export const workspaceTrust = new NotificationType<{ trusted: boolean }>("rosPreflight/workspaceTrust");
@@ -20,6 +21,7 @@ function initializationOptions(): Record<string, unknown> {
     workspaceTrusted: workspace.isTrusted,
     runNodes: settings.get("runNodes"),
     packagePath: settings.get("packagePath"),
+    clientCommands,
   };
 }
 

@@ -8,6 +8,7 @@ import {
   workspace,
 } from "vscode";
 import { launchFiles } from "./documents";
+import { type Place, selectRoot, showReferences } from "./rootCommands";
 import { ServerSession } from "./serverSession";
 
 let session: ServerSession | undefined;
@@ -20,6 +21,13 @@ export function activate(context: ExtensionContext): void {
     log,
     commands.registerCommand("rosPreflight.restartServer", () => server.restart()),
     commands.registerCommand("rosPreflight.showOutput", () => log.show()),
+    commands.registerCommand("rosPreflight.selectRoot", (uri?: string) => {
+      const file = uri ?? window.activeTextEditor?.document.uri.toString();
+      return file === undefined ? undefined : server.withClient((client) => selectRoot(client, file));
+    }),
+    commands.registerCommand("rosPreflight.showReferences", (...place: Place) =>
+      server.withClient((client) => showReferences(client, ...place)),
+    ),
     onFirstLaunchFile(() => {
       void server.restart();
       context.subscriptions.push(

@@ -37,6 +37,19 @@ export class ServerSession {
     }
   }
 
+  /** Calls `work` with the client of a running server; what goes wrong is shown to the user. */
+  async withClient(work: (client: LanguageClient) => Promise<void>): Promise<void> {
+    if (this.client?.state !== State.Running) {
+      this.report("the server is not running.");
+      return;
+    }
+    try {
+      await work(this.client);
+    } catch (error) {
+      this.report(String(error));
+    }
+  }
+
   private enqueue(step: () => Promise<void>): Promise<void> {
     this.queue = this.queue.then(step).catch((error: unknown) => this.report(String(error)));
     return this.queue;

@@ -115,6 +115,36 @@ function scenarios.untrusted()
   return { reason = reason.message, chatter = #diagnostics_with('chatter'), hover = hover }
 end
 
+-- The user chooses another context, and the code lens shows it.
+function scenarios.root()
+  local function titles()
+    if #vim.lsp.buf_get_clients(0) > 0 then
+      vim.lsp.codelens.refresh()
+    end
+    return vim.tbl_map(function(lens)
+      return lens.command and lens.command.title or ''
+    end, vim.lsp.codelens.get(vim.api.nvim_get_current_buf()))
+  end
+  local result = { before = wait_for('lenses', function()
+    local found = titles()
+    return #found > 0 and found
+  end) }
+  vim.ui.select = function(items, opts, on_choice)
+    result.offered = vim.tbl_map(opts.format_item, items)
+    on_choice(items[1], 1)
+  end
+  vim.ui.input = function(opts, on_confirm)
+    result.default = opts.default
+    on_confirm('speed:=3')
+  end
+  vim.cmd('RosPreflightRoot')
+  result.after = wait_for('a lens with the argument', function()
+    local found = titles()
+    return table.concat(found, ' '):find('speed:=3', 1, true) and found
+  end)
+  return result
+end
+
 local ok, result = xpcall(scenarios[vim.env.PREFLIGHT_SCENARIO], function(message)
   return type(message) == 'string' and debug.traceback(message) or vim.inspect(message)
 end)
