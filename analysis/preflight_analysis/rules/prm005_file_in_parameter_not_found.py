@@ -69,6 +69,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _in_params(context: Context) -> Iterator[_Named]:
     for param in context.tree.params.values():
         value = param.value
+        if isinstance(value, (bool, int, float)) or (isinstance(value, str) and "/" not in value):
+            continue  # nearly all: this is looked at for thousands at each keystroke
         if isinstance(value, CommandValue):
             for word in _words(value.command)[1:]:
                 yield _Named(word, "the command", _value_location(context, param, "command"), param.origin)

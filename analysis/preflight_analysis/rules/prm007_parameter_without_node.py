@@ -74,6 +74,8 @@ def _homeless(tree: LaunchTree, homes: Mapping[str, set[str]], read: Container[s
     names = {node.name for node in tree.nodes}
     at_fault: dict[str, str | None] = {}
     for param in tree.params.values():
+        if param.owner is not None and param.name.startswith(param.owner):
+            continue
         namespace = param.name.rpartition("/")[0]
         if namespace not in at_fault:
             at_fault[namespace] = _at_fault(namespace, homes, names)
