@@ -36,10 +36,11 @@ lint: $(READY) ## ruff and mypy
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## editing latency, a large workspace and the time of a trace, as ratios
+bench: setup ## editing latency, a large workspace and the time of a trace and of a command, as ratios
 	$(BIN)/python bench/editing.py
 	$(BIN)/python bench/index.py
 	$(BIN)/python bench/trace.py
+	$(BIN)/python bench/commands.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
 corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslaunch has them, values and errors

@@ -51,8 +51,8 @@ def lay_robot(folder: Path) -> Path:
     (arm / "launch").mkdir()
     launch = arm / "launch/arm.launch"
     launch.write_text(LAUNCH)
-    for package in (xacro, arm):
-        manifest = f"<package><name>{package.name}</name><version>1.0.0</version></package>"
+    for package, needs in ((xacro, ""), (arm, "<exec_depend>xacro</exec_depend>")):
+        manifest = f'<package format="2"><name>{package.name}</name><version>1.0.0</version>{needs}</package>'
         (package / "package.xml").write_text(manifest)
     yesterday = time.time() - 86400
     for path in folder.rglob("*"):

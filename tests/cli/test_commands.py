@@ -115,3 +115,10 @@ def test_a_missing_program(desk: Desk, robot: Path, preflight: Run) -> None:
         (finding,) = [f for f in findings if f["rule"] == "PRM008"]
         assert finding["message"].endswith("did you mean 'xacro'?")
         assert finding["fixes"] == ["Replace 'xacro.py' by 'xacro'"]
+
+
+def test_a_long_value_is_cut_in_text(robot: Path, preflight: Run) -> None:
+    (line,) = [s for s in preflight("tree", robot).out.splitlines() if "/robot_description" in s]
+    assert line.startswith("  param /robot_description = '<?xml")
+    assert line.endswith(" characters)")
+    assert len(line) < 600

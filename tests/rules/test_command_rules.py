@@ -156,3 +156,18 @@ def test_a_program_that_is_not_built_yet(tmp_path: Path) -> None:
         //- {package}/package.xml
         <package/>
     """)
+
+
+def test_a_node_that_crashes_without_the_value_of_a_failed_command_is_no_news_of_the_node() -> None:
+    check("""
+        <launch>
+          <param name="model" command="xacro a.xacro"/>
+                                       ^^^^^^^^^^^^^ error[PRM008] code 2
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/model', which comes from a command without a result
+        </launch>
+        //- commands
+        {"xacro a.xacro": {"status": "failed", "reason": "exit code 2"}}
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/model": null}}}
+    """)

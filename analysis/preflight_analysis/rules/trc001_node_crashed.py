@@ -17,6 +17,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     commands = {p.name for p in context.tree.params.values() if isinstance(p.value, CommandValue)}
+    commands |= {c.param for c in context.tree.commands if c.result is None or c.result.status != "done"}
     for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
         outcome = interface.outcome
         failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
@@ -25,7 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
         lacking = next((r.name for r in context.graph.param_reads if r.node is node and r.name in commands), None)
         ours = lacking is not None or any(endpoint.speculative for endpoint in interface.endpoints)
-        note = f"; it asked for '{lacking}', which comes from a command that was not run" if lacking else ""
+        note = f"; it asked for '{lacking}', which comes from a command without a result" if lacking else ""
         yield rule.finding(
             _message(node.name, outcome) + note,
             node_location(node),

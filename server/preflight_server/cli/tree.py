@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.evaluation.tree_json import json_value, tree_json
 from preflight_analysis.findings.report import place
 from preflight_analysis.workspace.workspace import Analysis
@@ -22,6 +22,8 @@ HELP = "what a launch file would start"
 DESCRIPTION = """Shows the nodes with their names, parameters, remaps and environment, and where each comes from.
 No node is run; the commands that parameters come from are, in a sandbox, unless with --no-run or --batch. With
 --batch many launch files are answered in one process, one line of JSON each."""
+_SHOWN = 500
+"""Characters of a value in text; a robot description has thousands of lines."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,14 +66,19 @@ def _lines(analysis: Analysis) -> Iterator[str]:
         for name, value in node.env:
             yield f"    env {name}={value}"
         for name in _private(tree, node.name):
-            yield f"    param {name.removeprefix(node.name + '/')} = {json_value(tree.params[name].value)!r}"
+            yield f"    param {name.removeprefix(node.name + '/')} = {_value(tree.params[name])}"
         yield f"    from {' < '.join(place(step, analysis.documents, os.getcwd()) for step in reversed(node.origin))}"
     owned = {name for node in tree.nodes for name in _private(tree, node.name)}
     for name, param in tree.params.items():
         if name not in owned:
-            yield f"  param {name} = {json_value(param.value)!r}"
+            yield f"  param {name} = {_value(param)}"
     for unknown in tree.unknowns:
         yield f"  not known: {unknown.what} ({unknown.reason})"
+
+
+def _value(param: Param) -> str:
+    text = repr(json_value(param.value))
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}… ({len(text)} characters)"
 
 
 def _private(tree: LaunchTree, node: str) -> list[str]:

@@ -13,8 +13,8 @@ _log = logging.getLogger(__name__)
 @dataclass(frozen=True, slots=True)
 class Settings:
     """`package_path`: look for packages there and nowhere else, None to find them as ROS does. `run_nodes`: whether
-    nodes may be run in the sandbox once the workspace is trusted. `inlay_hints`: whether values with substitutions
-    are followed by what they come to."""
+    nodes and commands of parameters may be run in the sandbox once the workspace is trusted. `inlay_hints`: whether
+    values with substitutions are followed by what they come to."""
 
     package_path: tuple[str, ...] | None = None
     run_nodes: bool = True
