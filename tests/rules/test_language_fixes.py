@@ -147,3 +147,17 @@ def test_the_name_of_an_element_is_mended_in_both_of_its_tags(tag: str, after: s
 
 def test_no_attribute_becomes_a_second_one_of_its_name() -> None:
     assert unfixable('<param name="a" value="1" vaule="2"/>', "LCH005")
+
+
+def test_an_invalid_name_that_several_includes_make_is_shown_once_and_as_it_is_written() -> None:
+    findings = findings_of("""
+        <launch>
+          <include file="/inc.launch"><arg name="pc" value="pc-1"/></include>
+          <include file="/inc.launch"><arg name="pc" value="pc-2"/></include>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="pc"/><node pkg="p" type="t" name="$(anon net)_$(arg pc)"/></launch>
+    """)
+    assert [(f.rule, f.message.split(":")[0]) for f in findings] == [
+        ("LCH009", "node name '$(anon net)_pc-1' is not allowed")
+    ]

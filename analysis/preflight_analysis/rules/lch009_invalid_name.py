@@ -9,7 +9,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import insert_attribute
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import as_written, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -18,9 +18,11 @@ _ILLEGAL = re.compile(r"[^A-Za-z0-9_/]+")
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
-    for problem in problems_of(rule, context):
+    # One is enough of a place that is read with several values.
+    first = {problem.location: problem for problem in reversed(list(problems_of(rule, context)))}
+    for problem in first.values():
         data = problem.data
-        message = f"{data['what']} name '{data['name']}' is not allowed: {data['reason']}"
+        message = f"{data['what']} name '{as_written(data['name'])}' is not allowed: {data['reason']}"
         severity: Severity | None = None if problem.fatal else "warning"
         yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
 

@@ -10,7 +10,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, Param
 from preflight_analysis.findings.finding import Finding, Related, Severity
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
+from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tag, Tags, has_condition
 
@@ -68,7 +68,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if found is not None:
                 severity, why = found
                 yield rule.finding(
-                    f"'{param.name}' is set to {_shown(old.value)} here, which does not count: {why}, to "
+                    f"'{as_written(param.name)}' is set to {_shown(old.value)} here, which does not count: {why}, to "
                     f"{_shown(param.value)}",
                     loser.place,
                     severity=severity,

@@ -12,6 +12,8 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Sev
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.rule import Check, Context, Rule
 
+_ANONYMOUS = re.compile(r"([^/]+?)_ANON\d+")
+
 
 def problems_of(rule: Rule, context: Context) -> Iterator[Problem]:
     """The problems whose kind `rule` owns."""
@@ -88,6 +90,11 @@ def quoted(names: Iterable[str]) -> str:
     """`'a', 'b' and 'c'`."""
     words = [f"'{name}'" for name in names]
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
+
+
+def as_written(name: str) -> str:
+    """A name with `$(anon x)` in place of what the evaluation makes of it, which is another at every launch."""
+    return _ANONYMOUS.sub(r"$(anon \1)", name)
 
 
 def shown(path: str, context: Context) -> str:
