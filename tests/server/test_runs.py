@@ -153,3 +153,49 @@ async def test_a_half_typed_file_starts_no_run(desk: Desk) -> None:
         assert desk.sandbox_starts() <= 1, "at most the probe of the sandbox"
         editor.change(desk.launch_file, desk.launch_file.read_text())
         await editor.having(desk.launch_file, "TOP001")
+
+
+READS_FIRST = """#!/usr/bin/env python3
+import os, time
+name = open(os.path.join(os.path.dirname(__file__), "name.txt")).read()
+import rospy
+from std_msgs.msg import String
+rospy.init_node("late")
+rospy.Publisher("a", String, queue_size=1)
+time.sleep(1)
+rospy.Publisher(name, String, queue_size=1)
+rospy.spin()
+"""
+
+
+async def test_a_file_that_changes_during_the_run_that_read_it(desk: Desk) -> None:
+    script = desk.launch_file.parents[1] / "scripts/late.py"
+    script.write_text(READS_FIRST)
+    script.chmod(0o755)
+    name = script.with_name("name.txt")
+    name.write_text("before")
+    path = desk.launch_file.with_name("late.launch")
+    path.write_text(
+        '<launch>\n  <node pkg="preflight_demo" type="late.py" name="late"/>\n'
+        '  <node pkg="preflight_demo" type="listener.py" name="l"><remap from="chatter" to="befor"/></node>\n</launch>\n'
+    )
+    async with editing(desk, trusted=True) as editor:
+        editor.open(path)
+        await running(editor, desk)
+        await asyncio.sleep(0.7)  # it has read the name, and not used it yet
+        name.write_text("after")
+        editor.watched(name)
+        await editor.having(path, "TOP001")
+
+        async def seen() -> str:
+            hover = await editor.hover(path, editor.at(path, "late.py"))
+            assert hover is not None
+            assert isinstance(hover.contents, types.MarkupContent)
+            return hover.contents.value
+
+        for _ in range(100):
+            if "/after" in await seen():
+                break
+            await asyncio.sleep(0.1)
+        assert "/after" in await seen()
+        assert "/before" not in await seen()

@@ -103,6 +103,8 @@ class Runs:
         self.commands = CommandRuns(server, session, lambda: self.why_not_run)
         self._tracer: Tracer | None = None
         self._known: dict[Root, dict[NodeKey, Known]] = {}
+        self._edition = 0
+        """How often files changed: what a run told that began before may be out of date."""
         self._batch: _Batch | None = None
         self._not_before = 0.0
         self._wanted = False
@@ -139,6 +141,7 @@ class Runs:
     def forget_requests(self) -> None:
         """Files changed: look every interface up again, but keep it until then."""
         self._cancelled = False
+        self._edition += 1
         self.commands.forget()
         for nodes in self._known.values():
             nodes.update({key: replace(known, request=None) for key, known in nodes.items()})
@@ -214,10 +217,12 @@ class Runs:
         for key in set(known) - set(requests):
             del known[key]
         missing = {k: r for k, r in requests.items() if k not in known or known[k].request != r}
+        edition = self._edition
         hits = await self._session.in_pool(lambda: {k: tracer.lookup(r) for k, r in missing.items()})
         found = {k: hit for k, hit in hits.items() if hit is not None}
         changed = any(k not in known or known[k].interface != hit for k, hit in found.items())
-        known.update({k: Known(missing[k], hit) for k, hit in found.items()})
+        current = edition == self._edition
+        known.update({k: Known(missing[k] if current else None, hit) for k, hit in found.items()})
         if changed:
             self._session.interfaces_changed(analysis.launch)
         remaining = {k: r for k, r in missing.items() if k not in found}
@@ -234,6 +239,7 @@ class Runs:
         batch = self._batch = _Batch(root, requests, progress, threading.Event())
         keys = list(requests)
         known = self._known.setdefault(root, {})
+        edition = self._edition
         done = 0
 
         def one_done(index: int, interface: Interface) -> None:
@@ -241,7 +247,7 @@ class Runs:
             done += 1
             key = keys[index]
             if interface.known or not batch.cancel.is_set():
-                known[key] = Known(requests[key], interface)
+                known[key] = Known(requests[key] if edition == self._edition else None, interface)
             progress.report(f"{done} of {len(keys)}: {key[0]}", 100 * done // len(keys))
 
         def work() -> None:
