@@ -236,7 +236,8 @@ def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default
             state.depends_on_outside = True
         else:
             memo.put(key, record)
-        if state.absorb(record, MAX_INCLUDES):
+        # The limit was kept while it was evaluated; to evaluate it again on each level would take minutes.
+        if state.absorb(record):
             state.exhausted |= inner.exhausted
             inside.declared = dict(record.declared)
             return record.default_machine

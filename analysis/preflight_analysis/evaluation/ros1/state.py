@@ -112,11 +112,11 @@ class State:
             default_machine,
         )
 
-    def absorb(self, record: Record, most_includes: int) -> bool:
+    def absorb(self, record: Record, most_includes: int | None = None) -> bool:
         """Add what an include added; not if its nodes' names are taken or there would be too many includes."""
         if not self.node_names.keys().isdisjoint(record.node_names):
             return False
-        if self.include_count + len(record.includes) > most_includes:
+        if most_includes is not None and self.include_count + len(record.includes) > most_includes:
             return False
         self.node_names.update(record.node_names)
         self.nodes += record.nodes
