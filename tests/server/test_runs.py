@@ -177,7 +177,8 @@ async def test_a_file_that_changes_during_the_run_that_read_it(desk: Desk) -> No
     path = desk.launch_file.with_name("late.launch")
     path.write_text(
         '<launch>\n  <node pkg="preflight_demo" type="late.py" name="late"/>\n'
-        '  <node pkg="preflight_demo" type="listener.py" name="l"><remap from="chatter" to="befor"/></node>\n</launch>\n'
+        '  <node pkg="preflight_demo" type="listener.py" name="l"><remap from="chatter" to="befor"/></node>\n'
+        "</launch>\n"
     )
     async with editing(desk, trusted=True) as editor:
         editor.open(path)
