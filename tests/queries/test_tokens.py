@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import pytest
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.launch.ros1_xml import read_ros1
-from preflight_analysis.queries.tokens import tokens
+from preflight_analysis.queries.tokens import KINDS, tokens
 
 
 def cut(text: str, within: Span | None = None) -> list[tuple[str, str]]:
@@ -81,3 +84,9 @@ def test_a_range_and_a_broken_file() -> None:
     line = text.index("<param name='b'")
     assert [t for t, kind in cut(text, Span(line, len(text))) if kind == "parameter"] == ["two"]
     assert cut("<lau") == []
+
+
+def test_vscode_colours_each_kind() -> None:
+    manifest = json.loads((Path(__file__).parents[2] / "vscode-client/package.json").read_text())
+    (scopes,) = [s for s in manifest["contributes"]["semanticTokenScopes"] if s["language"] == "roslaunch"]
+    assert set(scopes["scopes"]) == set(KINDS)

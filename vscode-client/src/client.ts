@@ -20,6 +20,7 @@ function initializationOptions(): Record<string, unknown> {
   return {
     workspaceTrusted: workspace.isTrusted,
     runNodes: settings.get("runNodes"),
+    inlayHints: settings.get("inlayHints"),
     packagePath: settings.get("packagePath"),
     clientCommands,
   };
