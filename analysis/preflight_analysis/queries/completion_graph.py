@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.document import Element
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.queries.completion_items import Item
 from preflight_analysis.queries.cursor import Place
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.workspace.workspace import Analysis
 
+_SHOWN_ENDS = 5
 _ROLES = {
     "publisher": "publishes",
     "subscriber": "subscribes",
@@ -72,21 +73,23 @@ def remap_targets(analysis: Analysis, file: str, place: Place, element: Element,
     namespace = next((n.namespace for n, _ in _interfaces(analysis, graph, file, node)), "/") if node else "/"
     found: list[tuple[bool, str, Item]] = []
     for channel in (*graph.topics.values(), *graph.services.values(), *graph.actions.values()):
-        ends = [end for end in (*channel.offers, *channel.wants) if not _made_here(end, file, element)]
-        if not ends or all(end.endpoint.builtin for end in ends):
+        ends = (*channel.offers, *channel.wants)
+        if not any(not end.endpoint.builtin and not _made_here(end, file, element) for end in ends):
             continue
         name = channel.name
         if before and not before.startswith("/") and name.startswith(namespace):
             name = name[len(namespace) :]
-        fits = not types.isdisjoint(channel.types)
-        found.append((not fits, name, Item("endpoint", name, name, _ends(channel), ", ".join(channel.types))))
+        there = channel.types
+        item = Item("endpoint", name, name, _ends(ends), ", ".join(there))
+        found.append((types.isdisjoint(there), name, item))
     yield from (item for _, _, item in sorted(found, key=lambda each: each[:2]))
 
 
-def _ends(channel: Channel) -> str:
-    return "\n".join(
-        f"- `{end.node.name}` {_ROLES[end.endpoint.role]}" for end in (*channel.offers, *channel.wants)[:20]
-    )
+def _ends(ends: Sequence[Connection]) -> str:
+    lines = [f"- `{end.node.name}` {_ROLES[end.endpoint.role]}" for end in ends[:_SHOWN_ENDS]]
+    if len(ends) > _SHOWN_ENDS:
+        lines.append(f"- … and {len(ends) - _SHOWN_ENDS} more")
+    return "\n".join(lines)
 
 
 def _made_here(end: Connection, file: str, element: Element) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import values
-from preflight_analysis.launch.model import ActionAttribute, LaunchFile
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.workspace.workspace import Analysis
 
 MAX_LENGTH = 40
@@ -28,13 +28,13 @@ def hints(analyses: Sequence[Analysis], file: str, within: Span) -> tuple[Hint, 
     """The hints of a file for the values that touch `within`: in the context that it is shown in (the first of
     `analyses`), and marked where other contexts give other values."""
     launch_file = analyses[0].launch_files.get(file) if analyses else None
-    if launch_file is None:
+    if launch_file is None or launch_file.root is None:
         return ()
     current = launch_file.document.digest
     same_text = [a for a in analyses if file in a.documents and a.documents[file].digest == current]
     known = _known(same_text, file, within)
     found = []
-    for attribute in _attributes(launch_file, within):
+    for attribute in _attributes(launch_file.root, within):
         given = known.get(attribute.value.span)
         if given and (hint := _hint(launch_file, attribute, tuple(given))) is not None:
             found.append(hint)
@@ -53,12 +53,15 @@ def _known(analyses: Sequence[Analysis], file: str, within: Span) -> dict[Span, 
     return known
 
 
-def _attributes(launch_file: LaunchFile, within: Span) -> Iterator[ActionAttribute]:
-    for action in launch_file.root.walk() if launch_file.root is not None else ():
-        for attribute in action.attributes:
-            span = attribute.value.span
-            if "$" in attribute.value.text and span.end >= within.start and span.start <= within.end:
-                yield attribute
+def _attributes(action: Action, within: Span) -> Iterator[ActionAttribute]:
+    """Those with substitutions, below an action; what lies wholly outside is not looked into."""
+    for attribute in action.attributes:
+        span = attribute.value.span
+        if "$" in attribute.value.text and span.end >= within.start and span.start <= within.end:
+            yield attribute
+    for child in action.children:
+        if child.span.end >= within.start and child.span.start <= within.end:
+            yield from _attributes(child, within)
 
 
 def _hint(launch_file: LaunchFile, attribute: ActionAttribute, given: tuple[str, ...]) -> Hint | None:

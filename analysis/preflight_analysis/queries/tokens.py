@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal, NamedTuple, get_args
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution, Value
@@ -30,57 +29,62 @@ _EXPRESSION = re.compile(
 )
 _WORDS = frozenset({"and", "or", "not", "in", "is", "if", "else", "True", "False", "None", "true", "false"})
 _CALLED = re.compile(r"\s*\(")
+_LINE_END = re.compile(r"[\r\n]")
 _LINE = re.compile(r"[^\r\n]+")
 
 
-@dataclass(frozen=True, slots=True)
-class Token:
+class Token(NamedTuple):
     """A piece of a substitution; it never goes over the end of a line."""
 
-    kind: TokenKind
     span: Span
+    kind: TokenKind
 
 
 def tokens(launch_file: LaunchFile, within: Span | None = None) -> tuple[Token, ...]:
     """The tokens of a file in order, or of the values that touch `within`."""
-    return tuple(sorted(_tokens(launch_file, within), key=lambda token: token.span))
+    return tuple(sorted(_tokens(launch_file, within)))
 
 
 def _tokens(launch_file: LaunchFile, within: Span | None) -> Iterator[Token]:
     text = launch_file.document.text
-    for value in _values(launch_file.root) if launch_file.root is not None else ():
-        if within is not None and (value.span.end < within.start or value.span.start > within.end):
-            continue
+    within = within or Span(0, len(text))
+    for value in _values(launch_file.root, within) if launch_file.root is not None else ():
+        one_line = not _LINE_END.search(text, value.span.start, value.span.end)
         for part in value.substitutions:
+            if one_line:
+                yield from _of(text, part)
+                continue
             for token in _of(text, part):
                 for line in _LINE.finditer(text, token.span.start, token.span.end):
-                    yield Token(token.kind, Span(*line.span()))
+                    yield Token(Span(*line.span()), token.kind)
 
 
-def _values(action: Action) -> Iterator[Value]:
-    for attribute in action.attributes:
-        if "$" in attribute.value.text:
-            yield attribute.value
-    substituted = action.value("subst_value")
-    if substituted is not None and "$" in action.body.text:
-        yield action.body
+def _values(action: Action, within: Span) -> Iterator[Value]:
+    """Those with substitutions, below an action; what lies wholly outside is not looked into."""
+    values = [attribute.value for attribute in action.attributes]
+    if action.value("subst_value") is not None:
+        values.append(action.body)
+    for value in values:
+        if "$" in value.text and value.span.end >= within.start and value.span.start <= within.end:
+            yield value
     for child in action.children:
-        yield from _values(child)
+        if child.span.end >= within.start and child.span.start <= within.end:
+            yield from _values(child, within)
 
 
 def _of(text: str, part: Substitution) -> Iterator[Token]:
-    yield Token("operator", Span(part.span.start, part.span.start + 2))
+    yield Token(Span(part.span.start, part.span.start + 2), "operator")
     if part.command_span.end > part.command_span.start:
-        yield Token("keyword", part.command_span)
+        yield Token(part.command_span, "keyword")
     span = part.arguments_span
     if part.command == "eval":
         yield from _of_expression(text, span)
     elif part.command in _OF_COMMAND and span.end > span.start:
         first = span.start + len(text[span.start : span.end].split(" ", 1)[0])
-        yield Token(_OF_COMMAND[part.command], Span(span.start, first))
+        yield Token(Span(span.start, first), _OF_COMMAND[part.command])
         if part.command == "optenv" and first + 1 < span.end:
-            yield Token("string", Span(first + 1, span.end))
-    yield Token("operator", Span(part.span.end - 1, part.span.end))
+            yield Token(Span(first + 1, span.end), "string")
+    yield Token(Span(part.span.end - 1, part.span.end), "operator")
 
 
 def _of_expression(text: str, span: Span) -> Iterator[Token]:
@@ -90,15 +94,15 @@ def _of_expression(text: str, span: Span) -> Iterator[Token]:
         match found.lastgroup:
             case "name" if _CALLED.match(text, place.end, span.end):
                 called = found[0]
-                yield Token("function", place)
+                yield Token(place, "function")
                 continue
             case "name":
-                yield Token("keyword" if found[0] in _WORDS else "parameter", place)
+                yield Token(place, "keyword" if found[0] in _WORDS else "parameter")
             case "string":
                 # arg('x'), find('p'), env('X'): what is in quotes is a name.
-                yield Token(_OF_COMMAND.get(called, "string"), place)
+                yield Token(place, _OF_COMMAND.get(called, "string"))
             case "number":
-                yield Token("number", place)
+                yield Token(place, "number")
             case _:
-                yield Token("operator", place)
+                yield Token(place, "operator")
         called = ""
