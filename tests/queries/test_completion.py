@@ -14,7 +14,7 @@ from query_desk import Executables, at_cursor
 def completed(text: str, trigger: str | None = None, **options: object) -> Completion | None:
     there = at_cursor(text, options.get("variables"))  # type: ignore[arg-type]
     executables = Executables(options.get("executables", {}))  # type: ignore[arg-type]
-    return complete(there.analysis, there.document, there.offset, there.sources, executables, trigger)
+    return complete(there.analysis, there.launch_file, there.offset, there.sources, executables, trigger)
 
 
 def offered(text: str, trigger: str | None = None, **options: object) -> list[str]:

@@ -79,6 +79,8 @@ async def test_packages_executables_files_and_arguments_while_typing(desk: Desk,
         assert [(i.label, i.detail) for i in found] == [("robot", "required"), ("rate", "default: 1")]
 
         typed = '<launch>\n  <arg name="name" default="x"/>\n  <param name="p" value="$(arg $0'
+        await at_cursor(editor, path, typed)
+        await editor.hover(path, types.Position(0, 0))  # by then the text is analysed, and the value known
         (name,) = await at_cursor(editor, path, typed, " ")
         assert (name.label, name.detail) == ("name", "= x")
         assert editor.accept(path, name) == '  <param name="p" value="$(arg name)'

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_values import Asked, complete_value
@@ -31,21 +32,23 @@ _EXCLUDES = {
 
 def complete(
     analysis: Analysis,
-    document: Document,
+    launch_file: LaunchFile,
     offset: int,
     files: Files,
     executables: ExecutableNames,
     trigger: str | None = None,
 ) -> Completion | None:
-    """What can be written at `offset` of `document`, best first; None where nothing can.
+    """What can be written at `offset` of a file, best first; None where nothing can.
 
-    `trigger` is the character of `TRIGGERS` that was just typed, None where the user asked.
+    `launch_file` is the text as it is now, `analysis` may be one of an earlier text. `trigger` is the character of
+    `TRIGGERS` that was just typed, None where the user asked.
     """
+    document = launch_file.document
     place = place_at(document, offset)
     if place is None or not _wanted(place, trigger):
         return None
     if place.kind == "value":
-        return complete_value(Asked(analysis, document, offset, place, files, executables), trigger)
+        return complete_value(Asked(analysis, launch_file, offset, place, files, executables), trigger)
     return Completion(place.word, tuple(_items(document, place)))
 
 

@@ -60,7 +60,7 @@ class Asked:
     """One question: the place of the cursor in the newest text, and the facts to answer from."""
 
     analysis: Analysis
-    document: Document
+    launch_file: LaunchFile
     offset: int
     place: Place
     files: Files
@@ -72,9 +72,9 @@ class Asked:
         return self.document.path
 
     @property
-    def launch_file(self) -> LaunchFile | None:
-        """The file as it was analysed."""
-        return self.analysis.launch_files.get(self.file)
+    def document(self) -> Document:
+        """The text and its tree."""
+        return self.launch_file.document
 
     @property
     def before(self) -> str:
@@ -173,8 +173,6 @@ def _packages(asked: Asked) -> Iterator[Item]:
 
 
 def _arguments(asked: Asked) -> Iterator[Item]:
-    if asked.launch_file is None:
-        return
     values = argument_values(asked.analysis, asked.file)
     for declared in visible(asked.launch_file, asked.offset):
         value = values.get(declared.name)

@@ -21,6 +21,8 @@ class _Entry:
     signature: object
     text: Text | Unreadable
     parsed: dict[str, Document | LaunchFile] = field(default_factory=dict)
+    parsing: threading.Lock = field(default_factory=threading.Lock)
+    """Held while a launch file is parsed: who else needs it had better wait than do the same work at the same time."""
 
 
 class Sources:
@@ -59,10 +61,11 @@ class Sources:
         entry = self._entry(path)
         if isinstance(entry.text, Unreadable):
             return entry.text
-        found = entry.parsed.get("launch")
-        if not isinstance(found, LaunchFile):
-            found = read_ros1(parse_xml(path, entry.text.text))
-            entry.parsed["launch"] = found
+        with entry.parsing:
+            found = entry.parsed.get("launch")
+            if not isinstance(found, LaunchFile):
+                found = read_ros1(parse_xml(path, entry.text.text))
+                entry.parsed["launch"] = found
         return found
 
     def text(self, path: str) -> Document | Unreadable:

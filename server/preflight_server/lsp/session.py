@@ -16,9 +16,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
+from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.sources import Sources
@@ -214,6 +216,21 @@ class Session:
         converter = Converter(self._server.texts, analyses[0].documents)
         index = self.indexing.index
         return View(document, document.path, analyses[0], analyses, index, findings, converter)
+
+    async def latest(self, uri: str) -> tuple[LaunchFile, Analysis] | None:
+        """The file as it is now, and the newest analysis that there is, which may be one of an earlier text: for what
+        cannot wait while somebody types. None if it is no open launch file, or was never analysed."""
+        document = self._server.texts.get(uri)
+        path = document.path if document is not None and is_launch_file(document) else None
+        if document is None or path is None:
+            return None
+        if next(self._of(path), None) is None:
+            await self.settled()
+        analysis = next(self._of(path), None)
+        launch_file = await self.in_pool(lambda: self._sources.launch_file(path))
+        if analysis is None or isinstance(launch_file, Unreadable) or launch_file.document.text != document.text:
+            return None
+        return launch_file, analysis
 
     async def settled(self) -> None:
         """Wait until what was typed so far is analysed, in the context in which it is shown."""

@@ -11,6 +11,7 @@ from preflight_analysis.queries.completion import complete as query
 from preflight_analysis.queries.completion_items import Item, ItemKind
 
 from preflight_server.lsp.markup import markup
+from preflight_server.lsp.positions import Positions
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -57,15 +58,15 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list(TRIGGERS)))
     async def completion(ls: PreflightServer, params: types.CompletionParams) -> types.CompletionList | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
-        if ls.session is None or view is None:
+        latest = await ls.session.latest(params.text_document.uri) if ls.session else None
+        if ls.session is None or latest is None:
             return None
-        workspace = await ls.session.workspace()
-        document, positions = view.analysis.documents[view.path], view.converter.positions(view.path)
+        (launch_file, analysis), workspace = latest, await ls.session.workspace()
+        positions = Positions(launch_file.document.text, launch_file.document.lines, ls.texts.encoding)
         offset = positions.offset(params.position)
         trigger = params.context.trigger_character if params.context else None
         found = await ls.session.in_pool(
-            lambda: query(view.analysis, document, offset, workspace.sources, workspace.executables, trigger)
+            lambda: query(analysis, launch_file, offset, workspace.sources, workspace.executables, trigger)
         )
         if found is None:
             return None

@@ -9,6 +9,7 @@ from preflight_analysis.queries.signature import Parameter, Signature
 from preflight_analysis.queries.signature import signature as query
 
 from preflight_server.lsp.markup import markup
+from preflight_server.lsp.positions import Positions
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -39,13 +40,13 @@ def register(server: PreflightServer) -> None:
         types.SignatureHelpOptions(trigger_characters=["<", '"', "'"], retrigger_characters=[" ", ">"]),
     )
     async def signature_help(ls: PreflightServer, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
-        if ls.session is None or view is None:
+        latest = await ls.session.latest(params.text_document.uri) if ls.session else None
+        if ls.session is None or latest is None:
             return None
-        workspace = await ls.session.workspace()
-        document = view.analysis.documents[view.path]
-        offset = view.converter.positions(view.path).offset(params.position)
-        found = await ls.session.in_pool(lambda: query(view.analysis, document, offset, workspace.sources))
+        (launch_file, analysis), workspace = latest, await ls.session.workspace()
+        document = launch_file.document
+        offset = Positions(document.text, document.lines, ls.texts.encoding).offset(params.position)
+        found = await ls.session.in_pool(lambda: query(analysis, document, offset, workspace.sources))
         client = ls.client_capabilities.text_document
         asked = client.signature_help.signature_information if client and client.signature_help else None
         return _help(found, asked or types.ClientSignatureInformationOptions()) if found else None
