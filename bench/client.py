@@ -25,9 +25,8 @@ class Client:
         )
         self._id = 0
         self._titles: dict[str, str] = {}
-        self.started: dict[str, float] = {}
         self.ended: dict[str, float] = {}
-        """When the progress of a title was last shown, and ended."""
+        """When the progress of a title ended."""
         self.request(
             "initialize",
             {
@@ -75,7 +74,6 @@ class Client:
     def _progress(self, token: str, value: Any) -> None:
         if value["kind"] == "begin":
             self._titles[token] = value["title"]
-            self.started[value["title"]] = time.perf_counter()
         elif value["kind"] == "end":
             self.ended[self._titles[token]] = time.perf_counter()
 
