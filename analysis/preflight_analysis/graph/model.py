@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
@@ -44,7 +45,7 @@ class ParamRead:
     use: ParamUse
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Graph:
     """`interfaces` has an entry for each node of the tree by its position in `tree.nodes` (names may clash)."""
 
@@ -55,7 +56,12 @@ class Graph:
     actions: Mapping[str, Channel]
     param_reads: tuple[ParamRead, ...]
 
-    @property
+    @cached_property
+    def incomplete(self) -> int:
+        """How many nodes' interfaces are not known to their end."""
+        return sum(not interface.complete for interface in self.interfaces)
+
+    @cached_property
     def complete(self) -> bool:
         """Whether every node's interface is known to its end: only then does absence mean absence."""
-        return self.tree.complete and all(i.complete for i in self.interfaces)
+        return self.tree.complete and not self.incomplete

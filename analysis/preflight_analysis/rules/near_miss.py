@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location
@@ -59,6 +59,11 @@ def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
     return tuple(found)
 
 
+def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
+    """Those of topics, for which several rules ask: do so through `context.once`."""
+    return near_misses(context.graph.topics) if context.graph is not None else ()
+
+
 def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
     for channel in channels.values():
@@ -73,12 +78,12 @@ def dangling_offers(channels: Mapping[str, Channel]) -> Iterator[Connection]:
             yield from (c for c in channel.offers if not may_dangle(channel.name, c.endpoint))
 
 
-def lone_of_type(wanting: Connection, channels: Mapping[str, Channel]) -> Connection | None:
-    """The only offering end of the same specific type that dangles, if there is exactly one."""
+def lone_of_type(wanting: Connection, dangling: Iterable[Connection]) -> Connection | None:
+    """The only one of the dangling offering ends that has the same specific type, if there is exactly one."""
     type_ = wanting.endpoint.type
     if type_ is None or type_ == "*" or type_.startswith(_GENERIC_PACKAGES):
         return None
-    found = [c for c in dangling_offers(channels) if c.endpoint.type == type_ and c.node is not wanting.node]
+    found = [c for c in dangling if c.endpoint.type == type_ and c.node is not wanting.node]
     return found[0] if len(found) == 1 else None
 
 
@@ -92,8 +97,7 @@ def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
 
 def nodes_looked_at(graph: Graph) -> str:
     """`none of the 3 nodes of this launch`, with how many of them are not known."""
-    count = len(graph.tree.nodes)
-    unknown = sum(not interface.complete for interface in graph.interfaces)
+    count, unknown = len(graph.tree.nodes), graph.incomplete
     nodes = f"none of the {count} nodes of this launch" if count > 1 else "no other node of this launch"
     return f"{nodes} ({unknown} of them not fully known)" if unknown else nodes
 
@@ -117,10 +121,8 @@ def _partner(near: NearMiss, end: Connection) -> Connection:
 
 
 def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMiss, int]]:
-    alike = likeness(wanting.name, channel.name) if channel.offers else None
-    if alike is None:
-        return
-    how, distance = alike
+    dangles = not channel.wants
+    alike: tuple[Likeness, int] | None = None
     for offering in channel.offers:
         if offering.endpoint.builtin or offering.node is wanting.node:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
@@ -129,7 +131,10 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMis
         known = mine is not None and theirs is not None and "*" not in (mine, theirs)
         if known and mine != theirs:
             continue
-        dangles = not channel.wants
+        alike = alike or likeness(wanting.name, channel.name)
+        if alike is None:
+            return
+        how, distance = alike
         if how == "words" and not (known and dangles and _says_enough(wanting.name, channel.name, mine or "")):
             continue
         if not known and not dangles:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from typing import Literal
 
 from rapidfuzz.distance import OSA
@@ -13,6 +14,7 @@ Likeness = Literal["typo", "words"]
 
 _WORD = re.compile(r"[A-Za-z]+|\d+")
 _MIN_PREFIX = 4
+_NAMES = 8192
 
 
 def cutoff(length: int) -> int:
@@ -92,25 +94,33 @@ def _same_words(name: str, other: str) -> bool:
     """Equal last segments, one name's words all among the other's, or most words in common."""
     if name.rpartition("/")[2] == other.rpartition("/")[2]:
         return True
-    mine = {w for w in _words(name) if not w.isdigit()}
-    theirs = {w for w in _words(other) if not w.isdigit()}
+    mine, theirs = _plain_words(name), _plain_words(other)
     common = mine & theirs
     if not common:
         return False
     return common in (mine, theirs) or len(common) / len(mine | theirs) >= 0.6
 
 
-def _words(name: str) -> list[str]:
-    return [w.lower() for w in _WORD.findall(name)]
+# Each name is compared with hundreds of others.
+@lru_cache(maxsize=_NAMES)
+def _words(name: str) -> tuple[str, ...]:
+    return tuple([w.lower() for w in _WORD.findall(name)])
 
 
-def _numbers(name: str) -> list[str]:
-    return re.findall(r"\d+", name)
+@lru_cache(maxsize=_NAMES)
+def _plain_words(name: str) -> frozenset[str]:
+    return frozenset(w for w in _words(name) if not w.isdigit())
+
+
+@lru_cache(maxsize=_NAMES)
+def _numbers(name: str) -> tuple[str, ...]:
+    return tuple(re.findall(r"\d+", name))
 
 
 def _folded(name: str) -> str:
     return name.lower().replace("-", "_")
 
 
+@lru_cache(maxsize=_NAMES)
 def _squeezed(name: str) -> str:
     return re.sub(r"[_-]", "", name).lower()

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
+from preflight_analysis.rules.parameters import by_namespace, grouped
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -44,8 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None or not any(_tells_params(interface) for interface in graph.interfaces):
         return
-    # By namespace: parameters are many, loaded from YAML by the hundred, and the places where they are few.
-    groups = _by_namespace(graph.tree.params.values())
+    groups = context.once(by_namespace)
     reads = _collect(graph, groups)
     nodes = {node.name: node for node in graph.tree.nodes}
     orphans: list[Param] = []
@@ -118,13 +118,6 @@ def _above(names: Iterable[str]) -> frozenset[str]:
     return frozenset(found)
 
 
-def _by_namespace(params: Iterable[Param]) -> dict[str, list[Param]]:
-    groups: dict[str, list[Param]] = {}
-    for param in params:
-        groups.setdefault(param.name.rpartition("/")[0], []).append(param)
-    return groups
-
-
 def _private(rule: Rule, context: Context, reads: _Reads, param: Param, holder: LaunchNode) -> Finding:
     mine = [r for r in reads.unset.values() if r.node is holder and r.name.startswith(holder.name + "/")]
     read = _nearest_read(param, holder, mine)
@@ -175,7 +168,7 @@ def _misplaced(params: Iterable[Param], reads: _Reads) -> Iterator[tuple[Param, 
         if read.node.name not in reads.opaque:
             namespace, _, leaf = name.rpartition("/")
             by_namespace.setdefault(namespace, {})[leaf] = read
-    for namespace, group in _by_namespace(params).items():
+    for namespace, group in grouped(params).items():
         leaves = {param.name.rpartition("/")[2]: param for param in group}
         for leaf, param in leaves.items():
             near = nearest(leaf, by_namespace.get(namespace, ()))

@@ -75,8 +75,13 @@ def _in_params(context: Context) -> Iterator[_Named]:
             for word in _words(value.command)[1:]:
                 yield _Named(word, "the command", _value_location(context, param, "command"), param.origin)
             continue
-        texts = [text for text in value if isinstance(text, str)] if isinstance(value, list) else [value]
-        if not all(isinstance(text, str) and "/" in text for text in texts):
+        if isinstance(value, str):
+            texts = [value]
+        elif isinstance(value, list):
+            texts = [text for text in value if isinstance(text, str)]
+        else:
+            continue
+        if not texts or not all("/" in text for text in texts):
             continue
         name = param.name.rpartition("/")[2]
         if _made_when_run(name) or (param.owner is not None and _made_when_run(param.owner.rpartition("/")[2])):

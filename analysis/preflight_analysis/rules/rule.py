@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Any, Protocol, TypeVar
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
@@ -15,6 +15,8 @@ from preflight_analysis.findings.finding import Confidence, Finding, Fix, Relate
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
+
+T = TypeVar("T")
 
 
 class ExecutableNames(Protocol):
@@ -45,6 +47,14 @@ class Context:
     why_not_run: str | None = None
     executables: ExecutableNames | None = None
     sources: Files | None = None
+    _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def once(self, make: Callable[[Context], T]) -> T:
+        """`make(context)`, made by the first rule that asks and the same for those that come later."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        made: T = self._made[make]
+        return made
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]

@@ -6,11 +6,12 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.rules.near_miss import (
     NearMiss,
+    dangling_offers,
     dangling_wants,
     fixes,
     lone_of_type,
-    near_misses,
     nodes_looked_at,
+    topic_near_misses,
     weight,
 )
 from preflight_analysis.rules.places import connection_location, related_end
@@ -22,7 +23,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    near = near_misses(graph.topics)
+    near = context.once(topic_near_misses)
+    dangling = list(dangling_offers(graph.topics))
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -39,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     explained = {id(pair.wanting) for pair in near}
     for end in dangling_wants(graph.topics):
         if id(end) not in explained:
-            yield _hint(rule, graph, end)
+            yield _hint(rule, graph, end, dangling)
 
 
 def _near_message(graph: Graph, pair: NearMiss) -> str:
@@ -56,10 +58,10 @@ def _near_message(graph: Graph, pair: NearMiss) -> str:
     )
 
 
-def _hint(rule: Rule, graph: Graph, end: Connection) -> Finding:
+def _hint(rule: Rule, graph: Graph, end: Connection, dangling: list[Connection]) -> Finding:
     kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
     message = f"{nodes_looked_at(graph)} publishes '{end.name}'{kind}, to which {end.node.name} subscribes"
-    lone = lone_of_type(end, graph.topics)
+    lone = lone_of_type(end, dangling)
     related = include_chain(end.node.origin)
     if lone is not None:
         message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
