@@ -438,3 +438,14 @@ def test_a_dictionary_for_a_node_that_is_called_otherwise() -> None:
     """
     (finding,) = check(text)
     assert apply(text, finding.fixes[0].edits)["/a.yaml"].startswith("talker:\n  rate: 3")
+
+
+def test_a_private_parameter_around_a_node_that_is_named_in_full_as_well() -> None:
+    check("""
+        <launch>
+          <param name="~rate" value="1"/>
+          <param name="n/rate" value="2"/>
+                       ^^^^^^ warning[PRM006] a <param> of a ~name before it is for the node, which comes later
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+    """)

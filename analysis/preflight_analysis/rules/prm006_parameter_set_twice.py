@@ -133,7 +133,9 @@ def _in_one_file(loser: _Setting, winner: _Setting) -> tuple[Severity, str] | No
         return "warning", "it is set again below"
     if in_winners_node:
         return "warning", "in a <node> each <param> comes after the <rosparam>s, and sets it"
-    return "warning", "a <param> of a ~name around a <node> comes after the <rosparam>s in it, and sets it"
+    if loser.in_node:
+        return "warning", "a <param> of a ~name around a <node> comes after the <rosparam>s in it, and sets it"
+    return "warning", "a <param> of a ~name before it is for the node, which comes later, and sets it"
 
 
 def _shown(value: object) -> str:
