@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.references import NOT_ARGUMENTS
@@ -127,7 +126,7 @@ def _tags(scene: Scene, place: Location, name: str) -> Iterator[Location]:
 def _node_places(scene: Scene, subject: Subject, name: str) -> frozenset[Location]:
     if "$" in name:
         raise RenameRefusedError(f"The node '{name}' cannot be renamed: a substitution is part of its name")
-    trees = _trees(scene, subject)
+    trees = scene.all_trees
     own = tuple(_tags_named(scene, subject))
     if not own:
         raise RenameRefusedError("This is the name of a test, not that of its node")
@@ -193,19 +192,11 @@ def _text(action: Action, attribute: str) -> str | None:
     return value.text if value else None
 
 
-def _trees(scene: Scene, subject: Subject) -> tuple[LaunchTree, ...]:
-    """What each root starts that reaches a file which could name the node; those that were not analysed are evaluated
-    now."""
-    known = {analysis.launch for analysis in scene.analyses}
-    roots = [root for root in scene.current.roots_of(scene.path) if root not in known]
-    return (*scene.trees, *(scene.workspace.tree(root.path, dict(root.args)) for root in roots))
-
-
 def _check_node(scene: Scene, subject: Subject, new: str) -> None:
     if not new or not names.is_legal(new) or "/" in new or "~" in new:
         raise RenameRefusedError(f"'{new}' is no name for a node: a letter, then letters, digits and underscores")
     wanted = {names.parent(full) + new for full in subject.names}
-    for tree in _trees(scene, subject):
+    for tree in scene.all_trees:
         for node in tree.nodes:
             if node.name in wanted:
                 raise RenameRefusedError(f"There is a node '{node.name}' already, at {_shown(scene, node.location)}")

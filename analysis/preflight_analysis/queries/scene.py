@@ -38,6 +38,13 @@ class Scene:
         """What the analysed roots start."""
         return tuple(analysis.tree for analysis in self.analyses)
 
+    @cached_property
+    def all_trees(self) -> tuple[LaunchTree, ...]:
+        """What every root starts that reaches the file: those that were not analysed are evaluated now."""
+        known = {analysis.launch for analysis in self.analyses}
+        others = (root for root in self.current.roots_of(self.path) if root not in known)
+        return (*self.trees, *(self.workspace.tree(root.path, dict(root.args)) for root in others))
+
     def facts(self, path: str) -> FileFacts | None:
         """What a launch file mentions."""
         return self.current.files.get(path)
