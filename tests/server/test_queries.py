@@ -175,3 +175,19 @@ async def test_only_the_asked_kinds_of_actions(desk: Desk) -> None:
         found = await editor.having(desk.launch_file, "TOP001")
         assert await editor.actions(desk.launch_file, found.range, ["source.organizeImports"]) == []
         assert [a.kind for a in await editor.actions(desk.launch_file, found.range, ["quickfix"])] == ["quickfix"]
+
+
+async def test_a_fix_may_change_another_file(desk: Desk) -> None:
+    manifest = desk.launch_file.parent.parent / "package.xml"
+    launch = desk.launch_file.with_name("shown.launch")
+    manifest.write_text("<package>\n  <name>preflight_demo</name>\n</package>\n")
+    async with editing(desk) as editor:
+        editor.open(launch, '<launch>\n  <param name="a" value="$(find rospy)"/>\n</launch>\n')
+        found = await editor.having(launch, "PKG004")
+        (action,) = await editor.actions(launch, found.range, ["quickfix"])
+        assert action.title == "Add <run_depend>rospy</run_depend> to package.xml of 'preflight_demo'"
+        assert action.edit is not None
+        assert action.edit.changes is not None
+        ((uri, (edit,)),) = action.edit.changes.items()
+        assert uri == manifest.as_uri()
+        assert (edit.range.start.line, edit.new_text) == (2, "  <run_depend>rospy</run_depend>\n")

@@ -30,6 +30,7 @@ class ExecutableIndex:
         self._files: dict[str, dict[str, list[str]]] = {}
         self._sources: dict[str, dict[str, str]] = {}
         self._targets: dict[str, frozenset[str]] = {}
+        self._names: dict[str, tuple[str, ...]] = {}
 
     def find(self, package: str, name: str) -> Executable:
         """What a node of this `pkg` and `type` runs.
@@ -68,12 +69,14 @@ class ExecutableIndex:
         found = self._environment.packages.get(package)
         if found is None:
             return ()
-        names: set[str] = set()
-        for folder in self._folders(package, found.share):
-            for name, paths in self._walked(folder).items():
-                if name not in names and any(_is_runnable(path) for path in paths):
-                    names.add(name)
-        return tuple(sorted(names))
+        if package not in self._names:
+            names: set[str] = set()
+            for folder in self._folders(package, found.share):
+                for name, paths in self._walked(folder).items():
+                    if name not in names and any(_is_runnable(path) for path in paths):
+                        names.add(name)
+            self._names[package] = tuple(sorted(names))
+        return self._names[package]
 
     def _folders(self, package: str, share: str) -> Iterator[str]:
         spaces = (*self._environment.devel_spaces, *self._environment.system_prefixes)

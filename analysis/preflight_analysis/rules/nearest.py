@@ -36,6 +36,8 @@ def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = st
             continue
         folded = _folded(key(candidate))
         limit = cutoff(max(len(wanted), len(folded)))
+        if abs(len(wanted) - len(folded)) > limit:
+            continue
         distance = int(OSA.distance(wanted, folded, score_cutoff=limit))
         if distance > limit:
             continue

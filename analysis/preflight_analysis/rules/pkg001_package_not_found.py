@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Iterable, Iterator
+from functools import cache, partial
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
@@ -13,21 +14,34 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    meant = cache(partial(_meant, context))
     for problem in problems_of(rule, context):
-        name = str(problem.data["name"])
-        yield _finding(rule, context, name, problem.location, include_chain(problem.origin), stops=problem.fatal)
+        name, chain = str(problem.data["name"]), include_chain(problem.origin)
+        yield _finding(rule, context, name, meant(name), problem.location, chain, stops=problem.fatal)
     for node in context.tree.nodes:
         if node.resolved.package_path is None and not node.unknowns:
-            location = attribute_location(node, "pkg")
-            yield _finding(rule, context, node.package, location, include_chain(node.origin), stops=False)
+            location, chain = attribute_location(node, "pkg"), include_chain(node.origin)
+            yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
+
+
+def _meant(context: Context, name: str) -> tuple[Package | None, str | None]:
+    """The package in a folder of that name, and the name of the one that was probably meant."""
+    renamed = _in_folder_of_that_name(context, name)
+    return renamed, renamed.name if renamed is not None else nearest(name, context.environment.packages)
 
 
 def _finding(
-    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], *, stops: bool
+    rule: Rule,
+    context: Context,
+    name: str,
+    meant: tuple[Package | None, str | None],
+    location: Location,
+    related: Iterable[Related],
+    *,
+    stops: bool,
 ) -> Finding:
     packages = context.environment.packages
-    renamed = _in_folder_of_that_name(context, name)
-    near = renamed.name if renamed is not None else nearest(name, packages)
+    renamed, near = meant
     fixes = rename(context, location, name, near) if near else ()
     # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
     expected = near is None and context.environment.python is None

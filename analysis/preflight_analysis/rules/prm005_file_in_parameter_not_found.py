@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import re
 import shlex
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
@@ -42,11 +43,11 @@ _MOST_STEPS = 20
 
 @dataclass(frozen=True, slots=True)
 class _Named:
-    """A text that may name files: `what` it is for people, and where it is given."""
+    """A text that may name files: `what` it is for people, and where it is given, looked up only if need be."""
 
     text: str
     what: str
-    location: Location
+    location: Callable[[], Location]
     origin: Origin
 
 
@@ -55,10 +56,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for named in (*_in_params(context), *_in_arguments(context)):
         for path in _missing(named.text, context):
             values = _argument_uses(context.tree) if values is None else values
-            location = _where_written(context, named.location, path, values)
+            given = named.location()
+            location = _where_written(context, given, path, values)
             related = include_chain((*named.origin[:-1], location))
-            if location != named.location:
-                related = (Related(f"{named.what} is given here", named.location), *related)
+            if location != given:
+                related = (Related(f"{named.what} is given here", given), *related)
             near = nearest_file(path, context.environment)
             hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
@@ -73,7 +75,7 @@ def _in_params(context: Context) -> Iterator[_Named]:
             continue  # nearly all: this is looked at for thousands at each keystroke
         if isinstance(value, CommandValue):
             for word in _words(value.command)[1:]:
-                yield _Named(word, "the command", _value_location(context, param, "command"), param.origin)
+                yield _Named(word, "the command", partial(_value_location, context, param, "command"), param.origin)
             continue
         if isinstance(value, str):
             texts = [value]
@@ -81,14 +83,15 @@ def _in_params(context: Context) -> Iterator[_Named]:
             texts = [text for text in value if isinstance(text, str)]
         else:
             continue
-        if not texts or not all("/" in text for text in texts):
+        if not any(_worth_a_look(text) for text in texts):
             continue
         name = param.name.rpartition("/")[2]
         if _made_when_run(name) or (param.owner is not None and _made_when_run(param.owner.rpartition("/")[2])):
             continue
         for text in texts:
             if len(text) < _LONGEST and "\n" not in text:
-                yield _Named(text, f"parameter '{name}'", _value_location(context, param, "value"), param.origin)
+                place = partial(_value_location, context, param, "value")
+                yield _Named(text, f"parameter '{name}'", place, param.origin)
 
 
 def _in_arguments(context: Context) -> Iterator[_Named]:
@@ -104,7 +107,12 @@ def _in_arguments(context: Context) -> Iterator[_Named]:
             before = word
             if option not in ("-o", "-O") and not _made_when_run(option):
                 what = f"the arguments of '{node.executable}'"
-                yield _Named(value, what, attribute_location(node, "args"), node.origin)
+                yield _Named(value, what, partial(attribute_location, node, "args"), node.origin)
+
+
+def _worth_a_look(text: str) -> bool:
+    """False for what names no file, or one that is there: nearly every text, so this is quick."""
+    return "." in text and "/" in text and not (text.startswith("/") and os.path.exists(text))
 
 
 def _elsewhere(tree: LaunchTree, node: LaunchNode) -> bool:
