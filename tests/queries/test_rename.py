@@ -125,6 +125,7 @@ def test_arguments_that_cannot_be_renamed(tmp_path: Path) -> None:
     assert "the included file is not known" in refused(tmp_path / "a", unknown)
     missing = '<launch><include file="/none.launch"><arg name="$0x" value="1"/></include></launch>'
     assert "/none.launch cannot be read" in refused(tmp_path / "b", missing)
+    assert "has no name yet" in refused(tmp_path / "e", '<launch><arg name="$0"/></launch>')
     entity = '<launch><arg name="$0x"/><param name="a" value="1" if="$(eval x &gt; 1)"/></launch>'
     assert "cannot be replaced at main.launch:1" in refused(tmp_path / "c", entity)
     root = Root.of(str(tmp_path / "d/main.launch"), {"x": "1"})
@@ -251,6 +252,7 @@ def test_nodes_that_are_there_already(tmp_path: Path) -> None:
     ("tags", "message"),
     [
         ('<arg name="n" default="x"/><node pkg="p" type="t" name="$0$(arg n)"/>', "a substitution is part of its name"),
+        ('<node pkg="p" type="t" name="$0"/>', "has no name yet"),
         ('<node pkg="p" type="t" name="$0a"/><node pkg="p" type="t" name="b" ns="a"/>', "namespace of '/a/b'"),
         ('<node pkg="p" type="t" name="$0a"/><group ns="a"><param name="b" value="1"/></group>', "not written there"),
         (

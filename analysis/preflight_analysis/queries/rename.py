@@ -79,6 +79,8 @@ def rename(scene: Scene, offset: int, new: str) -> tuple[Edit, ...]:
 
 
 def _argument_places(scene: Scene, subject: Subject, name: str) -> frozenset[Location]:
+    if not name.strip():
+        raise RenameRefusedError("The argument has no name yet")
     if "$" in name or not subject.files:
         reason = "a substitution is part of its name" if "$" in name else "the included file is not known"
         raise RenameRefusedError(f"The argument '{name}' cannot be renamed: {reason}")
@@ -126,6 +128,8 @@ def _tags(scene: Scene, place: Location, name: str) -> Iterator[Location]:
 def _node_places(scene: Scene, subject: Subject, name: str) -> frozenset[Location]:
     if "$" in name:
         raise RenameRefusedError(f"The node '{name}' cannot be renamed: a substitution is part of its name")
+    if not name.strip():
+        raise RenameRefusedError("The node has no name yet")
     trees = scene.all_trees
     own = tuple(_tags_named(scene, subject))
     if not own:
