@@ -36,8 +36,9 @@ lint: $(READY) ## ruff and mypy
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## editing latency, a large workspace and the time of a trace and of a command, as ratios
+bench: setup ## editing and completion latency, a large workspace and the time of a trace and of a command, as ratios
 	$(BIN)/python bench/editing.py
+	$(BIN)/python bench/completion.py
 	$(BIN)/python bench/index.py
 	$(BIN)/python bench/trace.py
 	$(BIN)/python bench/commands.py

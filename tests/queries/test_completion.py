@@ -6,7 +6,9 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from preflight_analysis.queries.completion import complete
+from hypothesis import given
+from hypothesis import strategies as st
+from preflight_analysis.queries.completion import TRIGGERS, complete
 from preflight_analysis.queries.completion_items import Completion
 from query_desk import Executables, at_cursor
 
@@ -336,6 +338,38 @@ def test_a_new_node_is_known_by_others_of_its_executable() -> None:
 )
 def test_silence_where_nothing_was_asked_for(text: str, trigger: str) -> None:
     assert offered(text, trigger) == []
+
+
+WHOLE = """<launch>
+  <arg name="größe" default="5" doc="🤖"/>
+  <include file="$(find p)/inner.launch" if="$(eval größe &lt; 3 and env('HOME') != '')">
+    <arg name="rate" value="$(arg größe)"/>
+  </include>
+  <!-- a comment -->
+  <group ns="r"><node pkg="p" type="t" name="n" args="-d $(find p)/x.rviz _a:=$(optenv HOME b)" output='screen'>
+    <rosparam command="load" subst_value="true">a: $(arg größe)</rosparam>
+    <remap from="picture" to="/image"/>
+  </node></group>
+</launch>
+"""
+
+
+@given(
+    st.integers(0, len(WHOLE)),
+    st.integers(0, 40),
+    st.sampled_from(["", "<", "</", " ", '"', "'", "$", "$(", "$(eval ", "=", "é", "/"]),
+    st.sampled_from([None, *TRIGGERS]),
+)
+def test_whatever_is_typed_or_deleted_the_edit_is_within_a_line(
+    at: int, deleted: int, typed: str, trigger: str | None
+) -> None:
+    text = WHOLE[:at] + typed + "$0" + WHOLE[at + deleted :]
+    there = at_cursor(text + INNER)
+    found = complete(there.analysis, there.launch_file, there.offset, there.sources, Executables(), trigger)
+    if found is not None:
+        assert found.span.start <= there.offset <= found.span.end
+        assert "\n" not in there.text(found.span)
+        assert len({item.label for item in found.items}) == len(found.items)
 
 
 def test_a_long_file_is_no_trouble() -> None:
