@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.schema_ros1 import ANNOTATIONS, TAGS
@@ -30,6 +31,27 @@ def check_language(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
     """Everything in the file that roslaunch would skip or complain of, in document order."""
     if launch_file.root is not None:
         yield from _check(launch_file.root)
+        # While a tag is being typed the rest of the file may be text for a moment.
+        if not launch_file.document.problems and any(map(_has_stray_text, launch_file.root.walk())):
+            yield from _stray_texts(launch_file.document.root)
+
+
+def _has_stray_text(action: Action) -> bool:
+    return bool(action.body.text) and action.kind != "rosparam" and not action.body.text.isspace()
+
+
+def _stray_texts(element: Element | None) -> Iterator[LanguageProblem]:
+    """Text between tags, which means something in `<rosparam>` only."""
+    if element is None or element.tag == "rosparam":
+        return
+    for child in element.children:
+        if isinstance(child, Element):
+            yield from _stray_texts(child)
+        elif isinstance(child, Text) and (text := child.content.text.strip()):
+            start = child.content.text.index(text)
+            line = text.split("\n", 1)[0].rstrip()
+            span = child.content.slice_span(start, start + len(line))
+            yield LanguageProblem("stray-text", span, {"text": line, "tag": element.tag})
 
 
 def _check(action: Action) -> Iterator[LanguageProblem]:

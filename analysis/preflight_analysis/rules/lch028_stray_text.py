@@ -1,0 +1,49 @@
+"""LCH028: text between tags."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.rule import Context, Rule
+
+_TAG = re.compile(rf"(?:{'|'.join(TAGS)})(?=\s+[\w-]+\s*=)")
+_REMARK = re.compile(r"(?:#|//)")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        text = str(problem.data["text"])
+        shown = text if len(text) <= 40 else text[:40] + "..."
+        lost = _TAG.match(text) is not None
+        hint = "; is a '<' missing before it?" if lost else ""
+        message = f"the text '{shown}' in <{problem.data['tag']}> means nothing: roslaunch does not look at it{hint}"
+        yield problem_finding(rule, problem, message, fixes=_fixes(problem, text, lost))
+
+
+def _fixes(problem: Problem, text: str, lost: bool) -> Iterator[Fix]:
+    file, span = problem.location
+    if lost:
+        yield Fix("Insert the '<'", (Edit(Location(file, Span(span.start, span.start)), "<"),), True)
+    elif _REMARK.match(text) and "--" not in text:
+        # A comment in XML cannot have two dashes in it.
+        yield Fix("Make it a comment", (Edit(problem.location, f"<!-- {text.lstrip('#/ ')} -->"),), True)
+
+
+RULE = Rule(
+    id="LCH028",
+    name="stray-text",
+    severity="warning",
+    what="Reports text between the tags of a launch file, outside of `<rosparam>`.",
+    why="""XML allows it and `roslaunch` does not look at it. It is what is left of a tag whose `<` was lost, so that a
+node is never started, or a remark that was meant as a comment.""",
+    example='<launch>\n  node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
+    instead='<launch>\n  <node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
+    check=_check,
+    problems=("stray-text",),
+)
