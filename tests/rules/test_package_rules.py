@@ -116,6 +116,11 @@ def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
     assert "is not built yet" in finding.message
     (finding,) = judge(launch, "gone")
     assert finding.severity == "error"
+    below = launch.parent / "src" / "gone"
+    below.mkdir(parents=True)
+    (below / "CMakeLists.txt").write_text("add_executable(gone gone.cpp)\n")
+    (finding,) = judge(launch, "gone")
+    assert finding.severity == "info"
 
 
 def test_without_ros_a_package_that_is_not_there_is_no_error(launch: Path) -> None:

@@ -51,7 +51,7 @@ class ExecutableIndex:
         return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
 
     def is_build_target(self, package: str, name: str) -> bool:
-        """Whether the package's `CMakeLists.txt` names the executable: it is there once the workspace is built.
+        """Whether a `CMakeLists.txt` of the package names the executable: it is there once the workspace is built.
 
         A word of the file is taken for its word; `${PROJECT_NAME}` is the package, any other variable unknown.
         """
@@ -59,9 +59,13 @@ class ExecutableIndex:
         if found is None:
             return False
         if package not in self._targets:
-            text = read_text(os.path.join(found.share, "CMakeLists.txt"))
-            words = text.text.replace("${PROJECT_NAME}", package) if isinstance(text, Text) else ""
-            self._targets[package] = frozenset(re.findall(r"[^\s()\"]+", re.sub(r"#.*", "", words)))
+            words: set[str] = set()
+            for path in self._walked(found.share).get("CMakeLists.txt", ()):
+                text = read_text(path)
+                if isinstance(text, Text):
+                    plain = re.sub(r"#.*", "", text.text.replace("${PROJECT_NAME}", package))
+                    words.update(re.findall(r"[^\s()\"]+", plain))
+            self._targets[package] = frozenset(words)
         return name in self._targets[package]
 
     def names(self, package: str) -> tuple[str, ...]:

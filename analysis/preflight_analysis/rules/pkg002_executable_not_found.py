@@ -72,8 +72,8 @@ RULE = Rule(
     name="executable-not-found",
     severity="error",
     what="Reports a node whose `type` is no executable file of its package, and names the nearest one that is, or the "
-    "package of the launch that has it; or that is there without the permission to be executed. One that the "
-    "package's `CMakeLists.txt` names is not built yet: that is for information only.",
+    "package of the launch that has it; or that is there without the permission to be executed. One that a "
+    "`CMakeLists.txt` of the package names is not built yet: that is for information only.",
     why="`roslaunch` prints an error among the output of the other nodes and goes on without this one.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
