@@ -367,10 +367,10 @@ def test_text_between_tags_means_nothing() -> None:
     findings = check("""
         <launch>
           node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH028] in <launch> means nothing: roslaunch does not look at it; is a '<'
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH028] means nothing: roslaunch does not look at it; is a '<'
           <group ns="a">
             # the front camera
-            ^^^^^^^^^^^^^^^^^^ warning[LCH028] the text '# the front camera' in <group> means nothing
+            ^^^^^^^^^^^^^^^^^^ hint[LCH028] the text '# the front camera' in <group> means nothing
             <node pkg="p" type="t" name="m"/>
           </group>
           <param name="x" value="1">2</param>

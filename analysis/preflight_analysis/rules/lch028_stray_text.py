@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Problem
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -23,7 +23,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lost = _TAG.match(text) is not None
         hint = "; is a '<' missing before it?" if lost else ""
         message = f"the text '{shown}' in <{problem.data['tag']}> means nothing: roslaunch does not look at it{hint}"
-        yield problem_finding(rule, problem, message, fixes=_fixes(problem, text, lost))
+        severity: Severity | None = "hint" if _REMARK.match(text) else None
+        yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(problem, text, lost))
 
 
 def _fixes(problem: Problem, text: str, lost: bool) -> Iterator[Fix]:
