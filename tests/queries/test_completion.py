@@ -95,6 +95,8 @@ def test_attributes_that_are_not_there_yet() -> None:
 def test_an_attribute_replaces_the_word_around_the_cursor() -> None:
     assert applied("<launch><node na$0/></launch>", "name") == '<launch><node name=""/></launch>'
     assert applied("<launch><node na$0/></launch>", "name", snippets=True) == '<launch><node name="$1"/></launch>'
+    output = applied("<launch><node out$0/></launch>", "output", snippets=True)
+    assert output == '<launch><node output="${1|screen,log|}"/></launch>'
     assert applied("<launch><node na$0mme='x'/></launch>", "name") == "<launch><node name='x'/></launch>"
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.launch.schema_ros1 import TAGS, Attribute
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.cursor import Place, is_closed, place_at
@@ -129,5 +129,13 @@ def _attributes(element: Element, place: Place, *, has_value: bool) -> Iterator[
                 attribute.name if has_value else f'{attribute.name}=""',
                 attribute_doc(attribute),
                 "required" if attribute.required else "",
-                snippet=None if has_value else f'{attribute.name}="$1"',
+                snippet=None if has_value else f'{attribute.name}="{_tab_stop(attribute)}"',
             )
+
+
+def _tab_stop(attribute: Attribute) -> str:
+    """A place to type in, or to choose in: first what is not the default, which would not have to be written."""
+    if attribute.kind not in ("choice", "flag"):
+        return "$1"
+    choices = sorted(attribute.choices, key=lambda choice: choice == attribute.default)
+    return f"${{1|{','.join(choices)}|}}"
