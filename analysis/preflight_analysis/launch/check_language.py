@@ -9,6 +9,7 @@ from typing import Any
 from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.ros1_xml import MAX_DEPTH
 from preflight_analysis.launch.schema_ros1 import ANNOTATIONS, TAGS
 
 _DEFUNCT = {"launch": ("master",), "group": ("master",)}
@@ -37,16 +38,21 @@ def check_language(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
 
 
 def _has_stray_text(action: Action) -> bool:
-    return bool(action.body.text) and action.kind != "rosparam" and not action.body.text.isspace()
+    return bool(action.body.text) and not _reads_text(action.kind) and not action.body.text.isspace()
 
 
-def _stray_texts(element: Element | None) -> Iterator[LanguageProblem]:
+def _reads_text(tag: str) -> bool:
+    known = TAGS.get(tag) or TAGS.get(tag.lower())
+    return known is not None and known.text
+
+
+def _stray_texts(element: Element | None, depth: int = 0) -> Iterator[LanguageProblem]:
     """Text between tags, which means something in `<rosparam>` only."""
-    if element is None or element.tag == "rosparam":
+    if element is None or _reads_text(element.tag) or depth > MAX_DEPTH:
         return
     for child in element.children:
         if isinstance(child, Element):
-            yield from _stray_texts(child)
+            yield from _stray_texts(child, depth + 1)
         elif isinstance(child, Text) and (text := child.content.text.strip()):
             start = child.content.text.index(text)
             line = text.split("\n", 1)[0].rstrip()
