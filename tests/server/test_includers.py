@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from pathlib import Path
+from typing import Any
 
 import pytest
 from editor_desk import Desk
@@ -105,9 +106,12 @@ async def test_lenses_and_their_commands(desk: Desk, files: tuple[Path, Path]) -
         assert editor.covered(inner, root.range) == "<launch>"
 
 
-async def test_lenses_for_a_client_without_our_commands(desk: Desk, files: tuple[Path, Path]) -> None:
+@pytest.mark.parametrize("settings", [None, {"clientCommands": 7}], ids=["none", "nonsense"])
+async def test_lenses_for_a_client_without_our_commands(
+    desk: Desk, files: tuple[Path, Path], settings: dict[str, Any] | None
+) -> None:
     outer, _ = files
-    async with editing(desk) as editor:
+    async with editing(desk, settings=settings) as editor:
         editor.open(outer, OUTER.replace("</launch>", "<node "))
         found = await editor.lenses(outer)
         assert [lens.command.command for lens in found if lens.command] == ["", "", ""]

@@ -103,7 +103,9 @@ def with_analyses(index: WorkspaceIndex, analyses: Sequence[Analysis]) -> Worksp
     if not stale and not newer:
         return index
     entries = {
-        root: replace(entry, inclusions=tuple(i for i in entry.inclusions if i.includer not in stale))
+        root: entry
+        if stale.keys().isdisjoint(entry.files)
+        else replace(entry, inclusions=tuple(i for i in entry.inclusions if i.includer not in stale))
         for root, entry in index.entries.items()
     }
     packages = {n: p.share for a in analyses[:1] for n, p in a.environment.packages.items()}
