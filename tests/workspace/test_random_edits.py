@@ -19,6 +19,6 @@ def test_random_edits_leave_nothing_behind(seed: int) -> None:
 
 
 def test_a_workspace_that_does_not_look_again_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Workspace, "_unchanged", lambda *_: True)
+    monkeypatch.setattr(Workspace, "is_current", lambda *_: True)
     with pytest.raises(random_edits.Broken, match="seed 0"):
         random_edits.run(ROBOT, find_packages([str(ROBOT)]).packages, 0, 300)

@@ -7,6 +7,7 @@ import shlex
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
@@ -31,7 +32,7 @@ MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Analysis:
     """Everything known of one root. `documents` has each text that a location in it may point into, by path."""
 
@@ -41,9 +42,23 @@ class Analysis:
     documents: Mapping[str, Document]
     launch_files: Mapping[str, LaunchFile]
     environment: Environment
-    graph: Graph | None
-    findings: tuple[Finding, ...]
-    why_not_run: str | None
+    context: Context
+    """What the rules get to see."""
+
+    @property
+    def graph(self) -> Graph | None:
+        """Who talks to whom, None while the interfaces are not there yet."""
+        return self.context.graph
+
+    @property
+    def why_not_run(self) -> str | None:
+        """Why no node was run, None when they were."""
+        return self.context.why_not_run
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """What all rules say. They are run when this is first asked for: where the graph follows, only with that."""
+        return tuple(run_rules(self.context))
 
     @property
     def launch(self) -> Root:
@@ -96,8 +111,7 @@ class Workspace:
             executables=self._executables,
             sources=self.sources,
         )
-        findings = tuple(run_rules(context))
-        analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, None, findings, None)
+        analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, context)
         with self._lock:
             self._static.pop(key, None)
             self._static[key] = analysis
@@ -139,18 +153,8 @@ class Workspace:
         `why_not_run` says why nothing was executed, None where it was.
         """
         graph = build_graph(analysis.tree, interfaces)
-        context = Context(
-            analysis.root,
-            analysis.tree,
-            analysis.documents,
-            analysis.launch_files,
-            analysis.environment,
-            graph,
-            why_not_run,
-            self._executables,
-            self.sources,
-        )
-        return replace(analysis, graph=graph, findings=tuple(run_rules(context)), why_not_run=why_not_run)
+        context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
+        return replace(analysis, context=context)
 
     def is_current(self, tree: LaunchTree) -> bool:
         """Whether nothing that it was made of has changed since."""
