@@ -103,7 +103,7 @@ async def test_what_was_typed_a_moment_ago_counts(desk: Desk, files: tuple[Path,
         assert "outer.launch:4 rate" in [covered(editor, place) for place in found]
 
 
-async def test_a_refusal_says_why(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_a_refusal_says_why(desk: Desk, files: tuple[Path, Path], capfd: pytest.CaptureFixture[str]) -> None:
     outer, _ = files
     async with editing(desk) as editor:
         editor.open(outer)
@@ -113,6 +113,7 @@ async def test_a_refusal_says_why(desk: Desk, files: tuple[Path, Path]) -> None:
         with pytest.raises(JsonRpcException, match="This is a package"):
             await editor.prepare_rename(outer, editor.at(outer, "preflight_demo"))
         assert await editor.prepare_rename(outer, editor.at(outer, "<!--")) is None
+    assert "no name for an argument" not in capfd.readouterr().err, "it is an answer, not a failure to be logged"
 
 
 async def test_a_node_is_renamed_with_the_topics_below_it(desk: Desk, files: tuple[Path, Path]) -> None:

@@ -17,7 +17,7 @@ from preflight_analysis import __version__
 from pygls.lsp.server import LanguageServer
 
 from preflight_server.lsp import features
-from preflight_server.lsp.protocol import PreflightProtocol
+from preflight_server.lsp.protocol import PreflightProtocol, RefusedError, is_failure
 from preflight_server.lsp.session import Session
 from preflight_server.lsp.settings import Settings, as_mapping
 from preflight_server.lsp.text_store import TextStore, to_path
@@ -59,7 +59,8 @@ class PreflightServer(LanguageServer):
 
     def report_server_error(self, error: Exception, source: Any) -> None:
         """A handler broke: that belongs in the log, not in a message box for each keystroke."""
-        _log.error("%s: %s", getattr(source, "__name__", source), error)
+        if not isinstance(error, RefusedError):
+            _log.error("%s: %s", getattr(source, "__name__", source), error)
 
     def spawn(self, coroutine: Any) -> asyncio.Task[Any]:
         """Run a coroutine beside the handlers; what it raises goes to the log."""
@@ -86,6 +87,7 @@ def serve() -> int:
     logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s")
     # At INFO pygls logs whole documents.
     logging.getLogger("pygls").setLevel(logging.ERROR)
+    logging.getLogger("pygls.protocol.json_rpc").addFilter(is_failure)
     server = PreflightServer()
     with open(os.dup(1), "wb") as out:
         os.dup2(2, 1)

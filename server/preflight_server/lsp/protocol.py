@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Generator
 from typing import Any
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pygls.protocol import LanguageServerProtocol
 from pygls.protocol.language_server import lsp_method
+
+
+class RefusedError(JsonRpcException):
+    """What the user asked for cannot be done, and why: an answer, not a failure of ours."""
+
+    CODE = types.LSPErrorCodes.RequestFailed
+
+
+def is_failure(record: logging.LogRecord) -> bool:
+    """A filter for pygls' log, which takes each error that is answered for a failure."""
+    return not (record.exc_info and isinstance(record.exc_info[1], RefusedError))
 
 
 def pulls_diagnostics(capabilities: types.ClientCapabilities) -> bool:

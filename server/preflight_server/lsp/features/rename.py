@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, TypeVar
 from lsprotocol import types
 from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
 from preflight_analysis.queries.scene import Scene
-from pygls.exceptions import JsonRpcException
 
+from preflight_server.lsp.protocol import RefusedError
 from preflight_server.lsp.scenes import converter_for, scene_of
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def _answered(work: Callable[[], _T]) -> _T:
     try:
         return work()
     except RenameRefusedError as refusal:
-        raise JsonRpcException(str(refusal), types.LSPErrorCodes.RequestFailed) from refusal
+        raise RefusedError(str(refusal)) from refusal
 
 
 def register(server: PreflightServer) -> None:
@@ -51,7 +51,7 @@ def register(server: PreflightServer) -> None:
         def work() -> types.WorkspaceEdit:
             edits = rename(scene, offset, params.new_name)
             if any(_typed_on(ls, scene, path) for path in {edit.location.file for edit in edits}):
-                raise JsonRpcException("The text changed meanwhile", types.LSPErrorCodes.ContentModified)
+                raise RefusedError("The text changed meanwhile", types.LSPErrorCodes.ContentModified)
             converter = converter_for(ls, scene, (edit.location for edit in edits))
             return converter.workspace_edit(edits, versioned=_versioned(ls.client_capabilities))
 
