@@ -363,6 +363,27 @@ def test_a_file_that_a_parameter_names_and_that_is_not_there() -> None:
     """)
 
 
+def test_a_file_that_is_made_from_arguments_is_shown_where_its_folder_is_written() -> None:
+    check("""
+        <launch>
+          <arg name="world" default="office"/>
+          <include file="/inc.launch"><arg name="file" value="$(find p)/worlds/$(arg world).world"/></include>
+                                                              ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005]
+        </launch>
+        //- /inc.launch
+        <launch><arg name="file"/><node pkg="p" type="t" name="n" args="-e $(arg file)"/></launch>
+    """)
+
+
+def test_a_model_that_is_not_there_may_have_to_be_fetched() -> None:
+    check("""
+        <launch>
+          <param name="model" value="$(find p)/trained/net.npz"/>
+                                     ^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] it may have to be fetched first
+        </launch>
+    """)
+
+
 def test_a_file_that_is_there_or_need_not_be() -> None:
     check("""
         <launch>

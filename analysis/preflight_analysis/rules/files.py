@@ -41,14 +41,15 @@ def nearest_file(path: str, environment: Environment) -> str | None:
     """
     wanted = Path(path)
     siblings = {entry.name: entry for entry in _files(wanted.parent, deep=False)}
-    near = nearest(wanted.name, siblings)
+    alike = [name for name in siblings if Path(name).suffix == wanted.suffix]
+    near = nearest(wanted.name, alike, key=_stem) or next((n for n in siblings if _stem(n) == wanted.stem), None)
     if near is not None:
         return str(siblings[near])
     share = package_folder(path, environment)
     if share is None:
         return None
     elsewhere = {entry.name: entry for entry in _files(share, deep=True) if entry.suffix == wanted.suffix}
-    near = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere)
+    near = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
     return str(elsewhere[near]) if near is not None else None
 
 
@@ -79,6 +80,11 @@ def package_folder(path: str, environment: Environment) -> Path | None:
     """The folder of the innermost package around `path`."""
     holders = [p.share for p in environment.packages.values() if path.startswith(p.share.rstrip("/") + "/")]
     return Path(max(holders, key=len)) if holders else None
+
+
+def _stem(name: str) -> str:
+    """What can be a slip of the keyboard: an equal extension would make short names look alike."""
+    return Path(name).stem
 
 
 def _files(folder: Path, *, deep: bool) -> Iterator[Path]:

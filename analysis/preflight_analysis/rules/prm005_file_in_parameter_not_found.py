@@ -12,7 +12,7 @@ from functools import partial
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
-from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
 from preflight_analysis.rules.places import attribute_location
@@ -38,6 +38,15 @@ _WRITTEN = frozenset(
 )
 """Words in the name of a parameter, option, node or folder that say: this file is made when the node runs."""
 _MADE_WHEN_RUN = (".bag", ".log", ".db", ".pid", ".sock", ".sqlite", ".tmp")
+_FETCHED = frozenset(
+    re.findall(
+        r"\S+",
+        ".7z .avi .caffemodel .engine .gz .h5 .hdf5 .jpg .las .laz .mp4 .npy .npz .onnx .otf .pb .pcd .pkl .ply .pt "
+        ".pts .pth .tar .tflite .trt .ttf .wav .weights .zip",
+    )
+)
+"""Models, recordings and the like, which are mostly fetched when the package is built or on first use."""
+_FETCHED_FOLDERS = frozenset(("dataset", "datasets", "trained_data", "weights"))
 _MOST_STEPS = 20
 
 
@@ -64,8 +73,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             near = nearest_file(path, context.environment)
             hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
-            message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
-            yield rule.finding(message, location, confidence="likely", related=related, fixes=fixes)
+            fetched = near is None and _is_fetched(path)
+            note = "; it may have to be fetched first" if fetched else hint
+            message = f"file '{shown(path, context)}' in {named.what} does not exist{note}"
+            severity: Severity | None = "info" if fetched else None
+            yield rule.finding(message, location, severity=severity, confidence="likely", related=related, fixes=fixes)
 
 
 def _in_params(context: Context) -> Iterator[_Named]:
@@ -151,6 +163,11 @@ def _missing(text: str, context: Context) -> Iterator[str]:
             yield normal
 
 
+def _is_fetched(path: str) -> bool:
+    folders = os.path.dirname(path).split("/")
+    return os.path.splitext(path)[1].lower() in _FETCHED or not _FETCHED_FOLDERS.isdisjoint(folders)
+
+
 def _is_built(below: str, share: str, context: Context) -> bool:
     """Whether the package's CMakeLists.txt speaks of the file: then building the package makes it."""
     executables = context.executables
@@ -192,22 +209,22 @@ def _argument_uses(tree: LaunchTree) -> Mapping[Location, list[Use]]:
 
 
 def _where_written(context: Context, at: Location, path: str, uses: Mapping[Location, list[Use]]) -> Location:
-    """The place that has the file's name: from `at` back over the arguments that gave the value; else `at` itself."""
+    """The place that has the file's name, or makes it: from `at` back over the arguments that gave the value."""
     name = os.path.basename(path)
     place, seen = at, set[Location]()
     while place not in seen and len(seen) < _MOST_STEPS:
         seen.add(place)
         document = context.documents.get(place.file)
         if document is None or name in document.text[place.span.start : place.span.end]:
-            return place if document is not None else at
+            return place
         use = next((u for u in uses.get(place, ()) if u.origin and u.value is not None and name in u.value), None)
         launch_file = context.launch_files.get(use.origin[-1].file) if use is not None else None
         if use is None or launch_file is None:
-            return at
+            return place
         action = action_at(launch_file, use.origin[-1].span.start)
         value = (action.value("value") or action.value("default")) if action is not None else None
         if value is None:
-            return at
+            return place
         place = Location(launch_file.path, value.span)
     return at
 
@@ -219,7 +236,7 @@ RULE = Rule(
     what="Reports a file that does not exist in the value of a parameter, in the arguments of a node or in a command: "
     "a path with an extension below a package or the workspace, also as `file://` or `package://`. It names the "
     "nearest file. Names that speak of something that is written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are left alone.",
+    "files that the package builds are left alone; a model or recording that has no like one is for information only.",
     why="`roslaunch` takes the value for any text. The node ends when it opens the file, or goes on without: a camera "
     "without its calibration, a planner without its limits.",
     example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
