@@ -86,8 +86,21 @@ EVALS = (
     ),
 )
 ODD_EVALS = (
-    *("none", "arg('none')", "1/0", "len('x')", "'a' + 1", "a.b", "env('UNSET')", "find('none')", "1 +", "", "x__y"),
-    *("[][0]", "{}['k']", "int('x')", "r", "arg('r')", "open('x')", "print", "a b", "(1", "sqrt(-1)", "a()"),
+    *("none", "arg('none')", "1/0", "'a' + 1", "a.b", "env('UNSET')", "find('none')", "1 +", "", "x__y"),
+    *(
+        "[][0]",
+        "{}['k']",
+        "int('x')",
+        "r",
+        "arg('r')",
+        "a b",
+        "len(1)",
+        "max(1, 'x')",
+        "round('x')",
+        "(1",
+        "sqrt(-1)",
+        "a()",
+    ),
 )
 TYPES = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml", "Int", " int ", "")
 ODD_TYPES = ("float", "$(arg a)", "integer")

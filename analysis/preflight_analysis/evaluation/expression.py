@@ -1,6 +1,6 @@
 """The allow-listed evaluator of `$(eval ...)`: Python's arithmetic, comparisons, strings and a few functions.
 
-roslaunch gives `eval` the `math` module, a handful of types and its own functions
+roslaunch gives `eval` the `math` module, its own functions and, without meaning to, all that Python has
 (http://wiki.ros.org/roslaunch/XML#substitution_args). The same names are known here, but the expression is walked
 and computed by us: no attribute that is not listed, no comprehension over anything unbounded, nothing that could run
 code. What lies outside raises `NotAllowedError`; what roslaunch itself would reject raises `EvaluationError`.
@@ -9,10 +9,11 @@ code. What lies outside raises `NotAllowedError`; what roslaunch itself would re
 from __future__ import annotations
 
 import ast
+import builtins
 import math
 import operator
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 MAX_SIZE = 1_000_000
@@ -51,17 +52,108 @@ _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.NotIn: lambda a, b: a not in b,
 }
 _MATH = {name: value for name, value in vars(math).items() if not name.startswith("_")}
-_TYPES: dict[str, Any] = {"list": list, "dict": dict, "map": map, "str": str, "float": float, "int": int}
 _CONSTANTS = {"true": True, "false": False, "True": True, "False": False}
-NAMES: Mapping[str, bool] = {name: callable(value) for name, value in {**_CONSTANTS, **_TYPES, **_MATH}.items()}
-"""What is known in every expression, beside the functions of roslaunch and the arguments, and whether it is called."""
 _METHODS = frozenset(
-    {"capitalize", "count", "endswith", "find", "get", "index", "isalnum", "isalpha", "isdigit", "islower", "isupper"}
+    {
+        "capitalize",
+        "center",
+        "count",
+        "endswith",
+        "find",
+        "format",
+        "get",
+        "index",
+        "isalnum",
+        "isalpha",
+        "isdigit",
+        "islower",
+        "isupper",
+    }
     | {"join", "keys", "lower", "lstrip", "partition", "replace", "rfind", "rpartition", "rsplit", "rstrip", "split"}
-    | {"splitlines", "startswith", "strip", "swapcase", "title", "upper", "values"}
+    | {"ljust", "rjust", "splitlines", "startswith", "strip", "swapcase", "title", "upper", "values", "zfill"}
 )
+
+
+def _round(number: Any, digits: Any = None) -> Any:
+    if isinstance(digits, int) and abs(digits) > 1000:
+        raise NotAllowedError("that is too much to round")
+    return round(number, digits)
+
+
+def _prod(values: Any, *rest: Any) -> Any:
+    raise NotAllowedError("products are not evaluated")
+
+
+_MATH["prod"] = _prod
+_SCALAR = (abs, bin, bool, chr, float, hex, int, len, oct, ord, repr, _round, str)
+"""Functions that make one small value of one: what `map` and `filter` may be given."""
 _GROWING = (math.factorial, math.comb, math.perm)
+_DEEP_FORMAT = re.compile(r"\{[^{}:!]*[.\[]|\{[^{}]*\{|:[^{}]*\d{4}")
 _WIDE_FORMAT = re.compile(r"%[^a-zA-Z%]*(?:\*|\d{4})")
+
+
+class _Items:
+    """What `map`, `zip` and their like give: to be gone through, with no text of its own."""
+
+    def __init__(self, items: Iterable[Any]) -> None:
+        self.items = list(items)
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self.items)
+
+
+def _map(function: Any, *values: Any) -> _Items:
+    if function not in _SCALAR:
+        raise NotAllowedError("map is not evaluated with this function")
+    return _Items(map(function, *values))
+
+
+def _filter(function: Any, values: Any) -> _Items:
+    if function is not None and function not in _SCALAR:
+        raise NotAllowedError("filter is not evaluated with this function")
+    return _Items(filter(function, values))
+
+
+def _range(*bounds: Any) -> range:
+    found = range(*bounds)
+    if not -MAX_SIZE <= (found.stop - found.start) // found.step <= MAX_SIZE:
+        raise NotAllowedError("the range is too long")
+    return found
+
+
+def _sum(values: Any, start: Any = 0) -> Any:
+    items = list(values)
+    if not all(isinstance(item, (int, float)) for item in (*items, start)):
+        raise NotAllowedError("only numbers are added up")
+    return sum(items, start)
+
+
+def _format(value: Any, spec: Any = "") -> str:
+    if re.search(r"\d{4}", str(spec)):
+        raise NotAllowedError("the text would be too long")
+    return format(value, spec)
+
+
+_BUILTINS: dict[str, Any] = {
+    **{
+        function.__name__.lstrip("_"): function
+        for function in (*_SCALAR, all, any, dict, divmod, list, max, min, tuple)
+    },
+    "enumerate": lambda values, start=0: _Items(enumerate(values, start)),
+    "filter": _filter,
+    "format": _format,
+    "map": _map,
+    "range": _range,
+    "reversed": lambda values: _Items(reversed(values)),
+    "sorted": sorted,
+    "sum": _sum,
+    "zip": lambda *values: _Items(zip(*values)),  # noqa: B905 - as in the expression
+}
+"""Python's own functions: roslaunch means to shut them out, and does not."""
+
+
+NAMES: Mapping[str, bool] = {name: callable(value) for name, value in {**_CONSTANTS, **_BUILTINS, **_MATH}.items()}
+"""What is known in every expression, beside the functions of roslaunch and the arguments, and whether it is called."""
 
 
 class EvaluationError(ValueError):
@@ -84,9 +176,13 @@ def evaluate(expression: str, names: Callable[[str], Any], functions: Mapping[st
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise EvaluationError(f"not an expression: {getattr(error, 'msg', None) or error}") from error
-    walker = _Walker(names, {**_MATH, **_TYPES, **functions})
+    walker = _Walker(names, {**_MATH, **functions})
     try:
-        return walker.visit(tree.body)
+        result = walker.visit(tree.body)
+        _check_weight(result)
+        if isinstance(result, (_Items, type)) or callable(result):
+            raise NotAllowedError("the result is no value")
+        return result
     except (EvaluationError, NotAllowedError):
         raise
     except RecursionError as error:
@@ -122,7 +218,7 @@ class _Walker:
         return node.value
 
     def _name(self, node: ast.Name) -> Any:
-        # roslaunch looks at its functions first, then at the arguments.
+        # roslaunch looks at its own functions first, then at the arguments, then at Python's functions.
         if node.id in _CONSTANTS:
             return _CONSTANTS[node.id]
         if node.id in self._functions:
@@ -130,7 +226,15 @@ class _Walker:
         try:
             return self._names(node.id)
         except KeyError:
+            if node.id in _BUILTINS:
+                return _BUILTINS[node.id]
+            if hasattr(builtins, node.id):
+                raise NotAllowedError(f"'{node.id}' is not evaluated") from None
             raise EvaluationError(f"name '{node.id}' is not defined") from None
+
+    def _attribute(self, node: ast.Attribute) -> Any:
+        self.visit(node.value)
+        raise NotAllowedError("attributes are not evaluated")
 
     def _binop(self, node: ast.BinOp) -> Any:
         left, right = self.visit(node.left), self.visit(node.right)
@@ -191,11 +295,21 @@ class _Walker:
             raise NotAllowedError("the number is too large")
         if not callable(function):
             raise EvaluationError(f"'{node.func.id}' is not a function")
+        for argument in arguments:
+            _check_weight(argument)
         return function(*arguments)
 
     def _method(self, value: Any, name: str, arguments: list[Any]) -> Any:
         if not isinstance(value, (str, list, tuple, dict)) or name not in _METHODS:
             raise NotAllowedError(f"the method '{name}' is not evaluated")
+        for argument in (value, *arguments):
+            _check_weight(argument)
+        if name == "join" and len(value) * sum(1 for _ in arguments[0]) > MAX_SIZE:
+            raise NotAllowedError("the text would be too long")
+        if name in ("center", "ljust", "rjust", "zfill") and arguments[0] > MAX_SIZE:
+            raise NotAllowedError("the text would be too long")
+        if name == "format" and isinstance(value, str) and _DEEP_FORMAT.search(value):
+            raise NotAllowedError("attributes, items and wide fields are not formatted")
         if name == "replace" and len(value) * max(1, len(str(arguments[-1]))) > MAX_SIZE:
             raise NotAllowedError("the text would be too long")
         return getattr(value, name)(*arguments)
@@ -205,17 +319,37 @@ class _Walker:
         raise NotAllowedError(f"{type(op).__name__} is not evaluated")
 
 
+def _check_weight(value: Any, times: int = 1) -> None:
+    """Refuse lists of lists of long texts: they take no memory until a function makes text or further lists of them,
+    or compares them."""
+    left, waiting = MAX_SIZE // times, [value]
+    while waiting:
+        item = waiting.pop()
+        left -= len(item) if isinstance(item, (str, bytes)) else 1
+        if isinstance(item, dict):
+            waiting += item.keys()
+            waiting += item.values()
+        elif isinstance(item, (list, tuple)):
+            waiting += item
+        elif isinstance(item, _Items):
+            waiting += item.items
+        if left < 0 or len(waiting) > MAX_SIZE:
+            raise NotAllowedError("the value would be too large")
+
+
 def _check_size(op: ast.operator, left: Any, right: Any) -> None:
     """Refuse what would take the memory: `'a' * 10**9`, `9**9**9`, `1 << 10**9`, `'%9999999999d' % 1`."""
     if isinstance(op, ast.Mult):
         for text, count in ((left, right), (right, left)):
-            if isinstance(text, (str, bytes, list, tuple)) and isinstance(count, int) and len(text) * count > MAX_SIZE:
-                raise NotAllowedError("the text would be too long")
+            if isinstance(text, (str, bytes, list, tuple)) and isinstance(count, int) and count > 0:
+                _check_weight(text, count)
     if isinstance(left, int) and isinstance(right, int):
         bits = left.bit_length() * right if isinstance(op, ast.Pow) else right if isinstance(op, ast.LShift) else 0
         if bits > MAX_SIZE:
             raise NotAllowedError("the number would be too large")
     if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE_FORMAT.search(left):
         raise NotAllowedError("the text would be too long")
+    if isinstance(op, ast.Mod) and isinstance(left, str):
+        _check_weight(right)
     if isinstance(op, ast.Mod) and isinstance(left, bytes):
         raise NotAllowedError("bytes are not formatted")
