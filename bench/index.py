@@ -158,7 +158,7 @@ def library(made: Workspace, rounds: int) -> None:
     gc.set_threshold(100_000, 20, 100)  # as the server
     texts = Sources()
     engine = Engine(detect(str(made.folder)), texts)
-    engine.static(str(made.root))
+    _ = engine.static(str(made.root)).findings
     print("without a server, means in ms")
     for place in places(made):
         watch.spent.clear()
@@ -166,7 +166,7 @@ def library(made: Workspace, rounds: int) -> None:
         for new, *_ in place.texts(rounds):
             began = time.perf_counter()
             texts.open(str(place.path), new)
-            engine.static(str(made.root))
+            _ = engine.static(str(made.root)).findings
             samples.append(time.perf_counter() - began)
         watch.spent["other"] = sum(samples) - sum(watch.spent.values())
         steps = ", ".join(f"{step} {1000 * spent / len(samples):.1f}" for step, spent in watch.spent.items())
