@@ -30,6 +30,8 @@ class Text:
     path: str
     text: str
     digest: str
+    plain: bool = True
+    """Whether it is UTF-8 without a mark and says nothing else: what a program that knows nothing of XML reads."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,10 +96,10 @@ def _too_large(path: str, size: int) -> Unreadable:
 
 
 def _decode(path: str, data: bytes) -> Text | Unreadable:
-    encoding, declared = "utf-8", False
+    encoding, declared, marked = "utf-8", False, False
     for mark, name in _BYTE_ORDER_MARKS:
         if data.startswith(mark):
-            encoding, data = name, data[len(mark) :]
+            encoding, data, marked = name, data[len(mark) :], True
             break
     else:
         if found := _DECLARED_ENCODING.match(data):
@@ -118,4 +120,4 @@ def _decode(path: str, data: bytes) -> Text | Unreadable:
         return Unreadable(path, f"declares the encoding {encoding!r} and is not written in it", "not-text")
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
-    return Text(path, text, digest(text))
+    return Text(path, text, digest(text), not marked and not declared)

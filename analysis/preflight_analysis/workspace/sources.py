@@ -69,16 +69,28 @@ class Sources:
         return found
 
     def text(self, path: str) -> Document | Unreadable:
-        """Any text file, not parsed."""
+        """Any text file, not parsed. As roslaunch reads it: in UTF-8, whatever an XML declaration or a mark say."""
         entry = self._entry(path)
         if isinstance(entry.text, Unreadable):
             return entry.text
         found = entry.parsed.get("text")
         if not isinstance(found, Document):
-            text = entry.text
+            text = entry.text if entry.text.plain else self._plain(path)
+            if isinstance(text, Unreadable):
+                return text
             found = Document(path, text.text, text.digest, (), (), LineIndex(text.text))
             entry.parsed["text"] = found
         return found
+
+    def _plain(self, path: str) -> Text | Unreadable:
+        content = self.data(path)
+        if isinstance(content, Unreadable):
+            return content
+        try:
+            text = content.decode()
+        except UnicodeDecodeError as error:
+            return Unreadable(path, f"is not a text file in UTF-8 (byte {error.start})", "not-text")
+        return Text(path, text, digest(text))
 
     def data(self, path: str) -> bytes | Unreadable:
         """The bytes of a regular file of bounded size."""

@@ -81,7 +81,7 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
             return _NoValue(f"the file {path} {found.reason}")
         if isinstance(found, bytes):
             return found
-        text = found.text
+        text = found.text.replace("\r\n", "\n").replace("\r", "\n")
         state.uses.append(_file_use(scope, action, source, found.path))
     try:
         return values.convert(text, type_name)
