@@ -25,7 +25,7 @@ def is_legal(name: str) -> bool:
 
 def canonicalize(name: str) -> str:
     """Without doubled or trailing slashes."""
-    if not name or name == "/":
+    if name == "/" or ("//" not in name and not name.endswith("/")):
         return name
     joined = "/".join(part for part in name.split("/") if part)
     return "/" + joined if name[0] == "/" else joined

@@ -29,7 +29,7 @@ class YamlError(ValueError):
         self.offset = offset
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class YamlValue:
     """A value and, for each path of keys, where its last key is written (`("a", "b")` for `a: {b: 1}`)."""
 

@@ -124,6 +124,8 @@ def integer(text: str) -> int:
 
 def applies(state: State, scope: Scope, action: Action) -> bool:
     """Whether the tag is evaluated at all, by its `if` and `unless`. One that is not is never looked into."""
+    if action.attribute("if") is None and action.attribute("unless") is None:
+        return True
     attributes = Attributes(state, scope, action)
     results = {name: attributes.get(name) for name in ("if", "unless")}
     given = [name for name, found in results.items() if found is not None]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.documents.document import Document, SpannedText
@@ -17,7 +17,7 @@ from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import resolve
 from preflight_analysis.evaluation.tree import Command, CommandValue, Param, Use
-from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+from preflight_analysis.evaluation.yaml_params import YamlError, YamlValue, load_yaml
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.substitutions import parse_value
 
@@ -234,13 +234,17 @@ def _load(
         at = (*origin, where) if where.file != scope.file else (*scope.chain, where)
         state.problem("yaml-key-twice", at, fatal=False, name=key, second=other)
     try:
-        for path, name, leaf in _leaves(full, value, ()):
-            span = loaded.keys.get(path)
+        leaves, stopped = _leaves(loaded)
+        outside = text.file != scope.file
+        for span, below, leaf in leaves:
+            name = full if below is None else names.join(full, below)
+            if name == "/":
+                raise _RootValueError
             place = text.location(span) if span else None
-            found: Origin = origin
-            if place is not None and place.file != scope.file:
-                found = (*origin, place)
+            found: Origin = (*origin, place) if place is not None and outside else origin
             state.set_param(Param(names.canonicalize(name), leaf, found, node, place))
+        if stopped is not None:
+            raise _BadKeyError(stopped.key)
     except _BadKeyError as error:
         refuse(f"the key {error.key!r} is not a string", None)
     except _RootValueError:
@@ -259,14 +263,26 @@ class _RootValueError(Exception):
     """A value for the parameter `/`, which the key `""` at the top makes as well."""
 
 
-def _leaves(name: str, value: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], str, Any]]:
-    """Dictionaries become one parameter a leaf; an empty one none. Yields the path of keys, the name, the value."""
-    if not isinstance(value, dict):
-        if name == "/":
-            raise _RootValueError
-        yield path, name, value
-        return
-    for key, below in value.items():
-        if not isinstance(key, str):
-            raise _BadKeyError(key)
-        yield from _leaves(names.join(name, key), below, (*path, key))
+@lru_cache(maxsize=1024)
+def _leaves(loaded: YamlValue) -> tuple[tuple[tuple[Span | None, str | None, Any], ...], _BadKeyError | None]:
+    """Dictionaries become one parameter a leaf; an empty one none.
+
+    Where the last key is written, the keys joined (None for a value that is no dictionary) and the value of each; and
+    the key that ends it, which is no string. Remembered, since the same text is loaded at each evaluation.
+    """
+    found: list[tuple[Span | None, str | None, Any]] = []
+
+    def walk(name: str | None, value: Any, path: tuple[str, ...]) -> None:
+        if not isinstance(value, dict):
+            found.append((loaded.keys.get(path), name, value))
+            return
+        for key, below in value.items():
+            if not isinstance(key, str):
+                raise _BadKeyError(key)
+            walk(key if name is None else names.join(name, key), below, (*path, key))
+
+    try:
+        walk(None, {} if loaded.value is None else loaded.value, ())
+    except _BadKeyError as error:
+        return tuple(found), error
+    return tuple(found), None
