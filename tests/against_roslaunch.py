@@ -48,8 +48,8 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"\[Errno \d+\] [^:]*: '(?P<path>.*?)'", ("PRM003",)),
     (r"(?:Invalid <param> tag: |error loading <rosparam> tag: \n\t)?'utf-8' codec can't decode", ("PRM003",)),
     (r"unused args \[(?P<names>.*?)\] for include of", ("ARG004",)),
-    (r"<(?P<tag>\w+)> tag is missing required (?:attribute: '(?P<name>.*?)'|)", ("LCH006",)),
-    (r"Invalid <remap> tag: <remap> tag is missing required", ("LCH006",)),
+    (r"<(?P<tag>\w+)> tag is missing required (?:attribute: '(?P<name>.*?)'|)", ("LCH006", "LCH011")),
+    (r"Invalid <remap> tag: <remap> tag is missing required", ("LCH006", "LCH011")),
     (r"<node> tag must have a '(?P<name>name)' attribute", ("LCH006",)),
     (r"'ns' attribute must be set in order to use 'clear_params'", ("LCH006",)),
     (r"<param> tag must have one and only one of", ("LCH006", "LCH007")),
@@ -97,10 +97,13 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"(?:Invalid <param> tag: )?No (?:closing quotation|escaped character)", ("PRM008",)),
     (r"(?P<name>\S+)\. \n\nMachine xml is", ARGUMENT),
     (r"(?:.*?: )?Invalid <param> tag: ", VALUE),
+    (r"Invalid <arg> tag: ", ("LCH011",)),
 )
 """How roslaunch's messages begin, and our rules of which one has to say the same."""
 
-EXCEPTIONS = {"RecursionError": ("LCH015",)}
+EXCEPTIONS = {"RecursionError": ("LCH015",)} | dict.fromkeys(
+    ("ScannerError", "ComposerError", "ConstructorError", "ReaderError"), VALUE
+)
 """What is raised without a message of roslaunch's own; all else comes from an `$(eval)`."""
 WRAPPERS = re.compile(r"(?:Invalid <(?:arg|node|env|param)> tag: |error loading <rosparam> tag: \n\t)")
 TAG = re.compile(r"\. (?:\n\n)?\w+ xml is .*|\. ?\nXML is .*", re.DOTALL)
@@ -201,7 +204,9 @@ def error_difference(record: dict[str, Any], answer: dict[str, Any]) -> str | No
     if first["rule"] not in stop.rules:
         return f"other reason: {said}"
     # Anonymous names are lower-cased with the value that they are part of.
-    if not all(text.lower() in first["message"].lower() for text in stop.says):
+    # A name is shown as it is written, with its substitutions.
+    written = first["rule"] == "LCH009" and "$(" in first["message"]
+    if not written and not all(text.lower() in first["message"].lower() for text in stop.says):
         return f"other words than {stop.says}: {said}"
     files = stop.files | stop.includers if first["rule"] in AT_THE_INCLUDE else stop.files
     if first["file"] not in files:

@@ -233,7 +233,9 @@ class _Walker:
             raise EvaluationError(f"name '{node.id}' is not defined") from None
 
     def _attribute(self, node: ast.Attribute) -> Any:
-        self.visit(node.value)
+        value = self.visit(node.value)
+        if not hasattr(value, node.attr):
+            raise EvaluationError(f"{type(value).__name__!r} has no attribute {node.attr!r}")
         raise NotAllowedError("attributes are not evaluated")
 
     def _binop(self, node: ast.BinOp) -> Any:

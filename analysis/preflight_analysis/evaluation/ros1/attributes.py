@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
+from preflight_analysis.documents.document import SpannedText
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import values
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
 from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.schema_ros1 import TAGS, one_of
+from preflight_analysis.launch.substitutions import parse_value
 
 T = TypeVar("T")
 
@@ -35,6 +38,17 @@ class Attributes:
         result = self._found[name] = resolve(self.state, self.scope, value)
         self.all_known = self.all_known and result.known
         return result
+
+    def strip(self, name: str) -> None:
+        """Read this attribute without the blanks around it, as they are written: those of substitutions stay."""
+        value = self.action.value(name)
+        text = value.text.strip() if value is not None else ""
+        if value is None or text == value.text:
+            return
+        start = value.span.start + value.text.index(text)
+        stripped = parse_value(SpannedText(text, Span(start, start + len(text))))
+        result = self._found[name] = resolve(self.state, self.scope, stripped)
+        self.all_known = self.all_known and result.known
 
     def text(self, name: str) -> str | None:
         """Its text, with unresolved substitutions in it where it is not known."""

@@ -34,10 +34,11 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
         kind = "attributes-exclude" if given else "missing-attribute"
         state.problem(kind, scope.origin(action.kind_span), tag="param", names=given or list(SOURCES))
         return
+    attributes.strip("name")
     found = attributes.require("name")
     if found is None:
         return
-    name = names.canonicalize(found[0].text.strip())
+    name = names.canonicalize(found[0].text)
     name_attribute = action.attribute("name")
     location = Location(scope.file, name_attribute.value.span) if name_attribute else None
     full = names.join(node, name.removeprefix("~")) if node is not None else name
@@ -62,7 +63,7 @@ def _value(state: State, scope: Scope, action: Action, attributes: Attributes, s
     if given is None or not given.known:
         return _NoValue("its value is not known")
     type_attribute = action.value("type")
-    type_name = (type_attribute.text if type_attribute else "").lower().strip() or "auto"
+    type_name = ((type_attribute.text if type_attribute else "") or "auto").lower().strip()
     text = given.text.strip()
     if source == "command":
         printed = _printed(state, scope, action, given.text, param)
