@@ -376,9 +376,10 @@ def main() -> None:
     parser.add_argument("--edits", type=int, default=50_000)
     parser.add_argument("--seconds", type=float, default=float("inf"))
     options = parser.parse_args()
-    packages = find_packages([str(options.folder)]).packages
+    folder = options.folder.resolve()
+    packages = find_packages([str(folder)]).packages
     began = time.monotonic()
-    done = run(options.folder, packages, options.seed, options.edits, began + options.seconds)
+    done = run(folder, packages, options.seed, options.edits, began + options.seconds)
     print(f"{done} random edits from seed {options.seed} on, {time.monotonic() - began:.0f} s: all equal")
 
 

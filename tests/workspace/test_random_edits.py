@@ -12,7 +12,7 @@ from preflight_analysis.workspace.workspace import Workspace
 ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
 
 
-@pytest.mark.parametrize("seed", [0, 10, 20])
+@pytest.mark.parametrize("seed", [3, 15, 20])
 def test_random_edits_leave_nothing_behind(seed: int) -> None:
     packages = find_packages([str(ROBOT)]).packages
     assert random_edits.run(ROBOT, packages, seed, 800) == 800
