@@ -167,7 +167,9 @@ def _files(record: dict[str, Any], chain: list[str], message: str, exception: st
     bare = re.match(r"environment variable|Unknown substitution|Dollar signs|Invalid left|\$\(", message)
     if exception == "XmlParseException" and (chain or not bare):
         return {chain[-1] if chain else root}, True
-    opened = _open_files(record)
+    # Machines are looked for when everything is read.
+    everywhere = {record["file"], *(include["file"] for include in record.get("includes") or [])}
+    opened = everywhere if message.startswith("ERROR: unknown machine") else _open_files(record)
     return opened, len(opened) == 1
 
 
