@@ -17,6 +17,7 @@ FIXTURES = Path(__file__).parents[2] / "fixtures" / "ros1"
 INCLUDED = """\
 <launch>
   <arg name="speed" default="1"/>
+  <arg name="fixed" value="1"/>
   <param name="~shared" value="$(arg speed)"/>
   <group ns="inner"><node pkg="p" type="t" name="node"><param name="speed" value="$(arg speed)"/></node></group>
   <rosparam>{rate: 5}</rosparam>
@@ -52,29 +53,41 @@ def test_the_fixtures(folder: Path) -> None:
         twice.sources.close(str(path))
 
 
-@pytest.mark.parametrize(
-    "includes",
-    [
-        pytest.param('<include file="{0}"/><include file="{0}" ns="b"/>', id="namespaces"),
-        pytest.param('<include file="{0}"/><include file="{0}"/>', id="duplicate names"),
-        pytest.param('<param name="~x" value="1"/><include file="{0}"/>', id="private parameters are shared"),
-        pytest.param('<remap from="a" to="b"/><include file="{0}"/>', id="a remap from above"),
-        pytest.param('<env name="E" value="1"/><include file="{0}"><env name="F" value="2"/></include>', id="env"),
-        pytest.param('<arg name="speed" value="7"/><include file="{0}" pass_all_args="true"/>', id="pass_all_args"),
-        pytest.param('<include file="{0}"><arg name="speed" value="3"/></include>', id="an argument"),
-        pytest.param('<include file="{0}"><arg name="sped" value="3"/></include>', id="an undeclared argument"),
-        pytest.param('<rosparam>{{rate: 1}}</rosparam><include file="{0}"/>', id="a parameter is set again"),
-        pytest.param('<machine name="m" address="a" default="true"/><include file="{0}"/>', id="a default machine"),
-    ],
-)
-def test_what_an_include_depends_on(tmp_path: Path, includes: str) -> None:
+DEPENDING = {
+    "namespaces": '<include file="{0}"/><include file="{0}" ns="b"/>',
+    "duplicate names": '<include file="{0}"/><include file="{0}"/>',
+    "private parameters are shared": '<param name="~x" value="1"/><include file="{0}"/>',
+    "a remap from above": '<remap from="a" to="b"/><include file="{0}"/>',
+    "env": '<env name="E" value="1"/><include file="{0}"><env name="F" value="2"/></include>',
+    "pass_all_args": '<arg name="speed" value="7"/><include file="{0}" pass_all_args="true"/>',
+    "an argument": '<include file="{0}"><arg name="speed" value="3"/></include>',
+    "an undeclared argument": '<include file="{0}"><arg name="sped" value="3"/></include>',
+    "a parameter is set again": '<rosparam>{{rate: 1}}</rosparam><include file="{0}"/>',
+    "a default machine": '<machine name="m" address="a" default="true"/><include file="{0}"/>',
+    "another default machine": '<machine name="n" address="a" default="true"/><include file="{0}"/>',
+    "another environment": '<include file="{0}"><env name="F" value="3"/></include>',
+    "another remap": '<remap from="a" to="c"/><include file="{0}"/>',
+    "an own namespace": '<include file="{0}" ns="b"/>',
+    "a fixed argument": '<include file="{0}"><arg name="fixed" value="2"/></include>',
+    "a fixed argument with all": '<include file="{0}" pass_all_args="true"><arg name="fixed" value="2"/></include>',
+    "a namespace": '<group ns="c"><include file="{0}"/></group>',
+    "deeper": '<group><group><include file="{0}"/></group></group>',
+}
+"""What is above an include, all of which may change what it adds."""
+
+
+@pytest.mark.parametrize("what", DEPENDING)
+def test_what_an_include_depends_on(tmp_path: Path, what: str) -> None:
     inner, root = tmp_path / "inner.launch", tmp_path / "root.launch"
     inner.write_text(INCLUDED)
     twice = Twice(tmp_path)
     for above in ("", "\n\n", '<param name="before" value="1"/>', ""):
-        root.write_text(f"<launch>{above}{includes.format(inner)}</launch>")
-        twice.sources.open(str(root), root.read_text())
+        twice.sources.open(str(root), f"<launch>{above}{DEPENDING[what].format(inner)}</launch>")
         twice.tree(root)
+    for other in DEPENDING.values():
+        for text in (other, DEPENDING[what]):
+            twice.sources.open(str(root), f"<launch>{text.format(inner)}</launch>")
+            twice.tree(root)
 
 
 @pytest.mark.parametrize(
