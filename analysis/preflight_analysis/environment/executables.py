@@ -23,10 +23,11 @@ _RUNNABLE = stat.S_IRUSR | stat.S_IXUSR
 
 
 class ExecutableIndex:
-    """Finds executables of one environment and remembers each folder that it walked; a new one sees what changed."""
+    """Finds executables of one environment and remembers what it found; a new one sees what changed."""
 
     def __init__(self, environment: Environment) -> None:
         self._environment = environment
+        self._found: dict[tuple[str, str], Executable] = {}
         self._files: dict[str, dict[str, list[str]]] = {}
         self._sources: dict[str, dict[str, str]] = {}
         self._targets: dict[str, frozenset[str]] = {}
@@ -37,6 +38,12 @@ class ExecutableIndex:
 
         `name` is the plain name of a file: as for roslaunch, nothing is found for one with a slash in it.
         """
+        found = self._found.get((package, name))
+        if found is None:
+            found = self._found[package, name] = self._find(package, name)
+        return found
+
+    def _find(self, package: str, name: str) -> Executable:
         found = self._environment.packages.get(package)
         if found is None:
             return Executable(None)

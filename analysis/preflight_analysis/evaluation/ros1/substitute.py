@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import expression, values
@@ -25,8 +24,7 @@ from preflight_analysis.launch.substitutions import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Resolved:
+class Resolved(NamedTuple):
     """The text a value came to. Where `known` is false it still has the unresolved substitutions in it."""
 
     text: str
@@ -48,7 +46,7 @@ def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) ->
 
     `at` is the place to speak of instead, for texts that do not stand in the file as they are (`subst_value`).
     """
-    if value.problem is None and value.is_literal:
+    if "$" not in value.text or (value.problem is None and value.is_literal):
         return Resolved(value.text)
     if value.problem is not None:
         state.problem("bad-substitution", scope.origin(at or value.span), text=value.text, message=value.problem)
