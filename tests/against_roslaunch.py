@@ -96,8 +96,8 @@ REASONS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"'ROSLaunchConfig' object has no attribute", VALUE),
     (r"(?:Invalid <param> tag: )?No (?:closing quotation|escaped character)", ("PRM008",)),
     (r"(?P<name>\S+)\. \n\nMachine xml is", ARGUMENT),
-    (r"(?:.*?: )?Invalid <param> tag: ", VALUE),
-    (r"Invalid <arg> tag: ", ("LCH011",)),
+    (r"(?:.*?: )?Invalid <param> tag: ", (*VALUE, "LCH011")),
+    (r"Invalid <(?:arg|env|node)> tag: ", ("LCH011",)),
 )
 """How roslaunch's messages begin, and our rules of which one has to say the same."""
 
