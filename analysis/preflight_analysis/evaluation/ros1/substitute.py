@@ -207,6 +207,10 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
     for piece in pieces:
         words = [w for w in piece[2:-1].split(" ") if w]
         if not words or words[0] != "find":
+            if (not words or words[0] not in COMMANDS_ROS1) and all(p.text != piece for p in value.substitutions):
+                # Made by a value: `$$(arg a)` where a is `(b)`.
+                message = f"'{piece}', which the values make, is not a substitution"
+                state.problem("bad-substitution", scope.origin(at or value.span), text=piece, message=message)
             known = known and bool(words) and words[0] in COMMANDS_ROS1
             continue
         part = next((p for p in written if p.text == piece), None)
