@@ -52,9 +52,12 @@ def theirs(element: Any) -> Any:
 
 
 def well_formed(text: str) -> bool:
+    """Whether expat takes the text, and the encoding that it declares."""
+    data = text.encode("utf-8", "surrogatepass")
     try:
-        expat.ParserCreate("utf-8", namespace_separator=" ").Parse(text.encode("utf-8", "surrogatepass"), True)
-    except expat.ExpatError:
+        expat.ParserCreate("utf-8", namespace_separator=" ").Parse(data, True)
+        expat.ParserCreate(namespace_separator=" ").Parse(data, True)
+    except (expat.ExpatError, LookupError, ValueError):
         return False
     return True
 
