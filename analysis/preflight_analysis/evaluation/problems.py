@@ -20,6 +20,7 @@ KINDS: dict[str, str] = {
     "attributes-exclude": "tag, names (list of those given). fatal",
     "bad-value": "tag, attribute, value, expected (a phrase), choices (list, may be empty). fatal",
     "invalid-name": "what (node, arg, ...), name, reason. fatal",
+    "substitution-as-text": "text, meant (how it is written): looks like a substitution and is text to roslaunch",
     "stray-text": "text (its first line), tag: text between tags, which roslaunch does not look at",
     "ignored-child": "tag, parent: <include> takes only arg and env; roslaunch drops the rest with a warning",
     # substitutions

@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.ros1_xml import MAX_DEPTH
 from preflight_analysis.launch.schema_ros1 import ANNOTATIONS, TAGS
+from preflight_analysis.launch.substitutions import COMMANDS_ROS1
 
 _DEFUNCT = {"launch": ("master",), "group": ("master",)}
 """Accepted in silence, without meaning since ROS Fuerte."""
 
 _LOWER_CASED = ("node", "test", "include")
 """roslaunch compares the tags in these without regard to case, those elsewhere exactly."""
+
+_COMMANDS = "(?:" + "|".join(COMMANDS_ROS1) + ")"
+_MEANT = re.compile(
+    rf"\$(?:[{{\[](?P<braces>{_COMMANDS}(?: [^\]}}]*)?)[\]}}]"
+    rf"|(?P<word>{_COMMANDS}\([^)]*)\)"
+    rf"|\((?P<open>{_COMMANDS}\b(?: +[\w.-]*)?)(?=[^)]*\Z))"
+)
+"""`${arg x}` and `$[arg x]`, `$arg(x)`, and `$(arg x` without an end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +70,18 @@ def _stray_texts(element: Element | None, depth: int = 0) -> Iterator[LanguagePr
             yield LanguageProblem("stray-text", span, {"text": line, "tag": element.tag})
 
 
+def _taken_as_text(value: Value) -> Iterator[LanguageProblem]:
+    """What was meant as a substitution and is none: never closed, or with the wrong brackets."""
+    for part in value.parts:
+        if isinstance(part, Literal) and "$" in part.text:
+            for found in _MEANT.finditer(part.text):
+                exact = part.span.end - part.span.start == len(part.text)
+                start = part.span.start
+                span = Span(start + found.start(), start + found.end()) if exact else part.span
+                inner = (found["braces"] or found["open"] or found["word"].replace("(", " ", 1)).strip()
+                yield LanguageProblem("substitution-as-text", span, {"text": found[0], "meant": f"$({inner})"})
+
+
 def _check(action: Action) -> Iterator[LanguageProblem]:
     kind = action.kind if action.kind in TAGS else action.kind.lower()
     tag = TAGS[kind]
@@ -68,6 +90,8 @@ def _check(action: Action) -> Iterator[LanguageProblem]:
         if attribute.name not in (*tag.attributes, *tag.refused):
             data = {"name": attribute.name, "tag": kind, "allowed": list(tag.attributes)}
             yield LanguageProblem("unknown-attribute", attribute.name_span, data)
+        if "$" in attribute.value.text:
+            yield from _taken_as_text(attribute.value)
     annotations = ANNOTATIONS if kind in ("node", "test") else ()
     for child in action.children:
         name = child.kind.lower() if kind in _LOWER_CASED else child.kind
