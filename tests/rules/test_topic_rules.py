@@ -281,3 +281,88 @@ def test_any_type_fits_and_so_does_an_unknown_one() -> None:
         {"/a": {"publishers": {"pose": "x/Pose"}, "md5": {"pose": "11"}},
          "/b": {"subscribers": {"pose": "*"}, "md5": {"pose": "*"}}}
     """)
+
+
+def test_a_leading_slash_is_evidence_even_of_a_generic_type() -> None:
+    text = """
+        <launch>
+          <group ns="robot">
+            <node pkg="p" type="t" name="talker"/>
+            <node pkg="p" type="t" name="listener"/>
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] '/chatter' is given with a leading slash
+          </group>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/robot/listener": {"subscribers": {"/chatter": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert "did you mean '/robot/chatter', published by /robot/talker (same type std_msgs/String;" in finding.message
+    assert '<remap from="/chatter" to="/robot/chatter"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_leading_slash_in_a_remap_is_shown_there() -> None:
+    check("""
+        <launch>
+          <group ns="fleet"><group ns="a">
+            <node pkg="p" type="t" name="laser"/>
+            <node pkg="p" type="t" name="amcl">
+              <remap from="in" to="/scan"/>
+                                   ^^^^^ warning[TOP001] '/scan' is given with a leading slash
+            </node>
+          </group></group>
+        </launch>
+        //- interfaces
+        {"/fleet/a/laser": {"publishers": {"scan": "sensor_msgs/LaserScan"}},
+         "/fleet/a/amcl": {"subscribers": {"in": "sensor_msgs/LaserScan"}}}
+    """)
+
+
+def test_a_namespace_more_on_one_side_is_evidence() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="robot"/>
+          <node pkg="p" type="t" name="listener"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] they differ by the namespace 'robot')
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+
+
+def test_a_namespace_is_no_evidence_where_several_could_be_meant_or_somebody_else_listens() -> None:
+    several = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="a"/><node pkg="p" type="t" name="talker" ns="b"/>
+          <node pkg="p" type="t" name="listener"/>
+        </launch>
+        //- interfaces
+        {"/a/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/b/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+    used = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="a"/><node pkg="p" type="t" name="logger" ns="a"/>
+          <node pkg="p" type="t" name="listener"/>
+        </launch>
+        //- interfaces
+        {"/a/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/a/logger": {"subscribers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+    assert {f.severity for f in (*several, *used)} == {"hint"}
+
+
+def test_a_namespace_is_only_a_hint_where_not_all_nodes_are_known() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="robot"/><node pkg="p" type="t" name="listener"/>
+          <node pkg="p" type="t" name="other"/>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+    assert {f.severity for f in findings if f.rule == "TOP001"} == {"hint"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
@@ -11,13 +12,18 @@ from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.nearest import Likeness, likeness
+from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import may_dangle
 
 _GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
 """Types that say nothing of what is carried: that two ends have the same one is no evidence."""
+
+Evidence = Literal["typo", "slash", "level", "words"]
+"""How two names are alike, the strongest first. `typo` and `words` as in `nearest`. `slash`: one end was given an
+absolute name, and the other end's is the same below its node's namespace. `level`: one has a namespace more."""
+_EVIDENCE: tuple[Evidence, ...] = ("typo", "slash", "level", "words")
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +32,7 @@ class NearMiss:
 
     wanting: Connection
     offering: Connection
-    likeness: Likeness
+    likeness: Evidence
     same_type: bool
     """Both types are known and equal."""
     offering_dangles: bool
@@ -43,18 +49,36 @@ class NearMiss:
         """The end that is not the site."""
         return self.offering if self.site is self.wanting else self.wanting
 
+    @property
+    def why(self) -> str:
+        """What speaks for it, for a message: `same type x/Y; '/scan' is absolute`."""
+        said = f"same type {self.wanting.endpoint.type}" if self.same_type else "type not known"
+        short, long = sorted((self.wanting.name, self.offering.name), key=len)
+        if self.likeness == "slash":
+            return f"{said}; '{short}' is given with a leading slash, the other one is relative to its node's namespace"
+        if self.likeness == "level":
+            return f"{said}; they differ by the namespace '{_extra_level(short, long)}'"
+        return said
+
 
 def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
     """For each wanting end that dangles the offering end that it was most likely meant for, if there is one."""
     found: list[NearMiss] = []
+    of_type: dict[str | None, list[Channel]] = {}
+    for channel in channels.values():
+        for type_ in {_known_type(end) for end in channel.offers}:
+            of_type.setdefault(type_, []).append(channel)
     for wanting in dangling_wants(channels):
         best: tuple[tuple[object, ...], NearMiss] | None = None
-        for channel in channels.values():
+        mine = _known_type(wanting)
+        fitting = channels.values() if mine is None else (*of_type.get(mine, ()), *of_type.get(None, ()))
+        for channel in fitting:
             for candidate, distance in _candidates(wanting, channel):
-                rank = (candidate.likeness != "typo", not candidate.offering_dangles, distance, channel.name)
+                how = _EVIDENCE.index(candidate.likeness)
+                rank = (how > 0, not candidate.offering_dangles, how, distance, channel.name)
                 if best is None or rank < best[0]:
                     best = (rank, candidate)
-        if best is not None:
+        if best is not None and not _ambiguous(best[1], channels):
             found.append(best[1])
     return tuple(found)
 
@@ -116,30 +140,75 @@ def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
     return tuple(fix for fix in found if fix is not None)
 
 
+def _known_type(end: Connection) -> str | None:
+    return None if end.endpoint.type == "*" else end.endpoint.type
+
+
 def _partner(near: NearMiss, end: Connection) -> Connection:
     return near.offering if end is near.wanting else near.wanting
 
 
 def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMiss, int]]:
     dangles = not channel.wants
-    alike: tuple[Likeness, int] | None = None
+    alike: tuple[Literal["typo", "words"], int] | None = None
     for offering in channel.offers:
         if offering.endpoint.builtin or offering.node is wanting.node:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
             continue
-        mine, theirs = wanting.endpoint.type, offering.endpoint.type
-        known = mine is not None and theirs is not None and "*" not in (mine, theirs)
+        mine, theirs = _known_type(wanting), _known_type(offering)
+        known = mine is not None and theirs is not None
         if known and mine != theirs:
             continue
+        if known and dangles and wanting.name.endswith(channel.name.rpartition("/")[2]):
+            short, long = sorted((wanting, offering), key=lambda end: len(end.name))
+            how_far = len(long.name) - len(short.name)
+            if _is_slash(short, long):
+                yield NearMiss(wanting, offering, "slash", known, dangles), how_far
+                continue
+            if _extra_level(short.name, long.name) is not None:
+                yield NearMiss(wanting, offering, "level", known, dangles), how_far
+                continue
         alike = alike or likeness(wanting.name, channel.name)
         if alike is None:
-            return
+            continue
         how, distance = alike
         if how == "words" and not (known and dangles and _says_enough(wanting.name, channel.name, mine or "")):
             continue
         if not known and not dangles:
             continue
         yield NearMiss(wanting, offering, how, known, dangles), distance
+
+
+def _extra_level(short: str, long: str) -> str | None:
+    """The one namespace that `long` has more than `short`, None if they differ otherwise."""
+    parts, more = short.split("/"), long.split("/")
+    if len(more) != len(parts) + 1:
+        return None
+    at = next((i for i, (a, b) in enumerate(zip(parts, more, strict=False)) if a != b), len(parts))
+    return more[at] if at < len(parts) and parts[at:] == more[at + 1 :] else None
+
+
+def _is_slash(short: Connection, long: Connection) -> bool:
+    """Whether the shorter name is the longer one's but for a leading slash where the launch file or the node gave it
+    and a namespace in which the node with the longer name lives."""
+    home = names.parent(short.node.name)
+    given = short.endpoint.name
+    absolute = given.startswith("/") if short.remap is None else home != "/" and not short.name.startswith(home)
+    relative = long.remap is None and not long.endpoint.name.startswith(("/", "~"))
+    namespace = names.parent(long.node.name)
+    return absolute and relative and namespace != "/" and long.name == namespace.rstrip("/") + short.name
+
+
+def _ambiguous(near: NearMiss, channels: Mapping[str, Channel]) -> bool:
+    """Whether a namespace alone speaks for it and others of the type have the same last name: which one was meant?"""
+    type_ = near.wanting.endpoint.type or ""
+    if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
+        return False
+    leaf = near.wanting.name.rpartition("/")[2]
+    like = [c for name, c in channels.items() if name.rpartition("/")[2] == leaf]
+    offers = sum(c.endpoint.type == type_ for channel in like if not channel.wants for c in channel.offers)
+    wants = sum(c.endpoint.type == type_ for channel in like if not channel.offers for c in channel.wants)
+    return offers > 1 or wants > 1
 
 
 def _says_enough(name: str, other: str, type_: str) -> bool:

@@ -16,10 +16,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     near = near_misses(graph.services)
     for pair in near:
         severity, confidence = weight(graph, pair)
-        kind = f"same type {pair.wanting.endpoint.type}" if pair.same_type else "type not known"
         yield rule.finding(
             f"{nodes_looked_at(graph)} offers service '{pair.wanting.name}', which {pair.wanting.node.name} calls; "
-            f"did you mean '{pair.offering.name}', offered by {pair.offering.node.name} ({kind})?",
+            f"did you mean '{pair.offering.name}', offered by {pair.offering.node.name} ({pair.why})?",
             connection_location(pair.site),
             severity=severity,
             confidence=confidence,

@@ -46,15 +46,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _near_message(graph: Graph, pair: NearMiss) -> str:
     wanting, offering = pair.wanting, pair.offering
-    kind = f"same type {wanting.endpoint.type}" if pair.same_type else "type not known"
     if pair.site is wanting:
         return (
             f"{nodes_looked_at(graph)} publishes '{wanting.name}', to which {wanting.node.name} subscribes; "
-            f"did you mean '{offering.name}', published by {offering.node.name} ({kind})?"
+            f"did you mean '{offering.name}', published by {offering.node.name} ({pair.why})?"
         )
     return (
         f"{offering.node.name} publishes '{offering.name}', but {wanting.node.name} subscribes to '{wanting.name}' "
-        f"({kind}), which {nodes_looked_at(graph)} publishes; did you mean '{wanting.name}'?"
+        f"({pair.why}), which {nodes_looked_at(graph)} publishes; did you mean '{wanting.name}'?"
     )
 
 
@@ -81,8 +80,8 @@ RULE = Rule(
     name="subscribed-not-published",
     severity="warning",
     what="Reports a node that subscribes to a topic which no node of the launch publishes. Where one publishes a topic "
-    "of a like name and the same type, it is a warning that names both, at the remap that gave the name if there is "
-    "one; otherwise only a hint, as the publisher may be started elsewhere.",
+    "of a like name and the same type, or one that differs by a leading slash or a namespace, it is a warning that "
+    "names both, at the remap that gave the name if there is one; otherwise only a hint, as the publisher may be started elsewhere.",
     why="The node waits for messages that never come, and nothing says so: not `roslaunch`, not the node.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',
