@@ -108,28 +108,29 @@ def _execute(
         **job,
     }
     start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
-    command = sandbox.command([interpreter, "-I", "-S", "-c", start], visible)
-    with os.fdopen(os.memfd_create("job"), "w+b") as handed:
+    argv = [interpreter, "-I", "-S", "-c", start]
+    with sandbox.prepared(argv, visible) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
         handed.write(json.dumps(whole).encode())
         handed.seek(0)
         raw = RawRun(started=time.time())
         process = subprocess.Popen(
-            command,
+            prepared.command,
             stdin=handed,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             env={},
             cwd="/",
             start_new_session=True,
+            pass_fds=prepared.descriptors,
         )
-    try:
-        _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS)
-    finally:
-        process.kill()
-        process.wait()
-        for pipe in (process.stdout, process.stderr):
-            if pipe is not None:
-                pipe.close()
+        try:
+            _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS)
+        finally:
+            process.kill()
+            process.wait()
+            for pipe in (process.stdout, process.stderr):
+                if pipe is not None:
+                    pipe.close()
     return raw
 
 

@@ -4,20 +4,24 @@ There is no other way to run anything: where `probe` says no, nothing runs.
 
 Inside: the host's files read-only; `/tmp`, `/run`, the home folders and shared memory empty and of bounded size, with
 only the named folders below them bound back read-only; own process, network, IPC and host name spaces, so no network
-but an own loopback and no other process to see; no capabilities; no environment variable but those given.
+but an own loopback and no other process to see; no capabilities; no environment variable but those given; the system
+calls that lead past this refused (`seccomp`). What is guaranteed to users is written in `docs/security.md`.
 """
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
 import shutil
 import subprocess
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import aspectlib  # type: ignore[import-untyped]
+
+from preflight_analysis.tracing import seccomp
 
 LIBRARY = "/run/preflight/lib"
 """Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
@@ -54,11 +58,18 @@ def probe() -> SandboxStatus:
     program = shutil.which("bwrap")
     if program is None:
         return SandboxStatus(False, "bubblewrap is not installed: apt install bubblewrap")
-    command = [program, *_isolation(()), "--", shutil.which("true") or "/bin/true"]
     try:
-        done = subprocess.run(
-            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=10, env={}, check=False, cwd="/"
-        )
+        with prepared([shutil.which("true") or "/bin/true"], ()) as start:
+            done = subprocess.run(
+                start.command,
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                timeout=10,
+                env={},
+                check=False,
+                cwd="/",
+                pass_fds=start.descriptors,
+            )
     except (OSError, subprocess.TimeoutExpired) as error:
         return SandboxStatus(False, f"bubblewrap cannot be run: {error}")
     if done.returncode == 0:
@@ -76,12 +87,30 @@ def probe() -> SandboxStatus:
     )
 
 
-def command(argv: Sequence[str], visible: Iterable[str]) -> list[str]:
-    """The command line that runs `argv` isolated. `visible` are paths below the masked folders to show, read-only."""
+@dataclass(frozen=True, slots=True)
+class Start:
+    """A command line that runs something isolated, and the descriptors that it must inherit."""
+
+    command: list[str]
+    descriptors: tuple[int, ...]
+
+
+@contextlib.contextmanager
+def prepared(argv: Sequence[str], visible: Iterable[str]) -> Iterator[Start]:
+    """The way to run `argv` isolated, once, until the end of the block. `visible` are paths below the masked folders to
+    show, read-only. Raises `OSError` if there is none."""
     program = shutil.which("bwrap")
     if program is None:
         raise FileNotFoundError("bwrap")
-    return [program, *_isolation(visible), "--", *argv]
+    with contextlib.ExitStack() as at_end:
+        options = _isolation(visible)
+        descriptors: tuple[int, ...] = ()
+        calls = seccomp.open_program()
+        if calls is not None:
+            at_end.callback(os.close, calls)
+            options += ["--seccomp", str(calls)]
+            descriptors = (calls,)
+        yield Start([program, *options, "--", *argv], descriptors)
 
 
 def masked(path: str) -> bool:

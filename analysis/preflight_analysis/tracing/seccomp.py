@@ -1,0 +1,182 @@
+"""The system calls that a node may not make, as a filter that the kernel applies (seccomp, classic BPF).
+
+A deny list, since nodes are arbitrary programs: what reaches other processes or the kernel past the name spaces, what
+makes new name spaces or mounts, what talks through sockets that a network name space does not confine. Everything
+refused fails as it would without the right to it (`EPERM`), or as on a kernel without it (`ENOSYS`), so that libraries
+take their other way. A call by another processor's numbers (32-bit programs on a 64-bit kernel) ends the process.
+
+Numbers are from the kernel's `arch/x86/entry/syscalls/syscall_64.tbl` and `scripts/syscall.tbl` (arm64), the form of
+the program from `linux/filter.h` and `linux/seccomp.h`.
+"""
+
+from __future__ import annotations
+
+import errno
+import functools
+import os
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+_ALLOW = 0x7FFF0000
+_KILL = 0x80000000
+_ERRNO = 0x00050000
+
+_LOAD = 0x20  # BPF_LD | BPF_W | BPF_ABS
+_EQUAL = 0x15  # BPF_JMP | BPF_JEQ | BPF_K
+_AT_LEAST = 0x35  # BPF_JMP | BPF_JGE | BPF_K
+_ANY_BIT = 0x45  # BPF_JMP | BPF_JSET | BPF_K
+_RETURN = 0x06  # BPF_RET | BPF_K
+
+_NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16
+"""Offsets in `struct seccomp_data`; of an argument the lower half comes first on both processors."""
+
+_MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}
+"""The column in the tables below, and the kernel's AUDIT_ARCH_*."""
+_X32 = 0x40000000
+"""x86-64: the bit of the numbers of the x32 ABI, which has doubles of most calls."""
+
+_REFUSED: dict[str, tuple[int | None, int | None]] = {
+    # Other processes: their memory, descriptors and registers.
+    "ptrace": (101, 117),
+    "process_vm_readv": (310, 270),
+    "process_vm_writev": (311, 271),
+    "kcmp": (312, 272),
+    "pidfd_getfd": (438, 438),
+    # The kernel's key rings belong to no name space.
+    "add_key": (248, 217),
+    "request_key": (249, 218),
+    "keyctl": (250, 219),
+    # Name spaces and mounts; clone and unshare are looked at below.
+    "setns": (308, 268),
+    "mount": (165, 40),
+    "umount2": (166, 39),
+    "pivot_root": (155, 41),
+    "chroot": (161, 51),
+    "open_tree": (428, 428),
+    "open_tree_attr": (467, 467),
+    "move_mount": (429, 429),
+    "fsopen": (430, 430),
+    "fsconfig": (431, 431),
+    "fsmount": (432, 432),
+    "fspick": (433, 433),
+    "mount_setattr": (442, 442),
+    # Files by handle, past every mask over them.
+    "open_by_handle_at": (304, 265),
+    # Programs in the kernel, its events, and a way to stop it in the middle of a copy.
+    "bpf": (321, 280),
+    "perf_event_open": (298, 241),
+    "userfaultfd": (323, 282),
+    "fanotify_init": (300, 262),
+    "init_module": (175, 105),
+    "finit_module": (313, 273),
+    "delete_module": (176, 106),
+    "kexec_load": (246, 104),
+    "kexec_file_load": (320, 294),
+    "lookup_dcookie": (212, 18),
+    "nfsservctl": (180, 42),
+    "syslog": (103, 116),
+    # The machine as a whole.
+    "reboot": (169, 142),
+    "swapon": (167, 224),
+    "swapoff": (168, 225),
+    "settimeofday": (164, 170),
+    "clock_settime": (227, 112),
+    "clock_adjtime": (305, 266),
+    "adjtimex": (159, 171),
+    "sethostname": (170, 161),
+    "setdomainname": (171, 162),
+    "acct": (163, 89),
+    "quotactl": (179, 60),
+    "quotactl_fd": (443, 443),
+    "vhangup": (153, 58),
+    "iopl": (172, None),
+    "ioperm": (173, None),
+    "modify_ldt": (154, None),
+}
+_UNKNOWN: dict[str, tuple[int | None, int | None]] = {
+    # Its flags lie in memory, which no filter can read; the C libraries then use clone.
+    "clone3": (435, 435),
+    # Does other calls' work where no filter looks.
+    "io_uring_setup": (425, 425),
+    "io_uring_enter": (426, 426),
+    "io_uring_register": (427, 427),
+}
+
+_NEW_NAMESPACES = 0x7E020000
+"""CLONE_NEWNS, NEWCGROUP, NEWUTS, NEWIPC, NEWUSER, NEWPID, NEWNET."""
+_CLONE_NEWTIME = 0x80
+"""Not in clone, where these bits are the signal at the end."""
+_TIOCSTI, _TIOCLINUX = 0x5412, 0x541C
+"""Input put into a terminal, as if typed."""
+_FAMILIES = (0, 1, 2, 10, 16)
+"""AF_UNSPEC, UNIX, INET, INET6, and NETLINK, by which the C library lists interfaces. Of the others some are not
+confined by a network name space: AF_VSOCK leads from a virtual machine to its host."""
+_PERSONALITIES = (0, 0xFFFFFFFF)
+"""The usual one, and the question which it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Argument:
+    """A call that depends on the lower half of one of its arguments: what the tests that hold mean, and what else."""
+
+    numbers: tuple[int, int]
+    index: int
+    test: int
+    values: Sequence[int]
+    holds: int
+    otherwise: int
+
+
+_EPERM = _ERRNO | errno.EPERM
+_LOOKED_AT = (
+    _Argument((56, 220), 0, _ANY_BIT, (_NEW_NAMESPACES,), _EPERM, _ALLOW),  # clone
+    _Argument((272, 97), 0, _ANY_BIT, (_NEW_NAMESPACES | _CLONE_NEWTIME,), _EPERM, _ALLOW),  # unshare
+    _Argument((16, 29), 1, _EQUAL, (_TIOCSTI, _TIOCLINUX), _EPERM, _ALLOW),  # ioctl
+    _Argument((41, 198), 0, _EQUAL, _FAMILIES, _ALLOW, _ERRNO | errno.EAFNOSUPPORT),  # socket
+    _Argument((135, 92), 0, _EQUAL, _PERSONALITIES, _ALLOW, _EPERM),  # personality
+)
+
+
+@functools.lru_cache(maxsize=2)
+def program(machine: str) -> bytes | None:
+    """The filter for a processor (`os.uname().machine`) as an array of `struct sock_filter`, None where none is known.
+
+    The order does not matter for speed: since Linux 5.11 the kernel remembers which calls are always allowed.
+    """
+    if machine not in _MACHINES:
+        return None
+    column, architecture = _MACHINES[machine]
+    code = [(_LOAD, 0, 0, _ARCHITECTURE), (_EQUAL, 1, 0, architecture), (_RETURN, 0, 0, _KILL)]
+    code.append((_LOAD, 0, 0, _NUMBER))
+    if machine == "x86_64":
+        code += [(_AT_LEAST, 0, 1, _X32), (_RETURN, 0, 0, _KILL)]
+    for calls, answer in ((_REFUSED, _EPERM), (_UNKNOWN, _ERRNO | errno.ENOSYS)):
+        for numbers in calls.values():
+            number = numbers[column]
+            if number is not None:
+                code += [(_EQUAL, 0, 1, number), (_RETURN, 0, 0, answer)]
+    for call in _LOOKED_AT:
+        count = len(call.values)
+        code += [(_EQUAL, 0, count + 3, call.numbers[column]), (_LOAD, 0, 0, _ARGUMENTS + 8 * call.index)]
+        code += [(call.test, count - at, 0, value) for at, value in enumerate(call.values)]
+        code += [(_RETURN, 0, 0, call.otherwise), (_RETURN, 0, 0, call.holds)]
+    code.append((_RETURN, 0, 0, _ALLOW))
+    return b"".join(struct.pack("=HBBI", *instruction) for instruction in code)
+
+
+def this_machine() -> str | None:
+    """The processor that the filter is for; None where none is known and nodes run without."""
+    machine = os.uname().machine
+    return machine if program(machine) is not None else None
+
+
+def open_program() -> int | None:
+    """The filter for this machine in a file without a name, for one reader to read from its start."""
+    code = program(os.uname().machine)
+    if code is None:
+        return None
+    descriptor = os.memfd_create("seccomp")
+    os.write(descriptor, code)
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    return descriptor
