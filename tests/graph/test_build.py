@@ -86,19 +86,24 @@ def test_remaps_apply_to_services_and_parameters_too() -> None:
     assert [read.name for read in graph.param_reads] == ["/reset_all"]
 
 
-def test_actions_move_with_the_remap_of_their_goal_topic() -> None:
+def test_declared_actions_move_with_a_remap_of_their_name() -> None:
     graph = graph_of("""
         <launch>
-          <node pkg="p" type="t" name="n"><remap from="dock/goal" to="/base/dock/goal"/></node>
+          <node pkg="p" type="t" name="n"/>
           <node pkg="p" type="t" name="m"><remap from="dock" to="/base/dock"/></node>
         </launch>
         //- interfaces
         {"/n": {"action_servers": {"dock": "x/Dock"}}, "/m": {"action_clients": {"dock": "x/Dock"}}}
     """)
     assert {name: (len(c.offers), len(c.wants)) for name, c in graph.actions.items()} == {
-        "/base/dock": (1, 0),
-        "/dock": (0, 1),
+        "/base/dock": (0, 1),
+        "/dock": (1, 0),
     }
+    assert {name: len(c.wants) for name, c in graph.topics.items()} == dict.fromkeys(
+        [*(f"/dock/{t}" for t in ("goal", "cancel")), *(f"/base/dock/{t}" for t in ("feedback", "result", "status"))], 1
+    ) | dict.fromkeys(
+        [*(f"/base/dock/{t}" for t in ("goal", "cancel")), *(f"/dock/{t}" for t in ("feedback", "result", "status"))], 0
+    )
 
 
 def test_an_end_made_twice_counts_once() -> None:

@@ -191,3 +191,25 @@ async def test_a_fix_may_change_another_file(desk: Desk) -> None:
         ((uri, (edit,)),) = action.edit.changes.items()
         assert uri == manifest.as_uri()
         assert (edit.range.start.line, edit.new_text) == (2, "  <run_depend>rospy</run_depend>\n")
+
+
+PATROL = """<launch>
+  <node pkg="preflight_demo" type="talker.py" name="patrol">
+    <actions><action name="move_base" type="m/MoveBaseAction" class="client"/></actions>
+  </node>
+  <node pkg="preflight_demo" type="none.py" name="home">
+    <actions><action name="go" type="m/GoAction" class="client"/></actions>
+  </node>
+</launch>
+"""
+
+
+async def test_hover_on_a_node_shows_an_action_as_one_thing(desk: Desk) -> None:
+    path = desk.launch_file.with_name("patrol.launch")
+    path.write_text(PATROL)
+    async with editing(desk, trusted=True) as editor:
+        editor.open(path)
+        await editor.having(path, "ACT001")
+        home = await hovered(editor, path, 'name="home"')
+        assert "Calls actions\n- `/go` `m/GoAction`" in home
+        assert "Publishes" not in home

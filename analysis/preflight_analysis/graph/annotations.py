@@ -23,6 +23,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.findings.insertion import insert_child
+from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.launch.model import Action
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
 
@@ -131,13 +132,17 @@ def annotation_text(interface: Interface, indent: str = "") -> str:
     What every node has by its client library, and what was found after a made-up answer, is left out. Names are as
     the node gave them. Empty when there is nothing to write.
     """
+    actions = actions_of(interface.endpoints)
+    parts = {id(topic) for action in actions for topic in action.topics}
+    endpoints = [e for e in interface.endpoints if id(e) not in parts and not e.role.startswith("action_")]
+    endpoints += [action.endpoint for action in actions]
     blocks: list[tuple[str, list[str]]] = []
     for group, classes in _CLASSES.items():
         words = {role: word for word, role in classes.items()}
         items = sorted(
             {
                 (word, e.name, e.type or "*")
-                for e in interface.endpoints
+                for e in endpoints
                 if (word := words.get(e.role)) is not None and not e.builtin and not e.speculative
             }
         )

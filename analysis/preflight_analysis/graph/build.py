@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
+from preflight_analysis.graph.actions import TOPICS, ActionEnd, actions_of
 from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.tracing.interface import Endpoint, Interface
@@ -13,6 +14,7 @@ from preflight_analysis.tracing.interface import Endpoint, Interface
 _OFFERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
 _SERVICE_ROLES = ("service", "client")
+_CPP = (".cpp", ".cc", ".cxx", ".c++", ".C", ".h", ".hh", ".hpp")
 
 
 def build_graph(tree: LaunchTree, interfaces: Sequence[Interface]) -> Graph:
@@ -32,13 +34,17 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface]) -> Graph:
         if not interface.endpoints and not interface.params:
             continue
         remaps = _effective_remaps(node)
+        of_actions: set[int] = set()
+        for action in actions_of(interface.endpoints):
+            whole, parts = _connect_action(node, action, remaps)
+            of_actions.update(map(id, action.topics))
+            actions.extend(whole)
+            topics.extend(parts)
         for endpoint in interface.endpoints:
-            if endpoint.role in _TOPIC_ROLES:
+            if endpoint.role in _TOPIC_ROLES and id(endpoint) not in of_actions:
                 topics.append(_connect(node, endpoint, remaps))
             elif endpoint.role in _SERVICE_ROLES:
                 services.append(_connect(node, endpoint, remaps))
-            else:
-                actions.append(_connect_action(node, endpoint, remaps))
         targets = {source: remap[1] for source, remap in remaps.items()}
         reads.extend(ParamRead(names.resolve(use.name, node.name, targets), node, use) for use in interface.params)
     return Graph(tree, merged, _channels(topics), _channels(services), _channels(actions), tuple(reads))
@@ -59,14 +65,35 @@ def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Re
     return Connection(full, node, endpoint, None)
 
 
-def _connect_action(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Remap, str]]) -> Connection:
-    """An action is five topics below its name, and a remap moves them one by one: `<action>/goal` stands for all."""
-    full = names.resolve(endpoint.name, node.name)
-    if f"{full}/goal" in remaps:
-        remap, target = remaps[f"{full}/goal"]
-        if target.endswith("/goal"):
-            return Connection(target.removesuffix("/goal"), node, endpoint, remap)
-    return Connection(full, node, endpoint, None)
+def _connect_action(
+    node: LaunchNode, action: ActionEnd, remaps: Mapping[str, tuple[Remap, str]]
+) -> tuple[list[Connection], list[Connection]]:
+    """The action and its topics. It is none any more, but five topics, where remaps move those apart.
+
+    A remap of the action's own name moves all five: both client libraries look it up before they append the topics.
+    """
+    endpoint = action.endpoint
+    base, remap = names.resolve(endpoint.name, node.name), None
+    if _made_by_rospy(endpoint):
+        # The run shows the target: rospy looks the name up as it is written before it makes the topics.
+        remap = next((r for r, target in remaps.values() if target == base), None)
+    elif base in remaps:
+        remap, base = remaps[base]
+    ends: list[tuple[str, Remap | None]] = []
+    for topic in TOPICS:
+        moved = remaps.get(f"{base}/{topic}")
+        ends.append((moved[1], moved[0]) if moved is not None else (f"{base}/{topic}", remap))
+    full, remap = ends[0][0].removesuffix("/goal"), ends[0][1]
+    together = [name for name, _ in ends] == [f"{full}/{topic}" for topic in TOPICS]
+    parts = [
+        Connection(name, node, topic, moved_by, full if together else None)
+        for (name, moved_by), topic in zip(ends, action.topics, strict=True)
+    ]
+    return [Connection(full, node, endpoint, remap)] if together else [], parts
+
+
+def _made_by_rospy(endpoint: Endpoint) -> bool:
+    return endpoint.source_file is not None and not endpoint.source_file.endswith(_CPP)
 
 
 def _channels(connections: Iterable[Connection]) -> dict[str, Channel]:

@@ -57,6 +57,8 @@ def interface_json(
         endpoint = connection.endpoint
         end: dict[str, Any] = {"name": connection.name, "type": endpoint.type, "qos": json_value(endpoint.qos)}
         end.update({flag: True for flag in ("builtin", "speculative") if getattr(endpoint, flag)})
+        if connection.action is not None:
+            end["action"] = connection.action
         lists[_KEYS[endpoint.role]].append(end)
     return {
         "interface_source": interface.source,

@@ -18,6 +18,8 @@ class Connection:
     node: LaunchNode
     endpoint: Endpoint
     remap: Remap | None
+    action: str | None = None
+    """Of a topic: the action that it is a part of, under its final name."""
 
 
 @dataclass(frozen=True, slots=True)

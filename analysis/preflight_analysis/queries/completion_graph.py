@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.document import Element
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.queries.completion_items import Item
 from preflight_analysis.queries.cursor import Place
@@ -112,7 +113,7 @@ def _endpoints(analysis: Analysis, file: str, place: Place) -> Iterator[Endpoint
         return
     seen: set[str] = set()
     for _, interface in _interfaces(analysis, graph, file, scope):
-        for endpoint in interface.endpoints:
+        for endpoint in (*(action.endpoint for action in actions_of(interface.endpoints)), *interface.endpoints):
             if not endpoint.builtin and endpoint.name not in seen:
                 seen.add(endpoint.name)
                 yield endpoint

@@ -285,7 +285,7 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
                 c
                 for channel in getattr(graph, channels).values()
                 for c in getattr(channel, side)
-                if c.node is node and not c.endpoint.builtin
+                if c.node is node and not c.endpoint.builtin and c.action is None
             ]
             if ends:
                 lines += ["", title, *(_connection(c, interface) for c in sorted(ends, key=lambda c: c.name))]

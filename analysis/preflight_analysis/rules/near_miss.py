@@ -92,14 +92,14 @@ def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
     for channel in channels.values():
         if not channel.offers:
-            yield from (c for c in channel.wants if not may_dangle(channel.name, c.endpoint))
+            yield from (c for c in channel.wants if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
 def dangling_offers(channels: Mapping[str, Channel]) -> Iterator[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     for channel in channels.values():
         if not channel.wants:
-            yield from (c for c in channel.offers if not may_dangle(channel.name, c.endpoint))
+            yield from (c for c in channel.offers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
 def lone_of_type(wanting: Connection, dangling: Iterable[Connection]) -> Connection | None:

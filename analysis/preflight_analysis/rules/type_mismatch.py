@@ -26,6 +26,8 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
         for wanting in channel.wants:
             told: set[tuple[str | None, str]] = set()
             for offering in channel.offers:
+                if wanting.action is not None and offering.action is not None:
+                    continue  # said once of the action, not of each of its topics
                 difference = _difference(wanting, offering)
                 if difference is None or (offering.endpoint.type, difference) in told:
                     continue

@@ -48,9 +48,10 @@ def _lines(graph: Graph) -> Iterator[str]:
 
 def _channels(kind: str, channels: Mapping[str, Channel]) -> Iterator[str]:
     for name, channel in channels.items():
-        if all(c.endpoint.builtin for c in (*channel.offers, *channel.wants)):
-            continue
+        ends = (*channel.offers, *channel.wants)
+        if all(c.endpoint.builtin or c.action is not None for c in ends):
+            continue  # an action is shown as such
         offers, wants = (
-            ", ".join(sorted({c.node.name for c in ends})) or "nobody" for ends in (channel.offers, channel.wants)
+            ", ".join(sorted({c.node.name for c in side})) or "nobody" for side in (channel.offers, channel.wants)
         )
         yield f"{kind} {name}  {' | '.join(channel.types) or 'type not known'}  {offers} -> {wants}"

@@ -1,0 +1,66 @@
+"""ACT001: a node is a client of an action that nobody offers."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.rules.near_miss import NearMiss, dangling_wants, fixes, near_misses, nodes_looked_at, weight
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None:
+        return
+    near = near_misses(graph.actions)
+    for pair in near:
+        severity, confidence = weight(graph, pair)
+        yield rule.finding(
+            f"{nodes_looked_at(graph)} offers action '{pair.wanting.name}', of which {pair.wanting.node.name} is a "
+            f"client; did you mean '{pair.offering.name}', offered by {pair.offering.node.name} ({pair.why})?",
+            connection_location(pair.site),
+            severity=severity,
+            confidence=confidence,
+            related=(
+                related_end(pair.other, "offers" if pair.other is pair.offering else "is a client of"),
+                *include_chain(pair.site.node.origin),
+            ),
+            fixes=_fixes(context, pair),
+        )
+    explained = {id(pair.wanting) for pair in near}
+    for end in dangling_wants(graph.actions):
+        if id(end) not in explained:
+            sure = graph.complete and not end.endpoint.speculative
+            kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
+            yield rule.finding(
+                f"{nodes_looked_at(graph)} offers action '{end.name}'{kind}, of which {end.node.name} is a client",
+                connection_location(end),
+                severity="hint",
+                confidence="likely" if sure else "possible",
+                related=include_chain(end.node.origin),
+            )
+
+
+def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:
+    """None where the topics were remapped one by one: each of those remaps would have to change."""
+    remap = pair.site.remap
+    one_by_one = remap is not None and remap.target.endswith("/goal") and not pair.site.name.endswith("/goal")
+    return () if one_by_one else fixes(context, pair)
+
+
+RULE = Rule(
+    id="ACT001",
+    name="action-not-offered",
+    severity="warning",
+    what="Reports a node with a client of an action that no node of the launch offers. Where one offers an action of a "
+    "like name and the same type, it is a warning that names both; otherwise a hint, as the action may be offered by "
+    "something that is started elsewhere. An action is recognised by its five topics (`goal`, `cancel`, `status`, "
+    "`feedback`, `result`), in any client library; a remap of its name moves all of them.",
+    why="A client that waits for the server waits for ever; the goals of one that does not are lost without a word.",
+    example='<!-- the base offers move_base -->\n<remap from="navigate" to="mov_base"/>',
+    instead='<remap from="navigate" to="move_base"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

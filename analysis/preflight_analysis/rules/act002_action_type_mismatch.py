@@ -1,0 +1,28 @@
+"""ACT002: client and server of an action have different types."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.type_mismatch import Verbs, mismatches
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is not None:
+        yield from mismatches(rule, context.graph, context.graph.actions, Verbs("offers", "sends goals to"))
+
+
+RULE = Rule(
+    id="ACT002",
+    name="action-type-mismatch",
+    severity="error",
+    what="Reports an action that one node offers with another type than a client of it has, or with another definition "
+    "(MD5 sum) of the same type.",
+    why="Goals, feedback and results are refused, with one line in a log; the client never sees its goal done.",
+    example="<!-- /dock: my_robot/DockAction offered, the client has move_base_msgs/MoveBaseAction -->\n"
+    '<remap from="move_base" to="/dock"/>',
+    instead='<remap from="move_base" to="/navigation/move_base"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

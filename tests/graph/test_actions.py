@@ -1,0 +1,112 @@
+"""Actions among the topics of nodes."""
+
+import subprocess
+
+import pytest
+from preflight_analysis.graph.actions import TOPICS, actions_of
+from preflight_analysis.graph.annotations import annotation_text
+from preflight_analysis.graph.build import build_graph
+from preflight_analysis.graph.graph_json import graph_json
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, Role
+from preflight_check import analyse, read_fixture
+from tracing_desk import SYSTEM_PYTHON
+
+TYPES = {
+    "goal": "m/GoActionGoal",
+    "cancel": "actionlib_msgs/GoalID",
+    "status": "actionlib_msgs/GoalStatusArray",
+    "feedback": "m/GoActionFeedback",
+    "result": "m/GoActionResult",
+}
+
+
+def client(name: str, file: str | None = None) -> list[Endpoint]:
+    roles: dict[str, Role] = dict.fromkeys(TOPICS, "subscriber") | {"goal": "publisher", "cancel": "publisher"}
+    return [Endpoint(roles[t], f"{name}/{t}", TYPES[t], source_file=file, source_line=7) for t in TOPICS]
+
+
+def graph_of(launch: str, endpoints: list[Endpoint]) -> Graph:
+    tree = analyse(read_fixture(launch)).tree
+    return build_graph(tree, [Interface("trace", Outcome("spinning"), tuple(endpoints))])
+
+
+def test_five_topics_of_fitting_types_and_directions_are_an_action() -> None:
+    (found,) = actions_of(client("~go", "/n.py"))
+    assert found.endpoint == Endpoint("action_client", "~go", "m/GoAction", source_file="/n.py", source_line=7)
+    assert [topic.name for topic in found.topics] == [f"~go/{topic}" for topic in TOPICS]
+
+
+@pytest.mark.parametrize("index", range(5))
+def test_four_of_five_are_topics(index: int) -> None:
+    endpoints = client("go")
+    assert actions_of(endpoints[:index] + endpoints[index + 1 :]) == ()
+
+
+def test_another_type_or_direction_is_no_action() -> None:
+    goal, *rest = client("go")
+    assert actions_of([Endpoint("publisher", "go/goal", "m/ComeActionGoal"), *rest]) == ()
+    assert actions_of([Endpoint("publisher", "go/goal", "m/Goal"), *rest]) == ()
+    assert actions_of([Endpoint("subscriber", "go/goal", "m/GoActionGoal"), *rest]) == ()
+    assert len(actions_of([goal, *rest])) == 1
+
+
+def test_a_node_can_be_client_and_server_of_one_action() -> None:
+    mirrored = [Endpoint("subscriber" if e.role == "publisher" else "publisher", e.name, e.type) for e in client("go")]
+    assert [end.endpoint.role for end in actions_of([*client("go"), *mirrored])] == ["action_client", "action_server"]
+
+
+def test_the_md5_sum_is_that_of_the_actions_message() -> None:
+    program = (
+        "from actionlib.msg import *; from actionlib_msgs.msg import GoalID, GoalStatusArray\n"
+        "print(*(m._md5sum for m in (TestActionGoal, GoalID, GoalStatusArray, TestActionFeedback, TestActionResult,"
+        " TestAction)))"
+    )
+    done = subprocess.run([SYSTEM_PYTHON, "-c", program], capture_output=True, text=True, check=True)
+    *parts, whole = done.stdout.split()
+    ends = client("go")
+    (found,) = actions_of(Endpoint(e.role, e.name, e.type, md5) for e, md5 in zip(ends, parts, strict=True))
+    assert found.endpoint.md5 == whole
+
+
+def test_a_remap_of_the_name_moves_all_topics() -> None:
+    launch = '<launch><node pkg="p" type="t" name="n" ns="a"><remap from="go" to="/b/come"/></node></launch>'
+    graph = graph_of(launch, client("go"))
+    assert list(graph.topics) == [f"/b/come/{topic}" for topic in sorted(TOPICS)]
+    (end,) = graph.actions["/b/come"].wants
+    assert end.remap is not None
+    assert {c.action for channel in graph.topics.values() for c in (*channel.offers, *channel.wants)} == {"/b/come"}
+
+
+def test_what_rospy_remapped_already_is_not_remapped_again() -> None:
+    launch = """
+        <launch><node pkg="p" type="t" name="n">
+          <remap from="go" to="come"/><remap from="come" to="stay"/>
+        </node></launch>
+    """
+    graph = graph_of(launch, client("/come", "/n.py"))
+    (end,) = graph.actions["/come"].wants
+    assert end.remap is not None
+    assert end.remap.source == "go"
+    assert list(graph_of(launch, client("come")).actions) == ["/stay"]
+
+
+def test_remaps_that_leave_topics_behind_leave_no_action() -> None:
+    launch = '<launch><node pkg="p" type="t" name="n"><remap from="go/goal" to="/b/goal"/></node></launch>'
+    graph = graph_of(launch, client("go"))
+    assert graph.actions == {}
+    assert sorted(graph.topics) == ["/b/goal", *(f"/go/{topic}" for topic in sorted(TOPICS) if topic != "goal")]
+    assert {c.action for channel in graph.topics.values() for c in (*channel.offers, *channel.wants)} == {None}
+
+
+def test_json_has_the_action_and_marks_its_topics() -> None:
+    data = graph_json(graph_of('<launch><node pkg="p" type="t" name="n"/></launch>', client("go")))
+    (node,) = data["nodes"]
+    assert node["action_clients"] == [{"name": "/go", "type": "m/GoAction", "qos": {}}]
+    assert [(end["name"], end["action"]) for end in node["publishers"]] == [("/go/cancel", "/go"), ("/go/goal", "/go")]
+    assert data["actions"] == {"/go": {"types": ["m/GoAction"], "servers": [], "clients": ["/n"]}}
+
+
+def test_an_annotation_is_written_with_the_action() -> None:
+    text = annotation_text(Interface("trace", Outcome("spinning"), tuple(client("go"))))
+    assert text == '<!--\n  <actions>\n    <action name="go" type="m/GoAction" class="client"/>\n  </actions>\n-->'
