@@ -196,7 +196,8 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`; `status`, `exit_code`, `reason`, `stderr`,
-    `notes`; `md5` `{name: sum}`; `made` `{name: [file, line]}`; `builtin` and `speculative`, lists of names."""
+    `notes`, `answers`; `md5` `{name: sum}`; `made` `{name: [file, line]}`; `builtin` and `speculative`, lists of
+    names."""
     made = data.get("made", {})
     endpoints = [
         Endpoint(
@@ -224,6 +225,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         data.get("signal"),
         tuple(data.get("stderr", ())),
         data.get("reason"),
+        answers=tuple(data.get("answers", ())),
     )
     source = "none" if outcome.status == "not-run" else "trace"
     return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())))

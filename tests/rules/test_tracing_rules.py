@@ -1,5 +1,7 @@
 """TRC: how the nodes' runs ended, or why there were none."""
 
+import json
+
 from preflight_check import check, findings_of
 
 
@@ -24,6 +26,28 @@ def test_a_crash_after_a_made_up_answer_may_be_our_doing() -> None:
         //- interfaces
         {"/n": {"status": "crashed", "signal": "SIGSEGV", "publishers": {"/tf": "x/Y"}, "speculative": ["/tf"]}}
     """)
+
+
+def test_an_end_after_a_made_up_answer_may_be_our_doing_even_if_nothing_was_found_after_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] IndexError
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr": ["IndexError: 0"], "answers": ["it got an empty scan"]}}
+    """)
+
+
+def test_absence_after_a_made_up_answer_is_not_sure() -> None:
+    for answers, sure in (([], "likely"), (["it got an empty scan"], "possible")):
+        (finding,) = findings_of(f"""
+            <launch><node pkg="p" type="t" name="n"/><node pkg="p" type="t" name="m"/></launch>
+            //- interfaces
+            {{"/n": {{"publishers": {{"chatter": "std_msgs/String"}}, "answers": {json.dumps(answers)}}},
+              "/m": {{"subscribers": {{"chater": "std_msgs/String"}}}}}}
+        """)
+        assert (finding.rule, finding.confidence) == ("TOP001", sure)
 
 
 def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:

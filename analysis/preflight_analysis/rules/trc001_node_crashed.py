@@ -25,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
         lacking = next((r.name for r in context.graph.param_reads if r.node is node and r.name in commands), None)
-        ours = lacking is not None or any(endpoint.speculative for endpoint in interface.endpoints)
+        ours = lacking is not None or bool(outcome.answers) or any(e.speculative for e in interface.endpoints)
         note = f"; it asked for '{lacking}', which comes from a command without a result" if lacking else ""
         yield rule.finding(
             _message(node.name, outcome) + note,
@@ -55,7 +55,8 @@ RULE = Rule(
     what="Reports a node that ended with an error before it reached its event loop, with the line of its standard "
     "error that tells why.",
     why="With the parameters and arguments of this launch file it would most likely end so on the robot too, unless it "
-    "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it.",
+    "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it. "
+    "Where it was given a made-up answer before, the crash may come from that: it is only an information then.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,

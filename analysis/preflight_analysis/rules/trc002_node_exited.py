@@ -18,7 +18,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"{node.name} ended by itself when it was run, without error{because}",
                 node_location(node),
-                confidence="likely",
+                confidence="possible" if outcome.answers else "likely",
                 related=include_chain(node.origin),
             )
 

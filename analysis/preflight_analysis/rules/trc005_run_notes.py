@@ -21,9 +21,9 @@ RULE = Rule(
     name="run-notes",
     severity="info",
     what="Tells what was noticed of a node when it was run in the sandbox: it tried to write where it may not, did not "
-    "end when asked to, wrote more than is read, or the like.",
-    why="Nothing of that reached the machine, but on the robot it would; and what the node did after a refusal may "
-    "differ from what it does there.",
+    "end when asked to, wrote more than is read, waited for something and got a made-up answer, or the like.",
+    why="Nothing of that reached the machine, but on the robot it would; and what the node did after a refusal or a "
+    "made-up answer may differ from what it does there.",
     example="open('/home/me/.calibration', 'w')",
     instead="open(os.path.join(rospkg.get_ros_home(), 'calibration'), 'w')",
     check=_check,

@@ -19,7 +19,7 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import encode_params
 from preflight_analysis.tracing.store import MAX_BYTES, Store, changed_since, fingerprint, listing
 
-SCHEMA = "ros-preflight/trace-cache/1"
+SCHEMA = "ros-preflight/trace-cache/2"
 MAX_ENTRY_BYTES = 4 << 20
 
 
@@ -134,6 +134,7 @@ def _encode(interface: Interface) -> dict[str, Any]:
 def _decode(data: Mapping[str, Any]) -> Interface:
     outcome = dict(data["outcome"])
     outcome["stderr_tail"] = tuple(outcome["stderr_tail"])
+    outcome["answers"] = tuple(outcome["answers"])
     return Interface(
         data["source"],
         Outcome(**outcome),

@@ -58,6 +58,8 @@ class Outcome:
     reason: str | None = None
     seconds: float = 0.0
     """Wall time of the run, from exec to the end."""
+    answers: tuple[str, ...] = ()
+    """What was made up so that the node went on, a sentence each."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +82,10 @@ class Interface:
 
     @property
     def complete(self) -> bool:
-        """Whether it is all that the node does: it was seen to spin, or the user declares it in an annotation."""
-        return self.source == "annotation" or (self.known and self.outcome.status == "spinning")
+        """Whether it is all that the node does: it was seen to spin, and not only after a made-up answer, or the user
+        declares it in an annotation."""
+        spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers
+        return self.source == "annotation" or spins
 
 
 NOT_RUN = Interface("none", Outcome("not-run"))

@@ -5,6 +5,7 @@ Every field is checked: the node could have written the records itself. What doe
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 import signal
@@ -22,6 +23,7 @@ from preflight_analysis.tracing.run import RLIMITS, WALL_SECONDS, RawRun
 MAX_ENDPOINTS = 2_000
 MAX_PARAMS = 5_000
 MAX_FILES = 10_000
+MAX_ANSWERS = 20
 TAIL_LINES = 20
 TAIL_COLUMNS = 500
 
@@ -35,6 +37,11 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
 _LIBRARY_PARAMS = re.compile(r"/(use_sim_time|tcp_keepalive|rosout_disable_topics_generation|enable_statistics"
                              r"|statistics_window_\w+)\Z")  # fmt: skip
+_ANSWERS = {
+    "service": "it waits for the service {}, and was told that it is there",
+    "call": "it calls the service {}, and was given an empty answer",
+    "message": "it waits for a message on {}, and was given an empty one",
+}
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
 
@@ -78,6 +85,7 @@ class _Gathered:
     asked: set[str] = field(default_factory=set)
     wrote: dict[str, None] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
+    answers: dict[str, None] = field(default_factory=dict)
     woven: bool = False
     end: Mapping[str, Any] | None = None
     dropped: int = 0
@@ -96,7 +104,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
             taken = False
         found.dropped += not taken
     tail = stderr_tail(raw.stderr)
-    outcome = _outcome(raw, found, tail)
+    outcome = dataclasses.replace(_outcome(raw, found, tail), answers=tuple(found.answers))
     if outcome.status == "not-run":
         return Observation(Interface("none", outcome), Dependencies(), lasting=False)
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.python else {}
@@ -166,6 +174,11 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
             kind, name = record.get("kind"), _text(record.get("name"), _NAME)
             if kind in ("service", "message") and name is not None:
                 found.waits.append((str(kind), name, *_place(record)))
+        case "answered":
+            kind, name = record.get("kind"), _text(record.get("name"), _NAME)
+            if kind not in _ANSWERS or name is None or len(found.answers) >= MAX_ANSWERS:
+                return False
+            found.answers[_ANSWERS[kind].format(name)] = None
         case "woven":
             found.woven = True
         case "weave-failed":
@@ -199,8 +212,11 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
         file,
         line,
         builtin=record.get("builtin") is True,
+        speculative=record.get("speculative") is True,
     )
-    found.endpoints.setdefault(repr(endpoint), (endpoint, _text(record.get("resolved"), _NAME)))
+    # One that it made before as well is sure.
+    key = repr(dataclasses.replace(endpoint, speculative=False))
+    found.endpoints.setdefault(key, (endpoint, _text(record.get("resolved"), _NAME)))
     return True
 
 
@@ -263,7 +279,14 @@ def _add_files(paths: Iterable[str], found: _Gathered) -> None:
 
 def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[Endpoint, ...]:
     """The union of both views: what the library told, and what only the master or a wait shows."""
-    endpoints = [endpoint for endpoint, _ in found.endpoints.values()]
+    waited_for = {names.resolve(name, node, remaps) for kind, name, _, _ in found.waits if kind == "service"}
+    endpoints = [
+        # Waiting for a service is calling it, whatever the answer.
+        dataclasses.replace(endpoint, speculative=False)
+        if endpoint.role == "client" and full in waited_for
+        else endpoint
+        for endpoint, full in found.endpoints.values()
+    ]
     known: set[tuple[str, str]] = {
         (e.role, full or names.resolve(e.name, node, remaps)) for e, full in found.endpoints.values()
     }
@@ -371,7 +394,7 @@ def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
 
 
 def _notes(found: _Gathered) -> tuple[str, ...]:
-    notes = []
+    notes = list(found.answers)
     wrote = [p for p in found.wrote if not p.startswith(("/tmp/ros_home", "/tmp/ros_log", "/run/", "/dev/"))]  # noqa: S108
     if wrote:
         more = f" and {len(wrote) - 3} more" if len(wrote) > 3 else ""

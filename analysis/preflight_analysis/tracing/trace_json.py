@@ -32,6 +32,7 @@ def _node(node: LaunchNode, interface: Interface) -> dict[str, Any]:
             "signal": outcome.signal,
             "reason": outcome.reason,
             "seconds": outcome.seconds,
+            "answers": list(outcome.answers),
             "stderr_tail": list(outcome.stderr_tail),
         },
         "endpoints": [_endpoint(endpoint) for endpoint in interface.endpoints],

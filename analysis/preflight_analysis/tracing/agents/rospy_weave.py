@@ -13,7 +13,7 @@ from typing import Any, Callable, Optional
 
 import aspectlib  # type: ignore[import-untyped]
 
-from . import channel
+from . import answers, channel
 
 Advised = Callable[..., Any]
 
@@ -135,6 +135,7 @@ def _endpoint(role: str) -> Callable[[Advised], Advised]:
             file=file,
             line=line,
             builtin=internal and given in _BUILTINS,
+            speculative=answers.speculative(),
         )
 
     return _after(tell)
@@ -238,8 +239,10 @@ _told_states: set[str] = set()
 _turns: set[tuple[Optional[str], Optional[int]]] = set()
 
 
-def _wait(flush: Callable[[], None], kind: str, argument: str) -> Callable[[Advised], Advised]:
-    """The node blocks until somebody else is there."""
+def _wait(
+    rospy: Any, flush: Callable[[], None], kind: str, argument: str, answer: Callable[[dict[str, Any]], Any]
+) -> Callable[[Advised], Advised]:
+    """The node blocks until somebody else is there; if nobody comes, `answer(bound arguments)` is returned."""
 
     @_quiet
     def tell(state: str, name: str) -> None:
@@ -253,14 +256,37 @@ def _wait(flush: Callable[[], None], kind: str, argument: str) -> Callable[[Advi
 
         def advised(*args: Any, **kwargs: Any) -> Any:
             try:
-                name = str(signature.bind(*args, **kwargs).arguments[argument])
+                bound = signature.bind(*args, **kwargs)
+                name = str(bound.arguments[argument])
             except TypeError:
                 return cutpoint(*args, **kwargs)
             tell("wait", name)
             try:
-                return cutpoint(*args, **kwargs)
+                by_itself, result = answers.limited(cutpoint, bound, rospy.ROSInterruptException, rospy.ROSException)
+                if by_itself:
+                    return result
+                answers.made_up(kind, name)
+                return answer(bound.arguments)
             finally:
                 tell("resume", name)
+
+        return advised
+
+    return aspect
+
+
+def _call(refused: Any) -> Callable[[Advised], Advised]:
+    """A call of a service that nobody offers."""
+
+    def aspect(cutpoint: Advised) -> Advised:
+        def advised(self: Any, *args: Any, **kwargs: Any) -> Any:
+            try:
+                return cutpoint(self, *args, **kwargs)
+            except refused as error:
+                service = self.resolved_name
+                if not str(error).endswith("unavailable") or not answers.call_is_answered(service, *_caller()):
+                    raise
+                return answers.empty(self.response_class)
 
         return advised
 
@@ -313,8 +339,16 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
 
     function(client, "init_node", _after(lambda _arguments: channel.send("state", state="init")), rospy)
     function(client, "spin", _spin(flush), rospy)
-    function(client, "wait_for_message", _wait(flush, "message", "topic"), rospy)
-    function(services, "wait_for_service", _wait(flush, "service", "service"), rospy)
+
+    def there(arguments: dict[str, Any]) -> None:
+        answers.taken_to_be_there(root.names.resolve_name(arguments["service"]))
+
+    def first(arguments: dict[str, Any]) -> Any:
+        return answers.empty(arguments["topic_type"])
+
+    function(client, "wait_for_message", _wait(root, flush, "message", "topic", first), rospy)
+    function(services, "wait_for_service", _wait(root, flush, "service", "service", there), rospy)
+    aspectlib.weave(services.ServiceProxy, _call(services.ServiceException), methods=["call"], subclasses=False)
     aspectlib.weave(root.timer.Rate, _turn(flush, loops=True), methods=["sleep"], subclasses=False)
     # Only the names that nodes use: rospy's own modules call these on every turn.
     function(rospy, "sleep", _turn(flush, loops=False))
