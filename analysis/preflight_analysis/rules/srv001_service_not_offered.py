@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import dangling_wants, fixes, near_misses, nodes_looked_at, weight
 from preflight_analysis.rules.places import connection_location, related_end
 from preflight_analysis.rules.problems import include_chain
@@ -13,7 +14,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    near = near_misses(graph.services)
+    # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
+    remapped = context.once(meant_ends)
+    near = [pair for pair in near_misses(graph.services) if id(pair.wanting) not in remapped]
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -28,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ),
             fixes=fixes(context, pair),
         )
-    explained = {id(pair.wanting) for pair in near}
+    explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.services):
         if id(end) not in explained:
             sure = graph.complete and not end.endpoint.speculative

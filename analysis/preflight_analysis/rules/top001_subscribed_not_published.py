@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import (
     NearMiss,
     dangling_offers,
@@ -23,7 +24,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    near = context.once(topic_near_misses)
+    # Where a remap that has no effect was meant for the end, TOP004 says so, with the better fix.
+    remapped = context.once(meant_ends)
+    pairs = context.once(topic_near_misses)
+    near = [pair for pair in pairs if remapped.isdisjoint((id(pair.wanting), id(pair.offering)))]
     dangling = list(dangling_offers(graph.topics))
     for pair in near:
         severity, confidence = weight(graph, pair)
@@ -38,7 +42,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ),
             fixes=fixes(context, pair),
         )
-    explained = {id(pair.wanting) for pair in near}
+    explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.topics):
         if id(end) not in explained:
             yield _hint(rule, graph, end, dangling)
@@ -81,7 +85,8 @@ RULE = Rule(
     severity="warning",
     what="Reports a node that subscribes to a topic which no node of the launch publishes. Where one publishes a topic "
     "of a like name and the same type, or one that differs by a leading slash or a namespace, it is a warning that "
-    "names both, at the remap that gave the name if there is one; otherwise only a hint, as the publisher may be started elsewhere.",
+    "names both, at the remap that gave the name if there is one; otherwise only a hint, as the publisher may be "
+    "started elsewhere.",
     why="The node waits for messages that never come, and nothing says so: not `roslaunch`, not the node.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',

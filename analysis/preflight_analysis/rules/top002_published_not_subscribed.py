@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import dangling_offers, topic_near_misses
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -15,7 +16,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    reported = {id(pair.offering) for pair in context.once(topic_near_misses)}
+    reported = {id(pair.offering) for pair in context.once(topic_near_misses)} | context.once(meant_ends)
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     at: dict[tuple[Location, str], list[Connection]] = {}
     for end in dangling_offers(graph.topics):

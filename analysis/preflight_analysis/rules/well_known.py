@@ -58,6 +58,11 @@ def may_dangle(name: str, endpoint: Endpoint) -> bool:
     return kind.endswith((*_TO_ACTION_SERVER, *_FROM_ACTION_SERVER))
 
 
+def is_transform(name: str) -> bool:
+    """Whether it is one of tf's topics, which a listener that is made later on uses."""
+    return name.rpartition("/")[2] in ("tf", "tf_static", "tf2")
+
+
 def is_for_tools(parameter: str) -> bool:
     """Whether a parameter is read by ROS itself or by tools rather than by the nodes of the launch."""
     return parameter in _PARAMS or parameter.startswith("/roslaunch/")

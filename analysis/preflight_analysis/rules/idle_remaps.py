@@ -1,0 +1,170 @@
+"""Remaps whose name is none that their nodes use, and what they were probably meant for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, Remap
+from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.rule import Context
+from preflight_analysis.rules.well_known import is_transform
+from preflight_analysis.tracing.interface import Interface
+
+_TOPIC_ROLES = ("publisher", "subscriber")
+
+
+@dataclass(frozen=True, slots=True)
+class IdleRemap:
+    """A remap that has no effect at any node that it reaches. `nodes` are those, the first one in full."""
+
+    remap: Remap
+    nodes: tuple[LaunchNode, ...]
+    meant: Connection | None
+    """The end of the first node that it was most likely meant for."""
+    partner: Connection | None
+    """An end of another node that stands under the remap's target and that `meant` would fit."""
+
+
+@dataclass(slots=True)
+class _Reached:
+    remap: Remap
+    nodes: list[LaunchNode]
+
+
+def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
+    """Those of nodes that were run to their event loop. Ask through `context.once`."""
+    graph = context.graph
+    return tuple(_idle(graph)) if graph is not None else ()
+
+
+def meant_ends(context: Context) -> frozenset[int]:
+    """The ids of the connections that an idle remap was most likely meant to bring together: that they dangle is told
+    with it, once."""
+    found = [i for i in context.once(idle_remaps) if i.meant is not None and i.partner is not None]
+    return frozenset(id(end) for idle in found for end in (idle.meant, idle.partner))
+
+
+def _idle(graph: Graph) -> Iterator[IdleRemap]:
+    # A tag reaches several nodes where it stands around them, or in a file that is included more than once: it has to
+    # be idle at all of them.
+    reached: dict[object, _Reached] = {}
+    in_use: set[object] = set()
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
+        if not node.remaps:
+            continue
+        used = _used(node, interface) if _tells_names(node, interface) else None
+        for remap in node.remaps:
+            place = remap.origin[-1]
+            if place in in_use:
+                continue
+            if used is None or not _has_no_effect(remap, node, used):
+                in_use.add(place)
+                reached.pop(place, None)
+            else:
+                reached.setdefault(place, _Reached(remap, [])).nodes.append(node)
+    if not reached:
+        return
+    wanted = {id(each.nodes[0]) for each in reached.values()}
+    ends: dict[int, list[Connection]] = {}
+    for channel in (*graph.topics.values(), *graph.services.values()):
+        for end in (*channel.offers, *channel.wants):
+            if id(end.node) in wanted and end.remap is None and not end.endpoint.builtin:
+                ends.setdefault(id(end.node), []).append(end)
+    for each in reached.values():
+        meant, partner = _meant(graph, each.remap, each.nodes[0], ends.get(id(each.nodes[0]), ()))
+        yield IdleRemap(each.remap, tuple(each.nodes), meant, partner)
+
+
+def _tells_names(node: LaunchNode, interface: Interface) -> bool:
+    """Whether a run showed all names that the node uses. One that made nothing of its own is a wrapper or a loader of
+    something else, whose names nobody saw."""
+    if interface.source != "trace" or not interface.complete or node.unknowns:
+        return False
+    return any(not (e.builtin or e.speculative) for e in interface.endpoints)
+
+
+@dataclass(frozen=True, slots=True)
+class _Names:
+    """What a node uses, by full names before remapping. `around` has them with all namespaces above them."""
+
+    used: frozenset[str]
+    around: frozenset[str]
+
+
+def _used(node: LaunchNode, interface: Interface) -> _Names:
+    given = [e.name for e in interface.endpoints if not e.builtin] + [p.name for p in interface.params if not p.builtin]
+    used = frozenset(names.resolve(name, node.name) for name in given)
+    around: set[str] = set()
+    for name in used:
+        above = name
+        while above and above not in around:
+            around.add(above)
+            above = above.rpartition("/")[0]
+    return _Names(used, frozenset(around))
+
+
+def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
+    """Whether neither the node nor a library could mean the name.
+
+    Libraries make names below the one that they are given (an action's five topics, the transports of an image,
+    dynamic_reconfigure's, a node handle's), and beside it (`camera_info`); one that applies remaps itself hands over
+    the target.
+    """
+    if remap.source == remap.target or not names.is_legal(remap.source):
+        return False
+    full, target = names.resolve(remap.source, node.name), names.resolve(remap.target, node.name)
+    if is_transform(full) or full.endswith("/camera_info") or full in known.around or target in known.around:
+        return False
+    above = full.rpartition("/")[0]
+    while above:
+        if above in known.used:
+            return False
+        above = above.rpartition("/")[0]
+    return True
+
+
+def _meant(
+    graph: Graph, remap: Remap, node: LaunchNode, ends: Iterable[Connection]
+) -> tuple[Connection | None, Connection | None]:
+    """The end that the remap was meant for, and whom it would then meet.
+
+    Either its name is like the remap's and nothing else reaches it, or it is the node's only one without another end
+    that fits what stands under the target.
+    """
+    full, target = names.resolve(remap.source, node.name), names.resolve(remap.target, node.name)
+    lone: list[tuple[Connection, Connection | None]] = []
+    for end in ends:
+        channels: Mapping[str, Channel] = graph.topics if end.endpoint.role in _TOPIC_ROLES else graph.services
+        if _facing(channels[end.name], end):
+            continue
+        lone.append((end, _partner(channels.get(target), end)))
+    typos = [(end, partner) for end, partner in lone if _is_slip(full, end)]
+    if len(typos) == 1:
+        return typos[0]
+    fitting = [(end, partner) for end, partner in lone if partner is not None]
+    return fitting[0] if len(fitting) == 1 else (None, None)
+
+
+def _is_slip(full: str, end: Connection) -> bool:
+    """Whether the names are a typo apart, or only their namespaces differ: a missing `~`, a slash too many."""
+    alike = likeness(full, end.name)
+    return (alike is not None and alike[0] == "typo") or full.rpartition("/")[2] == end.name.rpartition("/")[2]
+
+
+def _partner(channel: Channel | None, end: Connection) -> Connection | None:
+    """The first end of another node in `channel` that `end` could talk to."""
+    if channel is None:
+        return None
+    for other in _facing(channel, end):
+        same = end.endpoint.type not in (None, "*") and end.endpoint.type == other.endpoint.type
+        if same and other.node is not end.node and not other.endpoint.builtin:
+            return other
+    return None
+
+
+def _facing(channel: Channel, end: Connection) -> tuple[Connection, ...]:
+    """The ends of the channel that one like `end` talks to."""
+    return channel.wants if end.endpoint.role in ("publisher", "service") else channel.offers

@@ -1,0 +1,84 @@
+"""TOP004: a remap of a name that its node does not use."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.idle_remaps import IdleRemap, idle_remaps
+from preflight_analysis.rules.places import related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "offers", "client": "calls"}
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for idle in context.once(idle_remaps):
+        remap = idle.remap
+        node = idle.nodes[0].name if len(idle.nodes) == 1 else f"none of the {len(idle.nodes)} nodes that it reaches"
+        verb = "does not use" if len(idle.nodes) == 1 else "uses"
+        told = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
+        meant = idle.meant
+        if meant is None:
+            yield rule.finding(
+                f"{told} before its event loop",
+                remap.source_location,
+                severity="hint",
+                confidence="possible",
+                related=include_chain(remap.origin),
+            )
+            continue
+        evidence = f"did you mean '{_given(meant)}', which it {_DOES[meant.endpoint.role]}"
+        if idle.partner is not None:
+            other = idle.partner
+            does = _DOES[other.endpoint.role]
+            evidence += f"? '{other.name}' is what {other.node.name} {does} as {other.endpoint.type}"
+        else:
+            evidence += " and to which nobody else is connected?"
+        yield rule.finding(
+            f"{told}; {evidence}",
+            remap.source_location,
+            confidence="likely" if idle.partner is not None and not meant.endpoint.speculative else "possible",
+            related=(
+                *((related_end(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
+                *include_chain(remap.origin),
+            ),
+            fixes=_fix(context, idle, meant),
+        )
+
+
+def _given(end: Connection) -> str:
+    """A name as the node gave it: what a `from` in its tag would say."""
+    return end.endpoint.name
+
+
+def _fix(context: Context, idle: IdleRemap, meant: Connection) -> tuple[Fix, ...]:
+    location = idle.remap.source_location
+    document = context.documents.get(location.file)
+    if document is None:
+        return ()
+    written = document.text[location.span.start : location.span.end]
+    if not written or "$(" in written or "&" in written:
+        return ()
+    return (Fix(f"Replace '{written}' by '{_given(meant)}'", (Edit(location, _given(meant)),), True),)
+
+
+RULE = Rule(
+    id="TOP004",
+    name="remap-without-effect",
+    severity="warning",
+    what="Reports a remap whose `from` is no topic, service or parameter of the nodes that it reaches, all of which "
+    "were run to their event loop. It is a warning that names what was probably meant where a node has a dangling end "
+    "of a like name, or only one that fits what is there under the remap's `to`; otherwise a hint, since a node or a "
+    "library that it links may use the name later. Namespaces of names that are used, and names below one, count as "
+    "used: actions, image transports and `dynamic_reconfigure` make theirs so.",
+    why="A remap of a name that does not occur is ignored without a word, and the node keeps its own name.",
+    example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
+    instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
