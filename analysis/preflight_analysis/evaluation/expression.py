@@ -302,6 +302,8 @@ class _Walker:
         return function(*arguments)
 
     def _method(self, value: Any, name: str, arguments: list[Any]) -> Any:
+        if not hasattr(value, name):
+            raise EvaluationError(f"{type(value).__name__!r} object has no attribute {name!r}")
         if not isinstance(value, (str, list, tuple, dict)) or name not in _METHODS:
             raise NotAllowedError(f"the method '{name}' is not evaluated")
         for argument in (value, *arguments):
