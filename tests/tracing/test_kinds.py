@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import threading
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from preflight_analysis.graph.actions import actions_of
-from tracing_desk import trace, write_node
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
+from tracing_desk import environment, own, trace, write_node
 
 NAVIGATE = """
     import actionlib
@@ -38,3 +43,64 @@ def test_rospy_remaps_the_name_of_an_action_as_it_is_written(tmp_path: Path) -> 
     assert moved.endpoint.name == "/a/go"
     (left,) = actions_of(trace(node, "/a/n", remaps=(("/a/navigate", "/a/go"),)).endpoints)
     assert left.endpoint.name == "navigate"
+
+
+NODELET = """
+    import sys
+    import rospy
+    from std_msgs.msg import String
+    rospy.init_node("nodelet")
+    assert sys.argv[1:3] == ["standalone", "vision/Rectify"], sys.argv
+    rospy.Publisher("~image", String, queue_size=1)
+    rospy.spin()
+"""
+
+
+def nodelet_folder(tmp_path: Path) -> Path:
+    """A package `nodelet` whose executable stands for the real one; no nodelet is packaged for Debian."""
+    folder = tmp_path / "nodelet"
+    folder.mkdir()
+    return write_node(folder, NODELET, "nodelet")
+
+
+def test_a_nodelet_of_a_manager_runs_alone_and_calls_its_manager(tmp_path: Path) -> None:
+    executable = nodelet_folder(tmp_path)
+    tracer = Tracer(environment(tmp_path), TraceCache(tmp_path / "cache"))
+    args = ("load", "vision/Rectify", "manager", "--no-bond")
+    asked = TraceRequest("/camera/rectify", "nodelet", str(executable), args)
+    expected = {("publisher", "~image", "std_msgs/String"), ("client", "manager/load_nodelet", "nodelet/NodeletLoad")}
+    first = tracer.trace(asked, threading.Event())
+    assert own(first) == expected
+    assert first.outcome.status == "spinning"
+    again = tracer.lookup(asked)
+    assert again is not None
+    assert own(again) == expected
+    elsewhere = tracer.lookup(replace(asked, args=("load", "vision/Rectify", "other", "--no-bond")))
+    assert elsewhere is not None
+    assert ("client", "other/load_nodelet", "nodelet/NodeletLoad") in own(elsewhere)
+
+
+def test_a_nodelet_that_is_not_installed_says_so_instead_of_waiting() -> None:
+    asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", ("load", "vision/None", "manager"))
+    found = Tracer(environment(), None).trace(asked, threading.Event())
+    assert found.outcome.status == "crashed"
+    assert "the class vision/None" in str(found.outcome.reason)
+
+
+def test_a_nodelet_manager_is_an_ordinary_node() -> None:
+    asked = TraceRequest("/manager", "nodelet", "/usr/lib/nodelet/nodelet", ("manager",))
+    found = Tracer(environment(), None).trace(asked, threading.Event())
+    assert found.outcome.status == "spinning"
+    services = {e.name for e in found.endpoints if e.role == "service" and not e.builtin}
+    assert services == {"/manager/load_nodelet", "/manager/unload_nodelet", "/manager/list"}
+
+
+def test_a_shell_wrapper_that_starts_a_node(tmp_path: Path) -> None:
+    write_node(tmp_path, NAVIGATE.format(make=CLIENT))
+    wrapper = tmp_path / "wrapped"
+    wrapper.write_text('#!/bin/sh\nexport X=1\nexec "$(dirname "$0")/node.py" "$@"\n')
+    wrapper.chmod(0o755)
+    found = trace(wrapper)
+    assert found.outcome.status == "spinning"
+    (action,) = actions_of(found.endpoints)
+    assert action.endpoint.name == "navigate"

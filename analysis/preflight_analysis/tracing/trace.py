@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing import nodelets, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Observation, observe
@@ -36,8 +36,10 @@ class Tracer:
         """A cached trace that is still valid; nothing is run."""
         if self.cache is None:
             return None
+        alone = nodelets.standalone(request)
         try:
-            return self.cache.load(recipes.make(self.environment, request), request)
+            found = self.cache.load(recipes.make(self.environment, alone), alone)
+            return nodelets.with_manager(found, request) if found is not None else None
         except Exception:
             _log.exception("looking up a trace of %s failed", request.node)
             return None
@@ -48,7 +50,7 @@ class Tracer:
         if found is not None:
             return found
         try:
-            return self._run(request, cancel)
+            return nodelets.with_manager(self._run(nodelets.standalone(request), cancel), request)
         except Exception as error:
             _log.exception("tracing %s failed", request.node)
             return _not_run(f"the run failed: {error}")

@@ -1,0 +1,36 @@
+"""Nodelets that are loaded into a manager: `nodelet load pkg/Type manager`.
+
+The loader's process only asks the manager to load; that process makes the nodelet's topics, under the name and namespace
+of the loader, with its remaps and parameters. `nodelet standalone pkg/Type` makes the same ones in one process, so that
+is what is run, and what the loader asks of the manager is added.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+
+from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.request import TraceRequest
+
+
+def standalone(request: TraceRequest) -> TraceRequest:
+    """The request that shows what the nodelet does; any other request as it is."""
+    if _manager(request) is None:
+        return request
+    return replace(request, args=("standalone", request.args[1], *request.args[3:]))
+
+
+def with_manager(interface: Interface, request: TraceRequest) -> Interface:
+    """The interface of what `standalone(request)` runs as that of `request`: it calls its manager."""
+    manager = _manager(request)
+    if manager is None or not interface.known:
+        return interface
+    call = Endpoint("client", f"{manager}/load_nodelet", "nodelet/NodeletLoad")
+    return replace(interface, endpoints=(*interface.endpoints, call))
+
+
+def _manager(request: TraceRequest) -> str | None:
+    if request.package != "nodelet" or os.path.basename(request.executable) != "nodelet":
+        return None
+    return request.args[2] if len(request.args) > 2 and request.args[0] == "load" else None
