@@ -112,7 +112,9 @@ def test_doctor(desk: Desk, preflight: Run) -> None:
     data = preflight("doctor", desk.workspace, "--format", "json").json
     assert data["schema"] == "ros-preflight/doctor/1"
     assert data["packages"]["preflight_demo"] == str(desk.workspace)
-    assert data["sandbox"] == {"works": True, "reason": None}
+    assert (data["sandbox"]["works"], data["sandbox"]["reason"]) == (True, None)
+    assert "files read-only, no network, own processes" in data["sandbox"]["guarantees"]
+    assert [row for row in data["sandbox"]["guarantees"] if row not in done.out] == []
     assert preflight("doctor", "nowhere").code == 2
 
 

@@ -350,6 +350,9 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...]) -> Outcome:
             return Outcome("spinning", seconds=spent)
         case "timed-out":
             return Outcome("timed-out", None, None, tail, _waiting(end), spent)
+        case "crowded":
+            reason = f"it started more than {sandbox.PROCESSES} processes and was stopped"
+            return Outcome("crashed", None, None, tail, reason, spent)
         case "exec-failed":
             why = _CONTROL.sub("", str(end.get("why")))[:300]
             return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {why}", spent)

@@ -49,7 +49,6 @@ RLIMITS = {
     "NOFILE": 1024,
     "CORE": 0,
 }
-_PROCESSES = 512
 _PROCESSES_SHARED = 8192
 """Before Linux 5.14 the limit counts all of the user's processes, not only those of the sandbox."""
 
@@ -104,12 +103,13 @@ def _execute(
         "env": dict(recipe.env),
         "cwd": recipe.cwd,
         "folders": [recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home()],
-        "rlimits": RLIMITS | {"NPROC": _PROCESSES if _own_process_count() else _PROCESSES_SHARED},
+        "rlimits": RLIMITS | {"NPROC": sandbox.PROCESSES if _own_process_count() else _PROCESSES_SHARED},
         **job,
     }
     start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
     argv = [interpreter, "-I", "-S", "-c", start]
     with sandbox.prepared(argv, visible) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
+        whole["most_processes"] = sandbox.PROCESSES if prepared.counting else None
         handed.write(json.dumps(whole).encode())
         handed.seek(0)
         raw = RawRun(started=time.time())

@@ -21,7 +21,7 @@ from pathlib import Path
 
 import aspectlib  # type: ignore[import-untyped]
 
-from preflight_analysis.tracing import seccomp
+from preflight_analysis.tracing import cgroup, seccomp
 
 LIBRARY = "/run/preflight/lib"
 """Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
@@ -29,6 +29,9 @@ SITE = "/run/preflight/site"
 """The folder with `sitecustomize.py`, inside."""
 TEMPORARY_BYTES = 64 << 20
 """Size of each writable file system inside: /tmp, /dev/shm, the home folder."""
+
+PROCESSES = 512
+"""How many processes and threads a run may have at once."""
 
 _AGENTS = Path(__file__).parent / "agents"
 _SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-", "/etc/sudoers")
@@ -46,10 +49,12 @@ _USERNS_SWITCHES = (
 
 @dataclass(frozen=True, slots=True)
 class SandboxStatus:
-    """Whether nodes can be run. `reason` is a sentence that says why not and what to do about it."""
+    """Whether nodes can be run. `reason` is a sentence that says why not and what to do about it, `guarantees` what
+    holds where they can, one sentence each."""
 
     works: bool
     reason: str | None = None
+    guarantees: tuple[str, ...] = ()
 
 
 @functools.lru_cache(maxsize=1)
@@ -73,7 +78,7 @@ def probe() -> SandboxStatus:
     except (OSError, subprocess.TimeoutExpired) as error:
         return SandboxStatus(False, f"bubblewrap cannot be run: {error}")
     if done.returncode == 0:
-        return SandboxStatus(True)
+        return SandboxStatus(True, guarantees=_guarantees())
     said = done.stderr.decode(errors="replace").strip().splitlines()
     why = said[-1][:300] if said else f"exit code {done.returncode}"
     for switch, off, remedy in _USERNS_SWITCHES:
@@ -89,10 +94,14 @@ def probe() -> SandboxStatus:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """A command line that runs something isolated, and the descriptors that it must inherit."""
+    """A command line that runs something isolated, and the descriptors that it must inherit.
+
+    `counting`: nothing outside binds the number of processes, the supervisor inside has to look after it.
+    """
 
     command: list[str]
     descriptors: tuple[int, ...]
+    counting: bool
 
 
 @contextlib.contextmanager
@@ -110,7 +119,29 @@ def prepared(argv: Sequence[str], visible: Iterable[str]) -> Iterator[Start]:
             at_end.callback(os.close, calls)
             options += ["--seccomp", str(calls)]
             descriptors = (calls,)
-        yield Start([program, *options, "--", *argv], descriptors)
+        command = [program, *options, "--", *argv]
+        place = cgroup.place()
+        if place is not None:
+            command = cgroup.entering(at_end.enter_context(cgroup.group(place, PROCESSES)), command)
+        yield Start(command, descriptors, counting=place is None and os.geteuid() == 0)
+
+
+def _guarantees() -> tuple[str, ...]:
+    """What of docs/security.md depends on the machine, as it is here."""
+    machine = seccomp.this_machine()
+    calls = f"system calls filtered ({machine})" if machine else f"no filter of system calls for {os.uname().machine}"
+    place = cgroup.place()
+    if place is not None:
+        count = f"at most {PROCESSES} processes, by a control group"
+    elif os.geteuid() == 0:
+        count = f"no limit of processes that binds root; a run is ended once it has more than {PROCESSES}"
+    else:
+        count = f"at most {PROCESSES} processes, by RLIMIT_NPROC"
+    if place is not None and place.memory:
+        memory = f"at most {cgroup.MEMORY_BYTES >> 30} GiB of memory, by a control group"
+    else:
+        memory = "memory limited per process only"
+    return ("files read-only, no network, own processes", calls, count, memory)
 
 
 def masked(path: str) -> bool:

@@ -39,17 +39,19 @@ def run(args: argparse.Namespace) -> int:
     if args.format == "json":
         print_json(_json(environment, status))
     else:
-        rows = [*describe(environment), ("sandbox", _sandbox(status)), ("traces", str(TraceCache().folder))]
+        rows = [*describe(environment), *_sandbox(status), ("traces", str(TraceCache().folder))]
         width = max(len(what) for what, _ in rows)
         print_text("".join(f"{what:<{width}}  {value}\n" for what, value in rows))
     missing = bool(environment.problems) or (status is not None and not status.works)
     return FOUND if missing and args.fail_on != options.NEVER else CLEAN
 
 
-def _sandbox(status: SandboxStatus | None) -> str:
+def _sandbox(status: SandboxStatus | None) -> list[tuple[str, str]]:
     if status is None:
-        return "not tried: --no-run was given"
-    return "works" if status.works else f"does not work: {status.reason}"
+        return [("sandbox", "not tried: --no-run was given")]
+    if not status.works:
+        return [("sandbox", f"does not work: {status.reason}")]
+    return [("sandbox", "works: bubblewrap"), *(("sandbox", guarantee) for guarantee in status.guarantees)]
 
 
 def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, Any]:
@@ -64,6 +66,8 @@ def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, A
         "system_prefixes": list(environment.system_prefixes),
         "interpreter": environment.python,
         "problems": list(environment.problems),
-        "sandbox": None if status is None else {"works": status.works, "reason": status.reason},
+        "sandbox": None
+        if status is None
+        else {"works": status.works, "reason": status.reason, "guarantees": list(status.guarantees)},
         "traces": str(TraceCache().folder),
     }

@@ -12,6 +12,7 @@ import select
 import time
 from typing import Optional
 
+from .census import crowded
 from .supervisor import TICK, Run, drain, exit_code, host_is_gone, start
 
 PIECE = 36_000
@@ -19,7 +20,8 @@ PIECE = 36_000
 
 
 def watch(run: Run, events: int) -> None:
-    """Run the job's command and tell how it ended: `ended`, `exec-failed`, `timed-out`, `too-long` or `abandoned`."""
+    """Run the job's command and tell how it ended: `ended`, `exec-failed`, `timed-out`, `too-long`, `crowded` or
+    `abandoned`."""
     read, write = os.pipe()
     wake, failure = start(run, write)
     os.close(write)
@@ -48,6 +50,8 @@ def watch(run: Run, events: int) -> None:
             status = "too-long"
         elif time.monotonic() > deadline:
             status = "timed-out"
+        elif crowded(run.job["most_processes"]):
+            status = "crowded"
         elif host_is_gone():
             status = "abandoned"
     drain(run, events, rest)

@@ -19,6 +19,7 @@ import threading
 import time
 from typing import Any, Optional
 
+from .census import crowded
 from .params import ParamTree
 
 MASTER_PORT = 11311
@@ -311,6 +312,8 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
         rest = drain(run, events, rest)
         if ended is not None:
             return "ended", ended, ""
+        if crowded(run.job["most_processes"]):
+            return "crowded", None, ""
         reason = "abandoned" if host_is_gone() else run.over()
         if reason is not None:
             return reason, None, ""

@@ -1,0 +1,144 @@
+"""Too many processes and too much memory.
+
+Every node here is bounded by itself too: it stops after some dozen processes, all asleep, whether or not a limit holds.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from preflight_analysis.tracing import cgroup, sandbox
+from tracing_desk import trace, write_node
+
+FEW = 24
+MANY = 60
+
+CROWD = f"""
+import os, sys, time
+count = 0
+try:
+    while count < {MANY}:
+        if os.fork() == 0:
+            time.sleep(3)
+            os._exit(0)
+        count += 1
+except OSError as error:
+    print(count, error.strerror, file=sys.stderr)
+    sys.exit(3)
+time.sleep(2)
+sys.exit(4)
+"""
+
+
+@pytest.fixture
+def few(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sandbox, "PROCESSES", FEW)
+
+
+def test_the_number_of_processes_is_bounded(tmp_path: Path, few: None) -> None:
+    """By whatever there is on this machine; with a control group or RLIMIT_NPROC the node sees its forks fail."""
+    found = trace(write_node(tmp_path, CROWD))
+    if cgroup.place() is None and os.geteuid() == 0:
+        assert found.outcome.reason == f"it started more than {FEW} processes and was stopped"
+    else:
+        assert found.outcome.exit_code == 3, found.outcome
+        count, _, why = found.outcome.stderr_tail[-1].partition(" ")
+        assert why == "Resource temporarily unavailable"
+        assert int(count) < FEW
+
+
+def test_without_a_limit_from_outside_the_supervisor_ends_a_crowd(
+    tmp_path: Path, few: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cgroup, "place", lambda: None)
+    monkeypatch.setattr(os, "geteuid", lambda: 0)
+    body = CROWD.replace("os.fork() == 0", "os.fork() == 0 and os.setsid() is None")
+    began = time.monotonic()
+    found = trace(write_node(tmp_path, body))
+    if os.getuid() == 0:
+        expected = f"it started more than {FEW} processes and was stopped"
+        assert (found.outcome.status, found.outcome.reason) == ("crashed", expected)
+        assert time.monotonic() - began < 3
+    else:
+        assert found.outcome.exit_code == 3, "RLIMIT_NPROC came first"
+
+
+def test_threads_count_too(tmp_path: Path, few: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cgroup, "place", lambda: None)
+    monkeypatch.setattr(os, "geteuid", lambda: 0)
+    body = f"""
+    import threading, time
+    for _ in range({MANY}):
+        threading.Thread(target=time.sleep, args=(2,), daemon=True).start()
+    time.sleep(2)
+    """
+    outcome = trace(write_node(tmp_path, body)).outcome
+    if os.getuid() == 0:
+        assert outcome.reason == f"it started more than {FEW} processes and was stopped"
+    else:
+        assert "can't start new thread" in outcome.stderr_tail[-1]
+
+
+def test_no_group_is_left_behind(tmp_path: Path) -> None:
+    place = cgroup.place()
+    trace(write_node(tmp_path, "pass\n"))
+    if place is not None:
+        assert list(place.folder.glob(f"ros-preflight-{os.getpid()}-*")) == []
+
+
+CGROUP_2 = """25 1 0:22 / /proc rw - proc proc rw
+30 1 0:26 {root} {top} rw,nosuid - cgroup2 cgroup2 rw,nsdelegate
+"""
+
+
+def hand_down(folder: Path, controllers: str) -> None:
+    folder.mkdir(exist_ok=True)
+    (folder / "cgroup.subtree_control").write_text(controllers)
+
+
+def test_version_2_takes_the_nearest_group_that_hands_the_controller_down(tmp_path: Path) -> None:
+    hand_down(tmp_path, "cpu memory pids")
+    hand_down(tmp_path / "user", "memory pids")
+    hand_down(tmp_path / "user/session", "")
+    mounts = CGROUP_2.format(root="/", top=tmp_path)
+    found = list(cgroup.candidates("0::/user/session\n", mounts))
+    assert found == [cgroup.Place(tmp_path / "user", True), cgroup.Place(tmp_path, True)]
+
+
+def test_version_2_in_a_container_never_leaves_what_is_mounted(tmp_path: Path) -> None:
+    hand_down(tmp_path, "")
+    assert list(cgroup.candidates("0::/\n", CGROUP_2.format(root="/", top=tmp_path))) == []
+    hand_down(tmp_path, "pids")
+    assert list(cgroup.candidates("0::/../other\n", CGROUP_2.format(root="/", top=tmp_path))) == []
+    mounts = CGROUP_2.format(root="/docker/1", top=tmp_path)
+    assert list(cgroup.candidates("0::/docker/1\n", mounts)) == [cgroup.Place(tmp_path, False)]
+
+
+def test_version_1_is_the_group_of_the_pids_controller(tmp_path: Path) -> None:
+    mounts = f"31 1 0:27 / {tmp_path} rw - cgroup cgroup rw,pids\n"
+    found = list(cgroup.candidates("8:pids:/ci/job\n4:memory:/ci\n0::/\n", mounts))
+    assert found == [cgroup.Place(tmp_path / "ci/job", False)]
+
+
+def test_a_group_gets_its_limits_before_anything_enters_it(tmp_path: Path) -> None:
+    class Kept(Exception):
+        pass
+
+    with pytest.raises(Kept), cgroup.group(cgroup.Place(tmp_path, memory=True), 7) as folder:
+        assert (folder / "pids.max").read_text() == "7"
+        assert (folder / "memory.max").read_text() == str(cgroup.MEMORY_BYTES)
+        line = cgroup.entering(folder, ["/bin/sh", "-c", "echo $0 $$", "word"])
+        said = subprocess.run(line, capture_output=True, text=True, check=True).stdout.split()
+        assert said == ["word", (folder / "cgroup.procs").read_text().strip()]
+        raise Kept
+
+
+def test_what_cannot_enter_its_group_does_not_run(tmp_path: Path) -> None:
+    line = cgroup.entering(tmp_path / "missing", [sys.executable, "-c", f"open({str(tmp_path / 'ran')!r}, 'w')"])
+    assert subprocess.run(line, capture_output=True, check=False).returncode != 0
+    assert not (tmp_path / "ran").exists()
