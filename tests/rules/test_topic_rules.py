@@ -366,3 +366,32 @@ def test_a_namespace_is_only_a_hint_where_not_all_nodes_are_known() -> None:
          "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
     """)
     assert {f.severity for f in findings if f.rule == "TOP001"} == {"hint"}
+
+
+def test_an_image_that_is_read_compressed_is_read() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="camera"/>
+          <node pkg="p" type="t" name="web"/>
+          <node pkg="p" type="t" name="spare"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] '/spare/image', published by
+        </launch>
+        //- interfaces
+        {"/camera": {"publishers": {"image": "sensor_msgs/Image", "image/theora": "theora_image_transport/Packet",
+                                    "image/compressed": "sensor_msgs/CompressedImage"}},
+         "/spare": {"publishers": {"~image": "sensor_msgs/Image", "~image/compressed": "sensor_msgs/CompressedImage"}},
+         "/web": {"subscribers": {"image/compressed": "sensor_msgs/CompressedImage"}}}
+    """)
+
+
+def test_what_libraries_talk_about_among_themselves_is_no_finding() -> None:
+    check("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"publishers": {"~bond": "bond/Status", "/tf": "tf2_msgs/TFMessage", "/diagnostics": "d/DiagnosticArray",
+                               "~parameter_updates": "dynamic_reconfigure/Config",
+                               "~parameter_descriptions": "dynamic_reconfigure/ConfigDescription"},
+                "subscribers": {"/tf": "tf2_msgs/TFMessage", "/tf_static": "tf2_msgs/TFMessage",
+                                "manager/bond": "bond/Status"},
+                "services": {"~set_parameters": "dynamic_reconfigure/Reconfigure"}}}
+    """)

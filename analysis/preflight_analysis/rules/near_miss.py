@@ -15,7 +15,7 @@ from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.rules.well_known import may_dangle
+from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS, may_dangle
 
 _GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
 """Types that say nothing of what is carried: that two ends have the same one is no evidence."""
@@ -98,8 +98,14 @@ def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
 def dangling_offers(channels: Mapping[str, Channel]) -> Iterator[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     for channel in channels.values():
-        if not channel.wants:
+        if not channel.wants and not _read_otherwise(channel.name, channels):
             yield from (c for c in channel.offers if c.action is None and not may_dangle(channel.name, c.endpoint))
+
+
+def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
+    """Whether an image is read in another transport of the same publisher."""
+    others = (channels.get(name + transport) for transport in IMAGE_TRANSPORTS)
+    return any(channel.wants and channel.offers for channel in others if channel is not None)
 
 
 def lone_of_type(wanting: Connection, dangling: Iterable[Connection]) -> Connection | None:

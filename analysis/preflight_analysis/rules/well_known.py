@@ -20,7 +20,8 @@ _TOPICS = frozenset(
 _FROM_RVIZ = frozenset({"clicked_point", "initialpose", "move_base_simple/goal"})
 _TO_TOOLS = ("/parameter_descriptions", "/parameter_updates")
 """dynamic_reconfigure's, read by its own graphical client."""
-_IMAGE_TRANSPORTS = ("/compressed", "/compressedDepth", "/theora")
+IMAGE_TRANSPORTS = ("/compressed", "/compressedDepth", "/theora")
+"""What an image_transport publisher makes beside its image. Who reads one of them reads the image."""
 
 _TO_ACTION_SERVER = ("ActionGoal", "actionlib_msgs/GoalID")
 _FROM_ACTION_SERVER = ("ActionFeedback", "ActionResult", "actionlib_msgs/GoalStatusArray")
@@ -49,11 +50,13 @@ def may_dangle(name: str, endpoint: Endpoint) -> bool:
     if endpoint.builtin or name in _TOPICS or name.endswith(("/tf", "/tf_static")):
         return True
     kind = endpoint.type or ""
+    if kind == "bond/Status":
+        return True  # between processes that watch each other: a nodelet's manager and its loaders
     if endpoint.role == "subscriber":
         if any(name.endswith("/" + topic) for topic in _FROM_RVIZ):
             return True
         return kind.endswith((*_TO_ACTION_SERVER, *_BESIDE_ACTION_RESULT))
-    if name.endswith((*_TO_TOOLS, *_IMAGE_TRANSPORTS)):
+    if name.endswith((*_TO_TOOLS, *IMAGE_TRANSPORTS)):
         return True
     return kind.endswith((*_TO_ACTION_SERVER, *_FROM_ACTION_SERVER))
 

@@ -1,7 +1,7 @@
 """Nodelets that are loaded into a manager: `nodelet load pkg/Type manager`.
 
-The loader's process only asks the manager to load; that process makes the nodelet's topics, under the name and namespace
-of the loader, with its remaps and parameters. `nodelet standalone pkg/Type` makes the same ones in one process, so that
+The loader's process only asks the manager to load; that process makes the nodelet's topics, under the loader's name and
+namespace, with its remaps and parameters. `nodelet standalone pkg/Type` makes the same ones in one process, so that
 is what is run, and what the loader asks of the manager is added.
 """
 
