@@ -137,3 +137,29 @@ def test_nothing_is_said_of_a_node_that_is_not_known_to_its_end() -> None:
         </launch>
     """
     assert [f for f in findings_of(annotated) if f.rule == "TOP004"] == []
+
+
+def test_a_nodelet_may_subscribe_later() -> None:
+    check("""
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="rectify" args="load image_proc/rectify manager">
+            <remap from="image_mono" to="camera/image_raw"/>
+          </node>
+        </launch>
+        //- /nodelet/package.xml
+        <package><name>nodelet</name></package>
+        //- interfaces
+        {"/rectify": {"publishers": {"~parameter_updates": "dynamic_reconfigure/Config"}}}
+    """)
+
+
+def test_a_remap_of_an_actions_name_has_an_effect() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"><remap from="move_base" to="go"/></node>
+        </launch>
+        //- interfaces
+        {"/base": {"publishers": {"move_base/status": "actionlib_msgs/GoalStatusArray",
+                                  "move_base/feedback": "m/GoActionFeedback", "move_base/result": "m/GoActionResult"},
+                   "subscribers": {"move_base/goal": "m/GoActionGoal", "move_base/cancel": "actionlib_msgs/GoalID"}}}
+    """)

@@ -83,6 +83,8 @@ def _tells_names(node: LaunchNode, interface: Interface) -> bool:
     something else, whose names nobody saw."""
     if interface.source != "trace" or not interface.complete or node.unknowns:
         return False
+    if node.package == "nodelet":
+        return False  # those of images subscribe only while somebody reads what they make of it
     return any(not (e.builtin or e.speculative) for e in interface.endpoints)
 
 
