@@ -205,6 +205,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
             name,
             type_,
             data.get("md5", {}).get(name),
+            {"latch": True} if name in data.get("latched", ()) else {},
             source_file=made.get(name, [None, None])[0],
             source_line=made.get(name, [None, None])[1],
             builtin=name in data.get("builtin", ()),

@@ -395,3 +395,48 @@ def test_what_libraries_talk_about_among_themselves_is_no_finding() -> None:
                                 "manager/bond": "bond/Status"},
                 "services": {"~set_parameters": "dynamic_reconfigure/Reconfigure"}}}
     """)
+
+
+def test_two_nodes_that_latch_a_map() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="map_server"/>
+          <node pkg="p" type="t" name="slam"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/map' is published by /map_server and /slam
+          <node pkg="p" type="t" name="planner"/>
+        </launch>
+        //- interfaces
+        {"/map_server": {"publishers": {"map": "nav_msgs/OccupancyGrid"}, "latched": ["map"]},
+         "/slam": {"publishers": {"map": "nav_msgs/OccupancyGrid"}, "latched": ["map"]},
+         "/planner": {"subscribers": {"map": "nav_msgs/OccupancyGrid"}}}
+    """)
+
+
+def test_other_latched_topics_are_an_info_and_clock_a_warning() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/clock' is published by /a and /b
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TOP005] '/mode' is published by /a and /b
+          <node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"mode": "std_msgs/String", "/clock": "rosgraph_msgs/Clock"}, "latched": ["mode"]},
+         "/b": {"publishers": {"mode": "std_msgs/String", "/clock": "rosgraph_msgs/Clock"}, "latched": ["mode"]},
+         "/c": {"subscribers": {"mode": "std_msgs/String"}}}
+    """)
+
+
+def test_several_publishers_are_fine_where_many_are_meant() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"m": "visualization_msgs/Marker", "/tf_static": "tf2_msgs/TFMessage", "cmd": "x/T",
+                               "state": "x/S"}, "latched": ["m", "/tf_static", "state"]},
+         "/b": {"publishers": {"m": "visualization_msgs/Marker", "/tf_static": "tf2_msgs/TFMessage", "cmd": "x/T",
+                               "state": "x/S"}, "latched": ["m", "/tf_static"]},
+         "/c": {"subscribers": {"m": "visualization_msgs/Marker", "cmd": "x/T", "state": "x/S"}}}
+    """)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.findings.finding import Edit, Fix
 from preflight_analysis.rules.rule import Context
 
 
@@ -19,3 +21,27 @@ def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:
     for param in params:
         groups.setdefault(param.name.rpartition("/")[0], []).append(param)
     return groups
+
+
+def name_place(param: Param) -> Location:
+    """Where a finding about the parameter is shown: at its name."""
+    return param.name_location or param.origin[-1]
+
+
+def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
+    """A fix where the name is written as such: in an attribute as far as the two names differ, or as a YAML key."""
+    location = param.name_location
+    if location is None:
+        return ()
+    document = context.documents.get(location.file)
+    if document is None:
+        return ()
+    written = document.text[location.span.start : location.span.end]
+    mark = "~" if written.startswith("~") else ""
+    stem = written[len(mark) :]
+    if stem.startswith("/"):
+        new = name if stem == param.name else None
+    else:
+        prefix = param.name.removesuffix(stem)
+        new = name[len(prefix) :] if param.name.endswith("/" + stem) and name.startswith(prefix) else None
+    return (Fix(f"Rename '{written}' to '{mark}{new}'", (Edit(location, mark + new),), True),) if new else ()

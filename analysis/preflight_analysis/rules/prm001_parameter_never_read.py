@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 from rapidfuzz.distance import OSA
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related
+from preflight_analysis.findings.finding import Confidence, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import by_namespace, grouped
+from preflight_analysis.rules.parameters import by_namespace, grouped, name_place, renamed
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -69,10 +68,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         sure: Confidence = "likely" if graph.complete else "possible"
         yield rule.finding(
             message,
-            _location(param),
+            name_place(param),
             confidence=sure,
             related=_related(param, read),
-            fixes=_renamed(context, param, read.name),
+            fixes=renamed(context, param, read.name),
         )
 
 
@@ -124,7 +123,7 @@ def _private(rule: Rule, context: Context, reads: _Reads, param: Param, holder: 
     if read is None:
         return rule.finding(
             f"{holder.name} does not read parameter '{param.name}' before its event loop, nor does any other node",
-            _location(param),
+            name_place(param),
             severity="hint",
             confidence="possible",
             related=(Related(f"{holder.name} is started here", node_location(holder)), *include_chain(param.origin)),
@@ -135,10 +134,10 @@ def _private(rule: Rule, context: Context, reads: _Reads, param: Param, holder: 
     )
     return rule.finding(
         message,
-        _location(param),
+        name_place(param),
         confidence="likely",
         related=_related(param, read),
-        fixes=_renamed(context, param, read.name),
+        fixes=renamed(context, param, read.name),
     )
 
 
@@ -207,34 +206,11 @@ def _default(read: ParamRead) -> str:
     return f" (default {read.use.default!r})" if read.use.has_default else ""
 
 
-def _location(param: Param) -> Location:
-    return param.name_location or param.origin[-1]
-
-
 def _related(param: Param, read: ParamRead) -> tuple[Related, ...]:
     return (
         Related(f"{read.node.name} reads {read.name}", node_location(read.node)),
         *include_chain(param.origin),
     )
-
-
-def _renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
-    """A fix where the name is written as such: in an attribute as far as the two names differ, or as a YAML key."""
-    location = param.name_location
-    if location is None:
-        return ()
-    document = context.documents.get(location.file)
-    if document is None:
-        return ()
-    written = document.text[location.span.start : location.span.end]
-    mark = "~" if written.startswith("~") else ""
-    stem = written[len(mark) :]
-    if stem.startswith("/"):
-        new = name if stem == param.name else None
-    else:
-        prefix = param.name.removesuffix(stem)
-        new = name[len(prefix) :] if param.name.endswith("/" + stem) and name.startswith(prefix) else None
-    return (Fix(f"Rename '{written}' to '{mark}{new}'", (Edit(location, mark + new),), True),) if new else ()
 
 
 RULE = Rule(

@@ -1,0 +1,67 @@
+"""LCH030: the launch runs on simulated time, and nobody tells the time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_SIMULATORS = (
+    "gazebo",
+    "gzserver",
+    "stage",
+    "morse",
+    "webots",
+    "carla",
+    "coppelia",
+    "vrep",
+    "airsim",
+    "isaac",
+    "mujoco",
+)
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    param = context.tree.params.get("/use_sim_time")
+    if graph is None or param is None or not graph.complete or not graph.tree.nodes:
+        return
+    if param.value is not True and param.value != 1:
+        return
+    clock = graph.topics.get("/clock")
+    if (clock is not None and clock.offers) or any(map(_tells_time, graph.tree.nodes)):
+        return
+    yield rule.finding(
+        "/use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
+        "`rosbag play --clock` beside it, time stands still",
+        name_place(param),
+        confidence="likely",
+        related=include_chain(param.origin),
+    )
+
+
+def _tells_time(node: LaunchNode) -> bool:
+    """Whether the node is a simulator or plays a bag with its time: neither does so before it runs for a while."""
+    name = f"{node.package}/{node.executable}".lower()
+    return any(word in name for word in _SIMULATORS) or "--clock" in node.args.split()
+
+
+RULE = Rule(
+    id="LCH030",
+    name="use-sim-time-without-clock",
+    severity="warning",
+    what="Reports `/use_sim_time` being true in a launch of which all nodes are known and none publishes `/clock`. "
+    "Simulators and `rosbag play --clock` count as publishers.",
+    why="Timers, rates and timeouts wait for the first message on `/clock`: the nodes start and do nothing, without a "
+    "word.",
+    example='<param name="/use_sim_time" value="true"/>\n<node pkg="amcl" type="amcl" name="amcl"/>',
+    instead='<arg name="simulated" default="false"/>\n<param name="/use_sim_time" value="$(arg simulated)"/>\n'
+    '<node pkg="amcl" type="amcl" name="amcl"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

@@ -1,0 +1,53 @@
+"""SRV003: two nodes offer one service."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    # Two nodes of a kind share all their services: one finding for all that stand at one place.
+    found: dict[tuple[Location, tuple[str, ...]], list[tuple[str, list[Connection]]]] = {}
+    for channel in context.graph.services.values():
+        servers = list({c.node.name: c for c in channel.offers if not c.endpoint.builtin}.values())
+        if len(servers) > 1:
+            # A remap that brings them together is the place to change; else the later of the nodes.
+            servers.sort(key=lambda c: c.remap is not None)
+            key = (connection_location(servers[-1]), tuple(c.node.name for c in servers))
+            found.setdefault(key, []).append((channel.name, servers))
+    for (location, nodes), offered in found.items():
+        names, servers = [name for name, _ in offered], offered[0][1]
+        sure = not any(c.endpoint.speculative for _, ends in offered for c in ends)
+        subject = f"service {quoted(names)} is" if len(names) == 1 else f"services {quoted(names)} are"
+        yield rule.finding(
+            f"{subject} offered by {' and '.join(nodes)}: only the one that registers last is called",
+            location,
+            confidence="likely" if sure else "possible",
+            related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+        )
+
+
+RULE = Rule(
+    id="SRV003",
+    name="service-offered-twice",
+    severity="warning",
+    what="Reports a service that two nodes of the launch offer under one name.",
+    why="The master knows one server for a service: the node that registers last takes it from the other, and which "
+    "one that is differs from start to start.",
+    example='<node pkg="base" type="driver" name="left"/> <!-- both offer /reset -->\n'
+    '<node pkg="base" type="driver" name="right"/>',
+    instead='<node pkg="base" type="driver" name="left" ns="left"/>\n'
+    '<node pkg="base" type="driver" name="right" ns="right"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

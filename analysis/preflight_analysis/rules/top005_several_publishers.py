@@ -1,0 +1,67 @@
+"""TOP005: two nodes publish a topic that is meant for one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import is_transform
+
+_STATE = frozenset({"nav_msgs/OccupancyGrid", "nav_msgs/MapMetaData", "sensor_msgs/CameraInfo"})
+"""Types of which a latched message is the state of the world: there is one."""
+_SHARED = ("visualization_msgs/", "diagnostic_msgs/", "actionlib_msgs/", "dynamic_reconfigure/")
+"""Types whose messages say whose they are: many publish them on one topic."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    for channel in context.graph.topics.values():
+        if len(channel.offers) < 2 or is_transform(channel.name):
+            continue
+        ends = list({c.node.name: c for c in channel.offers if not (c.endpoint.builtin or c.action)}.values())
+        latched = [end for end in ends if end.endpoint.qos.get("latch") is True and not _is_shared(end)]
+        if channel.name == "/clock" and len(ends) > 1:
+            yield _finding(rule, channel, ends, "warning", "time jumps between them")
+        elif len(latched) > 1:
+            severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
+            consequence = "each latches its last message, and a new subscriber gets both in any order"
+            yield _finding(rule, channel, latched, severity, consequence)
+
+
+def _is_shared(end: Connection) -> bool:
+    return (end.endpoint.type or "").startswith(_SHARED)
+
+
+def _finding(rule: Rule, channel: Channel, ends: list[Connection], severity: Severity, consequence: str) -> Finding:
+    ends = sorted(ends, key=lambda end: end.remap is not None)
+    sure = not any(end.endpoint.speculative for end in ends)
+    return rule.finding(
+        f"'{channel.name}' is published by {' and '.join(end.node.name for end in ends)}: {consequence}",
+        connection_location(ends[-1]),
+        severity=severity,
+        confidence="likely" if sure else "possible",
+        related=(*(related_end(end, "publishes") for end in ends[:-1]), *include_chain(ends[-1].node.origin)),
+    )
+
+
+RULE = Rule(
+    id="TOP005",
+    name="several-publishers",
+    severity="warning",
+    what="Reports a topic that is meant for one publisher and has several: `/clock`, and latched topics. Of latched "
+    "topics it is a warning for maps and camera calibrations, an info for others. Transforms, markers and diagnostics, "
+    "whose messages say whose they are, are meant for many.",
+    why="A latched message is taken for the state of the world. With two of them, what a subscriber believes depends "
+    "on the order in which they arrive.",
+    example='<node pkg="map_server" type="map_server" name="map_server"/> <!-- both publish /map -->\n'
+    '<node pkg="gmapping" type="slam_gmapping" name="slam"/>',
+    instead='<node pkg="gmapping" type="slam_gmapping" name="slam"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

@@ -1,0 +1,56 @@
+"""LCH030: simulated time that nobody tells."""
+
+import pytest
+from preflight_check import check
+
+_INTERFACES = """
+        //- interfaces
+        {"/n": {"params": {"/use_sim_time": false}}}
+"""
+
+
+def test_simulated_time_without_a_clock() -> None:
+    check(
+        """
+        <launch>
+          <param name="/use_sim_time" value="true"/>
+                       ^^^^^^^^^^^^^ warning[LCH030] no node of this launch publishes /clock
+          <node pkg="p" type="t" name="n"/>
+        </launch>"""
+        + _INTERFACES
+    )
+
+
+@pytest.mark.parametrize(
+    "launch",
+    [
+        '<param name="/use_sim_time" value="false"/><node pkg="p" type="t" name="n"/>',
+        '<param name="/use_sim_time" value="true"/><node pkg="p" type="play" name="n" args="--clock a.bag"/>',
+        '<param name="/use_sim_time" value="true"/><node pkg="p" type="gzserver" name="n"/>',
+        '<param name="/use_sim_time" value="true"/>',
+    ],
+)
+def test_silent_where_time_is_real_or_told(launch: str) -> None:
+    interfaces = _INTERFACES if "<node" in launch else ""
+    check(f"""
+        <launch>{launch}</launch>{interfaces}""")
+
+
+def test_silent_where_a_node_publishes_clock_or_is_not_known() -> None:
+    check("""
+        <launch>
+          <param name="/use_sim_time" value="true"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {"/n": {"publishers": {"/clock": "rosgraph_msgs/Clock"}}}
+    """)
+    check("""
+        <launch>
+          <param name="/use_sim_time" value="true"/>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1}}
+    """)
