@@ -293,16 +293,6 @@ def test_calls_past_the_library_are_seen_by_the_master(tmp_path: Path) -> None:
     assert ("has", "/raw_param") in params(found)
 
 
-def test_a_compiled_node_is_seen_by_the_master_alone() -> None:
-    found = trace(Path("/usr/lib/rosout/rosout"), "/out")
-    assert found.outcome.status == "spinning"
-    assert own(found) == {
-        ("subscriber", "/rosout", "rosgraph_msgs/Log"),
-        ("publisher", "/rosout_agg", "rosgraph_msgs/Log"),
-    }
-    assert {e.name for e in found.endpoints if e.builtin} == {"~get_loggers", "~set_logger_level"}
-
-
 def test_subclasses_and_own_sitecustomize_keep_working(tmp_path: Path) -> None:
     (tmp_path / "sitecustomize.py").write_text("import builtins\nbuiltins.customised = __file__\n")
     script = write_node(

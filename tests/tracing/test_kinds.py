@@ -92,7 +92,7 @@ def test_a_nodelet_manager_is_an_ordinary_node() -> None:
     found = Tracer(environment(), None).trace(asked, threading.Event())
     assert found.outcome.status == "spinning"
     services = {e.name for e in found.endpoints if e.role == "service" and not e.builtin}
-    assert services == {"/manager/load_nodelet", "/manager/unload_nodelet", "/manager/list"}
+    assert services == {"~load_nodelet", "~unload_nodelet", "~list"}
 
 
 def test_a_shell_wrapper_that_starts_a_node(tmp_path: Path) -> None:

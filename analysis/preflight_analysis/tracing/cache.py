@@ -33,7 +33,7 @@ class TraceCache(Store):
         """The interface, if a run of this recipe is known and nothing it depended on has changed."""
         view: _View | None = None
         for path, entry in self._entries(self._place(recipe, request)):
-            view = view or _View(request, recipe.python)
+            view = view or _View(request, recipe.remapped)
             try:
                 if not _valid(entry["dependencies"], view):
                     continue
@@ -56,7 +56,7 @@ class TraceCache(Store):
     ) -> bool:
         """Keep a trace of a run that began at `started` (seconds since the epoch). `listings` are folders whose
         modules it depended on. False if it was not kept: a file has changed since, or the disk refused."""
-        view = _View(request, recipe.python)
+        view = _View(request, recipe.remapped)
         files = {}
         for path in dict.fromkeys((request.executable, *dependencies.files)):
             files[path] = fingerprint(path)
@@ -78,6 +78,7 @@ class TraceCache(Store):
             "given": request.executable,
             "package": request.package,
             "python": recipe.python,
+            "watched": recipe.remapped,
             "interpreter": list(recipe.argv[: recipe.argv.index(request.executable)]),
             "args": list(request.args),
             "env": dict(recipe.stable),
@@ -89,9 +90,9 @@ class TraceCache(Store):
 class _View:
     """What a run with this request would find: parameters, names."""
 
-    def __init__(self, request: TraceRequest, python: bool) -> None:
+    def __init__(self, request: TraceRequest, remapped: bool) -> None:
         self._node = request.node
-        self._remaps = names.resolve_remaps(request.remaps, request.node) if python else {}
+        self._remaps = names.resolve_remaps(request.remaps, request.node) if remapped else {}
         self._tree = ParamTree()
         for name, value in encode_params(request.params):
             self._tree.set(name, value)

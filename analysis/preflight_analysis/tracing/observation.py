@@ -107,15 +107,18 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     outcome = dataclasses.replace(_outcome(raw, found, tail), answers=tuple(found.answers))
     if outcome.status == "not-run":
         return Observation(Interface("none", outcome), Dependencies(), lasting=False)
-    remaps = names.resolve_remaps(request.remaps, request.node) if recipe.python else {}
+    remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
+    if not recipe.python:
+        _correct_names(found, request.node, remaps)
     endpoints = _endpoints(found, request.node, remaps)
     params, param_dependencies = _params(found)
     asked = set(found.asked)
     unexplained = len(endpoints) > len(found.endpoints) or any(
         not d.given and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
     )
-    if not found.woven or unexplained:
-        asked |= {"name", "remaps"} if recipe.python else {"name"}
+    # A roscpp node can look at its name and remaps without being seen.
+    if not found.woven or unexplained or not recipe.python:
+        asked |= {"name", "remaps"} if recipe.remapped else {"name"}
     interface = Interface("trace", outcome, endpoints, params, notes=_notes(found))
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
     return Observation(interface, dependencies, lasting=not raw.killed and not raw.cancelled)
@@ -231,7 +234,7 @@ def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:
         str(access),
         _plain(record.get("default")) if has_default else None,
         has_default,
-        mandatory=access == "get" and not has_default,
+        mandatory=access == "get" and not has_default and record.get("optional") is not True,
         source_file=file,
         source_line=line,
         builtin=record.get("builtin") is True,
@@ -275,6 +278,14 @@ def _add_files(paths: Iterable[str], found: _Gathered) -> None:
     for path in paths:
         if len(found.files) < MAX_FILES:
             found.files[path] = None
+
+
+def _correct_names(found: _Gathered, node: str, remaps: Mapping[str, str]) -> None:
+    """A handle of roscpp may have a namespace and remaps of its own: where the graph would not come to the name that
+    the library did, the name is the library's."""
+    for key, (endpoint, full) in found.endpoints.items():
+        if full is not None and names.resolve(endpoint.name, node, remaps) != full:
+            found.endpoints[key] = dataclasses.replace(endpoint, name=full), full
 
 
 def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[Endpoint, ...]:

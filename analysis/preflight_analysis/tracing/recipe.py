@@ -41,15 +41,21 @@ class Recipe:
     stable: Mapping[str, str]
     cwd: str
     python: bool
-    """Whether the executable is a Python script: its names are then told by rospy itself, before remapping."""
+    """Whether the executable is a Python script."""
+    remapped: bool = False
+    """Whether it gets the remaps. The client library then tells the names from before remapping."""
+    preload: str | None = None
+    """The library that watches roscpp in it."""
 
 
-def make(environment: Environment, request: TraceRequest) -> Recipe:
-    """The recipe of a request. Reads the executable's first line; an unreadable one is left for exec to complain of."""
+def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
+    """The recipe of a request. Reads the executable's first line; an unreadable one is left for exec to complain of.
+    `preload` is the library for the executable, if it is a program that one can be loaded into."""
     stable = _variables(environment, request.env)
     interpreter, python = _interpreter(environment, request.executable, stable["PATH"])
     argv = [*interpreter, request.executable, *request.args]
-    if python:
+    remapped = python or preload is not None
+    if remapped:
         argv += [f"{source}:={target}" for source, target in request.remaps]
     # Of any other executable only the master's view is known, where names are remapped already. It gets no remaps, so
     # that there too the names are those before remapping, and the graph can apply them.
@@ -59,7 +65,9 @@ def make(environment: Environment, request: TraceRequest) -> Recipe:
     namespace = names.parent(request.node).rstrip("/")
     if namespace:
         env["ROS_NAMESPACE"] = namespace
-    return Recipe(tuple(argv), env, stable, _folder(request), python)
+    if preload is not None:
+        env["LD_PRELOAD"] = ":".join(library for library in (preload, stable.get("LD_PRELOAD", "")) if library)
+    return Recipe(tuple(argv), env, stable, _folder(request), python, remapped, preload)
 
 
 def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
@@ -110,9 +118,9 @@ def visible_paths(environment: Environment) -> list[str]:
     return sandbox.needs_binding(paths)
 
 
-def request_paths(request: TraceRequest) -> list[str]:
+def request_paths(request: TraceRequest, recipe: Recipe) -> list[str]:
     """What this node needs to see besides."""
-    return sandbox.needs_binding(_program_paths(request.executable))
+    return sandbox.needs_binding([*_program_paths(request.executable), recipe.preload or ""])
 
 
 def command_paths(recipe: Recipe, executable: str, files: Iterable[str], interpreter: str) -> list[str]:

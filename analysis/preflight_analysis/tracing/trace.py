@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing import nodelets, run, sandbox
+from preflight_analysis.tracing import nodelets, preload, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
@@ -20,13 +20,20 @@ from preflight_analysis.tracing.request import TraceRequest
 
 _log = logging.getLogger(__name__)
 
+_NO_PRELOAD = preload.Preload(None)
+_MASTER_ALONE = "only what a ROS master sees of it is known"
+
 
 class Tracer:
-    """Traces nodes of one environment. Usable from several threads at once. Without `cache` each trace is a run."""
+    """Traces nodes of one environment. Usable from several threads at once. Without `cache` each trace is a run.
+    `library` is what watches roscpp nodes, if not the one in the user's cache folder."""
 
-    def __init__(self, environment: Environment, cache: TraceCache | None) -> None:
+    def __init__(
+        self, environment: Environment, cache: TraceCache | None, library: preload.Library | None = None
+    ) -> None:
         self.environment = environment
         self.cache = cache
+        self._library = library or preload.library()
 
     @functools.cached_property
     def _visible(self) -> list[str]:
@@ -38,7 +45,8 @@ class Tracer:
             return None
         alone = nodelets.standalone(request)
         try:
-            found = self.cache.load(recipes.make(self.environment, alone), alone)
+            planned = self._library.planned() if preload.applies(alone.executable) else _NO_PRELOAD
+            found = self.cache.load(recipes.make(self.environment, alone, planned.path), alone)
             return nodelets.with_manager(found, request) if found is not None else None
         except Exception:
             _log.exception("looking up a trace of %s failed", request.node)
@@ -61,20 +69,29 @@ class Tracer:
             return _not_run(f"no sandbox: {status.reason}")
         if cancel.is_set():
             return _not_run("the run was cancelled")
-        recipe = recipes.make(self.environment, request)
-        visible = sorted({*self._visible, *recipes.request_paths(request)})
+        built = self._library.build() if preload.applies(request.executable) else _NO_PRELOAD
+        recipe = recipes.make(self.environment, request, built.path)
+        visible = sorted({*self._visible, *recipes.request_paths(request, recipe)})
         raw = run.execute(recipe, request.params, visible, self.environment.python or sys.executable, cancel)
         observed = observe(raw, recipe, request)
+        if built.reason is not None:
+            noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
+            observed = replace(observed, interface=noted)
         if self.cache is not None and observed.lasting:
             self.cache.store(
                 recipe,
                 request,
                 observed.interface,
-                replace(observed.dependencies, files=on_host(observed.dependencies.files, visible)),
+                replace(observed.dependencies, files=_files(observed, recipe, visible)),
                 listings=_searched(observed, recipe, request),
                 started=raw.started,
             )
         return observed.interface
+
+
+def _files(observed: Observation, recipe: recipes.Recipe, visible: Iterable[str]) -> tuple[str, ...]:
+    """What the trace depends on; our own library is known by its source."""
+    return tuple(path for path in on_host(observed.dependencies.files, visible) if path != recipe.preload)
 
 
 def on_host(files: Iterable[str], visible: Iterable[str]) -> tuple[str, ...]:

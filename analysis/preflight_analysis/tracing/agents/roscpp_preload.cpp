@@ -1,0 +1,586 @@
+// Preloaded into roscpp nodes: tells endpoints, parameter calls and the way into the event loop, in the events of
+// channel.py, and passes every call on as it came.
+//
+// No ROS header is needed, so that one source serves every ROS 1 distribution: the functions are intercepted by their
+// mangled names, of the objects only the first fields of the option structs are read (their order has not changed since
+// Indigo), handles that are returned by value are opaque. Each hook is `tell, call`; what tells neither throws nor
+// changes errno. A function that a library calls within itself is only seen where the library was linked without
+// -Bsymbolic-functions; nothing here relies on it.
+#include <dirent.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <link.h>
+#include <string.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#define HOOK extern "C" __attribute__((visibility("default")))
+#define STRING "RKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
+
+// Named, or the hooks that use its types could not be seen from outside.
+namespace preflight {
+
+// A write to a FIFO of at most PIPE_BUF bytes is not torn apart by those of other threads.
+constexpr size_t kMaxLine = 4096;
+constexpr int kMaxEvents = 5000;
+constexpr size_t kMaxName = 300;
+// XML-RPC, polling of sockets, the internal callback queue, and the publisher of /rosout.
+constexpr int kLibraryThreads = 4;
+
+char fifo[256];
+std::atomic<int> told{0};
+std::atomic<int> library_threads{kLibraryThreads};
+thread_local int depth = 0;  // of hooks: what the library calls on the node's behalf is told once
+
+__attribute__((constructor)) void remember_fifo() {
+  const char* path = getenv("PREFLIGHT_EVENTS");
+  if (path != nullptr && strlen(path) < sizeof fifo) strcpy(fifo, path);
+}
+
+struct Errno {
+  int kept = errno;
+  ~Errno() { errno = kept; }
+};
+
+struct Depth {
+  Depth() { ++depth; }
+  ~Depth() { --depth; }
+};
+
+void write_line(const std::string& line) {
+  if (fifo[0] == 0 || line.size() > kMaxLine || told.fetch_add(1) >= kMaxEvents) return;
+  // Opened anew each time: the node may close descriptors that it does not know.
+  int descriptor = open(fifo, O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  while (write(descriptor, line.data(), line.size()) < 0 && errno == EINTR) {
+  }
+  close(descriptor);
+}
+
+// A flat JSON object, by and by.
+class Event {
+ public:
+  explicit Event(const char* kind) : text_("{\"ev\":\"") { text_.append(kind).append("\""); }
+
+  Event& raw(const char* key, const std::string& value) {
+    text_.append(",\"").append(key).append("\":").append(value);
+    return *this;
+  }
+
+  Event& add(const char* key, const std::string& value) {
+    std::string quoted = "\"";
+    for (unsigned char c : value.substr(0, kMaxName + 1)) {
+      char escaped[8];
+      if (c < 0x20 || c == '"' || c == '\\') {
+        snprintf(escaped, sizeof escaped, "\\u%04x", c);
+        quoted.append(escaped);
+      } else {
+        quoted.push_back(static_cast<char>(c));
+      }
+    }
+    return raw(key, quoted + "\"");
+  }
+
+  Event& add(const char* key, bool value) { return raw(key, value ? "true" : "false"); }
+
+  void send() const { write_line(text_ + "}\n"); }
+
+ private:
+  std::string text_;
+};
+
+// Where libraries were loaded for one user only (plugins), RTLD_NEXT does not find them.
+void* in_loaded_library(const char* symbol) {
+  struct Search {
+    const char* symbol;
+    void* found;
+  } search{symbol, nullptr};
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, size_t, void* data) {
+        auto* wanted = static_cast<Search*>(data);
+        const char* name = strrchr(info->dlpi_name, '/');
+        if (name == nullptr || strncmp(name, "/libros", 7) != 0) return 0;
+        void* library = dlopen(info->dlpi_name, RTLD_LAZY | RTLD_NOLOAD);
+        if (library == nullptr) return 0;
+        wanted->found = dlsym(library, wanted->symbol);
+        dlclose(library);
+        return wanted->found != nullptr ? 1 : 0;
+      },
+      &search);
+  return search.found;
+}
+
+// The library's own function; nullptr only if there is none.
+template <typename Function>
+Function* real(std::atomic<void*>& known, const char* symbol) {
+  void* found = known.load(std::memory_order_acquire);
+  if (found == nullptr) {
+    Errno kept;
+    found = dlsym(RTLD_NEXT, symbol);
+    if (found == nullptr) found = in_loaded_library(symbol);
+    known.store(found, std::memory_order_release);
+  }
+  return reinterpret_cast<Function*>(found);
+}
+
+// As `real`, for a hook: it is only reached by a program that linked against the function.
+template <typename Function>
+Function* real_or_die(std::atomic<void*>& known, const char* symbol) {
+  auto* function = real<Function>(known, symbol);
+  if (function == nullptr) abort();
+  return function;
+}
+
+#define REAL(symbol, ...)                                                            \
+  ([]() {                                                                            \
+    static std::atomic<void*> known{nullptr};                                        \
+    return real_or_die<__VA_ARGS__>(known, symbol);                                  \
+  }())
+
+#define REAL_IF_ANY(symbol, ...)                                                     \
+  ([]() {                                                                            \
+    static std::atomic<void*> known{nullptr};                                        \
+    return real<__VA_ARGS__>(known, symbol);                                         \
+  }())
+
+// Runs what tells; whatever goes wrong stays here.
+template <typename Tell>
+void quietly(Tell tell) noexcept {
+  Errno kept;
+  Depth nested;
+  try {
+    static std::atomic<bool> woven{false};
+    if (!woven.exchange(true)) Event("woven").send();
+    tell();
+  } catch (...) {
+  }
+}
+
+struct NodeHandle {
+  std::string name_space;  // resolved
+  std::string given_name_space;
+};
+
+// What returns by value (Publisher, Subscriber, ServiceServer, ServiceClient, Timer) is a boost::shared_ptr inside.
+// A copy constructor and destructor of its own make it be returned through a hidden pointer, as the real ones are.
+struct Handle {
+  Handle(const Handle& other) { memcpy(parts, other.parts, sizeof parts); }
+  ~Handle() {}
+  void* parts[2];
+};
+
+// ros::AdvertiseOptions and ros::SubscribeOptions begin alike.
+struct TopicOptions {
+  std::string topic;
+  uint32_t queue_size;
+  std::string md5;
+  std::string type;
+};
+
+struct ServiceOptions {
+  std::string service;
+  std::string md5;
+  std::string type;
+};
+
+struct ClientOptions {
+  std::string service;
+  std::string md5;
+};
+
+// After the three callbacks (boost::function, 32 bytes each), the tracked object and the queue.
+constexpr size_t kLatchOffset = 224;
+
+bool in_main_thread() { return syscall(SYS_gettid) == getpid(); }
+
+int threads_now() {
+  DIR* tasks = opendir("/proc/self/task");
+  if (tasks == nullptr) return 0;
+  int count = 0;
+  while (dirent* entry = readdir(tasks)) count += entry->d_name[0] != '.';
+  closedir(tasks);
+  return count;
+}
+
+// Counts the threads that a library call starts as the library's, those of a call within it once.
+class LibraryThreads {
+ public:
+  LibraryThreads() : outermost_(depth == 0) {
+    quietly([this] { before_ = threads_now(); });
+    ++depth;
+  }
+  ~LibraryThreads() {
+    --depth;
+    quietly([this] {
+      int more = threads_now() - before_;
+      if (outermost_ && more > 0) library_threads += more;
+    });
+  }
+
+ private:
+  bool outermost_;
+  int before_ = 0;
+};
+
+bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+
+std::string below(const std::string& space) { return space.empty() || space.back() != '/' ? space + "/" : space; }
+
+// A name that was resolved through a handle, as the node could have given it to its default handle.
+std::string as_given(const NodeHandle* handle, const std::string& name, const std::string& full) {
+  auto* node_name = REAL_IF_ANY("_ZN3ros9this_node7getNameB5cxx11Ev", const std::string&());
+  auto* node_space = REAL_IF_ANY("_ZN3ros9this_node12getNamespaceB5cxx11Ev", const std::string&());
+  if (node_name == nullptr || node_space == nullptr || (!name.empty() && name[0] == '/')) return full;
+  std::string own = below(node_name()), space = below(node_space());
+  if (starts_with(full, own)) return "~" + full.substr(own.size());
+  if (!handle->given_name_space.empty() && handle->given_name_space[0] == '/') return full;
+  return starts_with(full, space) ? full.substr(space.size()) : full;
+}
+
+struct Names {
+  std::string given;
+  std::string resolved;
+};
+
+Names names_of(const NodeHandle* handle, const std::string& name) {
+  auto* resolve = REAL_IF_ANY("_ZNK3ros10NodeHandle11resolveNameE" STRING "b",
+                              std::string(const NodeHandle*, const std::string&, bool));
+  if (resolve == nullptr) return {name, ""};
+  return {as_given(handle, name, resolve(handle, name, false)), resolve(handle, name, true)};
+}
+
+Names names_of(const std::string& name) {
+  auto* resolve =
+      REAL_IF_ANY("_ZN3ros5names7resolveE" STRING "b", std::string(const std::string&, bool));
+  return {name, resolve == nullptr ? "" : resolve(name, true)};
+}
+
+Event endpoint(const char* role, const Names& names, const std::string& md5) {
+  Event event("endpoint");
+  event.add("role", std::string(role)).add("name", names.given).add("md5", md5);
+  if (!names.resolved.empty()) event.add("resolved", names.resolved);
+  return event;
+}
+
+void tell_topic(const char* role, const NodeHandle* handle, const TopicOptions& options) {
+  quietly([&] {
+    Event event = endpoint(role, names_of(handle, options.topic), options.md5);
+    std::string qos = "{\"queue_size\":" + std::to_string(options.queue_size);
+    if (role[0] == 'p') {
+      bool latch = reinterpret_cast<const unsigned char*>(&options)[kLatchOffset] == 1;
+      qos += std::string(",\"latch\":") + (latch ? "true" : "false");
+    }
+    event.add("type", options.type).raw("qos", qos + "}").send();
+  });
+}
+
+// Whether roscpp itself called, from the code at `place`.
+bool from_roscpp(void* place) {
+  Dl_info info;
+  return dladdr(place, &info) != 0 && info.dli_fname != nullptr && strstr(info.dli_fname, "/libroscpp.so") != nullptr;
+}
+
+void tell_param(const char* access, const Names& names, void* place) {
+  Event event("param");
+  event.add("access", std::string(access)).add("name", names.given);
+  if (!names.resolved.empty()) event.add("resolved", names.resolved);
+  // Whatever is not there leaves the node's own value: nothing is mandatory in roscpp.
+  event.add("optional", true).add("builtin", from_roscpp(place)).send();
+}
+
+void tell_param(const char* access, const NodeHandle* handle, const std::string& key, void* place) {
+  if (depth == 0) quietly([&] { tell_param(access, names_of(handle, key), place); });
+}
+
+void tell_param(const char* access, const std::string& key, void* place) {
+  if (depth == 0) quietly([&] { tell_param(access, names_of(key), place); });
+}
+
+void tell_spin() {
+  if (depth > 0) return;
+  quietly([] {
+    static std::atomic<bool> done{false};
+    if (!in_main_thread() || done.exchange(true)) return;
+    int own = threads_now() - 1 - library_threads;
+    Event("state").add("state", std::string("spin")).raw("threads", std::to_string(own > 0 ? own : 0)).send();
+  });
+}
+
+// A sleep or spinOnce of the main thread. What comes twice from one place stands in a loop; a single sleep (`seconds`
+// is not negative) may be a pause before more endpoints are made.
+void tell_turn(void* place, double seconds) {
+  if (depth > 0) return;
+  quietly([&] {
+    static void* places[64];
+    static int count = 0;
+    static bool looped = false, idle = false;
+    if (looped || !in_main_thread() || from_roscpp(place)) return;
+    bool again = false;
+    for (int i = 0; i < count; ++i) again = again || places[i] == place;
+    if (!again && count < 64) places[count++] = place;
+    if (!again && seconds >= 0) {
+      Event("state").add("state", std::string("sleep")).raw("seconds", std::to_string(seconds)).send();
+    } else if (again || !idle) {
+      (again ? looped : idle) = true;
+      int own = threads_now() - 1 - library_threads;
+      Event("state")
+          .add("state", std::string(again ? "looped" : "idle"))
+          .raw("threads", std::to_string(own > 0 ? own : 0))
+          .send();
+    }
+  });
+}
+
+// From construction to destruction the node waits for somebody else.
+class Wait {
+ public:
+  Wait(const char* kind, const std::string& name) : outermost_(depth == 0) {
+    quietly([&] {
+      kind_ = kind;
+      name_ = name;
+      tell("wait");
+    });
+    ++depth;
+  }
+  ~Wait() {
+    --depth;
+    quietly([&] { tell("resume"); });
+  }
+
+ private:
+  void tell(const char* state) {
+    if (!outermost_) return;
+    Event("state")
+        .add("state", std::string(state))
+        .add("kind", kind_)
+        .add("name", name_)
+        .add("main", in_main_thread())
+        .send();
+  }
+
+  bool outermost_;
+  std::string kind_, name_;
+};
+
+}  // namespace preflight
+
+using namespace preflight;
+
+// Endpoints. The library writes the resolved name into the options, so it is told before.
+
+#define ADVERTISE "_ZN3ros10NodeHandle9advertiseERNS_16AdvertiseOptionsE"
+HOOK Handle preflight_advertise(NodeHandle* self, TopicOptions& options) __asm__(ADVERTISE);
+HOOK Handle preflight_advertise(NodeHandle* self, TopicOptions& options) {
+  tell_topic("publisher", self, options);
+  return REAL(ADVERTISE, Handle(NodeHandle*, TopicOptions&))(self, options);
+}
+
+#define SUBSCRIBE "_ZN3ros10NodeHandle9subscribeERNS_16SubscribeOptionsE"
+HOOK Handle preflight_subscribe(NodeHandle* self, TopicOptions& options) __asm__(SUBSCRIBE);
+HOOK Handle preflight_subscribe(NodeHandle* self, TopicOptions& options) {
+  tell_topic("subscriber", self, options);
+  return REAL(SUBSCRIBE, Handle(NodeHandle*, TopicOptions&))(self, options);
+}
+
+#define SERVICE "_ZN3ros10NodeHandle16advertiseServiceERNS_23AdvertiseServiceOptionsE"
+HOOK Handle preflight_advertise_service(NodeHandle* self, ServiceOptions& options) __asm__(SERVICE);
+HOOK Handle preflight_advertise_service(NodeHandle* self, ServiceOptions& options) {
+  quietly([&] {
+    endpoint("service", names_of(self, options.service), options.md5).add("type", options.type).send();
+  });
+  return REAL(SERVICE, Handle(NodeHandle*, ServiceOptions&))(self, options);
+}
+
+#define CLIENT "_ZN3ros10NodeHandle13serviceClientERNS_20ServiceClientOptionsE"
+HOOK Handle preflight_service_client(NodeHandle* self, ClientOptions& options) __asm__(CLIENT);
+HOOK Handle preflight_service_client(NodeHandle* self, ClientOptions& options) {
+  quietly([&] { endpoint("client", names_of(self, options.service), options.md5).send(); });
+  return REAL(CLIENT, Handle(NodeHandle*, ClientOptions&))(self, options);
+}
+
+// Parameters. Sets and deletes are told by the master.
+
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+
+#define METHOD_(id, access, symbol)                                                                          \
+  HOOK bool id(const NodeHandle* self, const std::string& key, void* value) __asm__(symbol);                 \
+  HOOK bool id(const NodeHandle* self, const std::string& key, void* value) {                                \
+    tell_param(access, self, key, __builtin_return_address(0));                                                                           \
+    Depth nested;                                                                                            \
+    return REAL(symbol, bool(const NodeHandle*, const std::string&, void*))(self, key, value);               \
+  }
+#define METHOD(access, symbol) METHOD_(JOIN(preflight_method_, __COUNTER__), access, symbol)
+
+#define FUNCTION_(id, access, symbol)                                                                        \
+  HOOK bool id(const std::string& key, void* value) __asm__(symbol);                                         \
+  HOOK bool id(const std::string& key, void* value) {                                                        \
+    tell_param(access, key, __builtin_return_address(0));                                                                                 \
+    Depth nested;                                                                                            \
+    return REAL(symbol, bool(const std::string&, void*))(key, value);                                        \
+  }
+#define FUNCTION(access, symbol) FUNCTION_(JOIN(preflight_function_, __COUNTER__), access, symbol)
+
+#define MAP_OF(type) "RSt3mapIS6_" type "St4lessIS6_ESaISt4pairIS7_" type "EEE"
+#define EACH_TYPE(hook, start)        \
+  hook("get", start "RN6XmlRpc11XmlRpcValueE") \
+  hook("get", start "RS6_")           \
+  hook("get", start "Rb")             \
+  hook("get", start "Rd")             \
+  hook("get", start "Rf")             \
+  hook("get", start "Ri")             \
+  hook("get", start "RSt6vectorIS6_SaIS6_EE") \
+  hook("get", start "RSt6vectorIbSaIbEE") \
+  hook("get", start "RSt6vectorIdSaIdEE") \
+  hook("get", start "RSt6vectorIfSaIfEE") \
+  hook("get", start "RSt6vectorIiSaIiEE") \
+  hook("get", start MAP_OF("S6_"))    \
+  hook("get", start MAP_OF("b"))      \
+  hook("get", start MAP_OF("d"))      \
+  hook("get", start MAP_OF("f"))      \
+  hook("get", start MAP_OF("i"))
+
+EACH_TYPE(METHOD, "_ZNK3ros10NodeHandle8getParamE" STRING)
+EACH_TYPE(METHOD, "_ZNK3ros10NodeHandle14getParamCachedE" STRING)
+EACH_TYPE(FUNCTION, "_ZN3ros5param3getE" STRING)
+EACH_TYPE(FUNCTION, "_ZN3ros5param9getCachedE" STRING)
+METHOD("has", "_ZNK3ros10NodeHandle8hasParamE" STRING)
+FUNCTION("has", "_ZN3ros5param3hasE" STRING)
+
+// The event loop.
+
+#define SPIN "_ZN3ros4spinEv"
+HOOK void preflight_spin() __asm__(SPIN);
+HOOK void preflight_spin() {
+  tell_spin();
+  REAL(SPIN, void())();
+}
+
+#define SPIN_WITH "_ZN3ros4spinERNS_7SpinnerE"
+HOOK void preflight_spin_with(void* spinner) __asm__(SPIN_WITH);
+HOOK void preflight_spin_with(void* spinner) {
+  tell_spin();
+  REAL(SPIN_WITH, void(void*))(spinner);
+}
+
+#define SINGLE "_ZN3ros21SingleThreadedSpinner4spinEPNS_13CallbackQueueE"
+HOOK void preflight_single_spin(void* self, void* queue) __asm__(SINGLE);
+HOOK void preflight_single_spin(void* self, void* queue) {
+  tell_spin();
+  REAL(SINGLE, void(void*, void*))(self, queue);
+}
+
+#define MULTI "_ZN3ros20MultiThreadedSpinner4spinEPNS_13CallbackQueueE"
+HOOK void preflight_multi_spin(void* self, void* queue) __asm__(MULTI);
+HOOK void preflight_multi_spin(void* self, void* queue) {
+  tell_spin();
+  REAL(MULTI, void(void*, void*))(self, queue);
+}
+
+#define SHUTDOWN "_ZN3ros15waitForShutdownEv"
+HOOK void preflight_wait_for_shutdown() __asm__(SHUTDOWN);
+HOOK void preflight_wait_for_shutdown() {
+  tell_spin();
+  REAL(SHUTDOWN, void())();
+}
+
+#define ASYNC "_ZN3ros12AsyncSpinner5startEv"
+HOOK void preflight_async_start(void* self) __asm__(ASYNC);
+HOOK void preflight_async_start(void* self) {
+  LibraryThreads counted;
+  REAL(ASYNC, void(void*))(self);
+}
+
+#define TIMER(id, symbol)                                                                                         \
+  HOOK Handle id(const NodeHandle* self, int64_t period, void* callback, bool once, bool start) __asm__(symbol);  \
+  HOOK Handle id(const NodeHandle* self, int64_t period, void* callback, bool once, bool start) {                 \
+    LibraryThreads counted;                                                                                       \
+    return REAL(symbol, Handle(const NodeHandle*, int64_t, void*, bool, bool))(self, period, callback, once, start); \
+  }
+#define CALLBACK(event) "RKN5boost8functionIFvRKNS_" event "EEEEbb"
+TIMER(preflight_timer, "_ZNK3ros10NodeHandle11createTimerENS_8DurationE" CALLBACK("10TimerEvent"))
+TIMER(preflight_wall_timer, "_ZNK3ros10NodeHandle15createWallTimerENS_12WallDurationE" CALLBACK("14WallTimerEvent"))
+TIMER(preflight_steady_timer, "_ZNK3ros10NodeHandle17createSteadyTimerENS_12WallDurationE" CALLBACK("16SteadyTimerEvent"))
+
+#define TIMER_OPTIONS(id, symbol)                                            \
+  HOOK Handle id(const NodeHandle* self, void* options) __asm__(symbol);     \
+  HOOK Handle id(const NodeHandle* self, void* options) {                    \
+    LibraryThreads counted;                                                  \
+    return REAL(symbol, Handle(const NodeHandle*, void*))(self, options);    \
+  }
+TIMER_OPTIONS(preflight_timer_options, "_ZNK3ros10NodeHandle11createTimerERNS_12TimerOptionsE")
+TIMER_OPTIONS(preflight_wall_timer_options, "_ZNK3ros10NodeHandle15createWallTimerERNS_16WallTimerOptionsE")
+TIMER_OPTIONS(preflight_steady_timer_options, "_ZNK3ros10NodeHandle17createSteadyTimerERNS_18SteadyTimerOptionsE")
+
+#define SPIN_ONCE "_ZN3ros8spinOnceEv"
+HOOK void preflight_spin_once() __asm__(SPIN_ONCE);
+HOOK void preflight_spin_once() {
+  tell_turn(__builtin_return_address(0), -1);
+  REAL(SPIN_ONCE, void())();
+}
+
+#define RATE(id, symbol)                             \
+  HOOK bool id(void* self) __asm__(symbol);          \
+  HOOK bool id(void* self) {                         \
+    tell_turn(__builtin_return_address(0), -1);      \
+    Depth nested;                                    \
+    return REAL(symbol, bool(void*))(self);          \
+  }
+RATE(preflight_rate, "_ZN3ros4Rate5sleepEv")
+RATE(preflight_wall_rate, "_ZN3ros8WallRate5sleepEv")
+
+#define SLEEP(id, symbol)                                                                     \
+  HOOK bool id(const int32_t* duration) __asm__(symbol);                                      \
+  HOOK bool id(const int32_t* duration) {                                                     \
+    tell_turn(__builtin_return_address(0), duration[0] > 0 ? duration[0] : duration[1] * 1e-9); \
+    Depth nested;                                                                             \
+    return REAL(symbol, bool(const int32_t*))(duration);                                      \
+  }
+SLEEP(preflight_duration, "_ZNK3ros8Duration5sleepEv")
+SLEEP(preflight_wall_duration, "_ZNK3ros12WallDuration5sleepEv")
+
+// Waits. A ros::Duration by value is two integers in one register.
+
+#define WAIT_DURATION "_ZN3ros7service14waitForServiceE" STRING "NS_8DurationE"
+HOOK bool preflight_wait_for_service(const std::string& name, int64_t timeout) __asm__(WAIT_DURATION);
+HOOK bool preflight_wait_for_service(const std::string& name, int64_t timeout) {
+  Wait told("service", name);
+  return REAL(WAIT_DURATION, bool(const std::string&, int64_t))(name, timeout);
+}
+
+#define WAIT_INT "_ZN3ros7service14waitForServiceE" STRING "i"
+HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) __asm__(WAIT_INT);
+HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) {
+  Wait told("service", name);
+  return REAL(WAIT_INT, bool(const std::string&, int))(name, timeout);
+}
+
+#define EXISTENCE "_ZN3ros13ServiceClient16waitForExistenceENS_8DurationE"
+HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) __asm__(EXISTENCE);
+HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) {
+  std::string name;
+  quietly([&] {
+    auto* service = REAL_IF_ANY("_ZN3ros13ServiceClient10getServiceB5cxx11Ev", std::string(void*));
+    if (service != nullptr) name = service(self);
+  });
+  Wait told("service", name);
+  return REAL(EXISTENCE, bool(void*, int64_t))(self, timeout);
+}
+
+#define MESSAGE \
+  "_ZN3ros5topic18waitForMessageImplERNS_16SubscribeOptionsERKN5boost8functionIFbvEEERNS_10NodeHandleENS_8DurationE"
+HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle, int64_t timeout)
+    __asm__(MESSAGE);
+HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle, int64_t timeout) {
+  std::string name;
+  quietly([&] { name = names_of(handle, options.topic).given; });
+  Wait told("message", name);
+  REAL(MESSAGE, void(TopicOptions&, void*, NodeHandle*, int64_t))(options, ready, handle, timeout);
+}

@@ -1,0 +1,246 @@
+"""Nodes in C++: what the preloaded library tells of them, and what is left without it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import threading
+from pathlib import Path
+
+import pytest
+from launched_desk import launched, master_view
+from preflight_analysis.tracing import preload
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.preload import Library
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
+from tracing_desk import environment, own, request, trace
+
+ROSOUT = Path("/usr/lib/rosout/rosout")
+STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
+SET_BOOL_MD5 = "09fb03525b03e7ea1fd3992bafd87e16"
+LIBRARIES = ("roscpp", "rostime", "roscpp_serialization", "rosconsole", "boost_system", "boost_thread", "pthread")
+MADE = {
+    ("publisher", "chatter", "std_msgs/String"),
+    ("publisher", "~state", "std_msgs/String"),
+    ("publisher", "/fixed/plain", "std_msgs/String"),
+    ("publisher", "arm/grip/closed", "std_msgs/String"),
+    ("publisher", "/absolute", "std_msgs/String"),
+    ("publisher", "~below/deep", "std_msgs/String"),
+    ("subscriber", "chatter", "std_msgs/String"),
+    ("service", "~enable", "std_srvs/SetBool"),
+    ("client", "switch", None),
+}
+LATE = ("publisher", "late", "std_msgs/String")
+
+
+@pytest.fixture(scope="session")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A package with the node, compiled."""
+    folder = tmp_path_factory.mktemp("packages") / "compiled"
+    folder.mkdir()
+    (folder / "package.xml").write_text('<package format="2"><name>compiled</name></package>')
+    source = Path(__file__).parent / "roscpp_node.cpp"
+    command = ["g++", "-w", str(source), "-o", str(folder / "node"), *(f"-l{name}" for name in LIBRARIES)]
+    subprocess.run(command, check=True)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def node(package: Path) -> Path:
+    return package / "node"
+
+
+def endpoint(interface: Interface, role: str, name: str) -> Endpoint:
+    (found,) = [e for e in interface.endpoints if (e.role, e.name) == (role, name)]
+    return found
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("mode", ["spin", "multi", "async", "rate", "duration", "pause", "thread"])
+def test_a_node_is_run_until_it_spins(node: Path, mode: str) -> None:
+    found = trace(node, args=(mode,))
+    assert (found.outcome.status, found.notes) == ("spinning", ())
+    assert own(found) == MADE | ({LATE} if mode in ("async", "pause", "thread") else set())
+
+
+@pytest.mark.ros
+def test_names_are_as_given_whatever_the_remaps_and_namespace(node: Path) -> None:
+    moved = trace(node, "/robot/arm/n", remaps=(("chatter", "/elsewhere"), ("~state", "status"), ("/absolute", "b")))
+    assert own(moved) == MADE
+
+
+@pytest.mark.ros
+def test_a_remapped_namespace_of_a_handle_gives_the_final_name(node: Path) -> None:
+    moved = trace(node, "/robot/n", remaps=(("arm", "/left"),))
+    assert ("publisher", "/left/grip/closed", "std_msgs/String") in own(moved)
+
+
+@pytest.mark.ros
+def test_endpoints_have_md5_and_qos(node: Path) -> None:
+    found = trace(node)
+    chatter = endpoint(found, "publisher", "chatter")
+    assert (chatter.md5, chatter.qos) == (STRING_MD5, {"latch": True, "queue_size": 7})
+    assert endpoint(found, "publisher", "~state").qos == {"latch": False, "queue_size": 1}
+    assert endpoint(found, "subscriber", "chatter").qos == {"queue_size": 3}
+    assert endpoint(found, "service", "~enable").md5 == endpoint(found, "client", "switch").md5 == SET_BOOL_MD5
+    assert {(e.role, e.name) for e in found.endpoints if e.builtin} == {
+        ("publisher", "/rosout"),
+        ("service", "~get_loggers"),
+        ("service", "~set_logger_level"),
+    }
+
+
+@pytest.mark.ros
+def test_parameters_as_given_and_none_mandatory(node: Path) -> None:
+    found = trace(node, "/ns/node", params={"/ns/node/rate": 5.0})
+    assert {(p.access, p.name) for p in found.params if not p.builtin} == {
+        ("has", "~rate"),
+        ("get", "~rate"),
+        ("get", "text"),
+        ("get", "/fixed/gains"),
+        ("get", "~free"),
+        ("has", "~preset"),
+        ("get", "~cached"),
+    }
+    assert not any(p.mandatory for p in found.params)
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    ("mode", "reason"),
+    [
+        ("service", "it waits for the service switch"),
+        ("existence", "it waits for the service /switch"),
+        ("message", "it waits for a message on news"),
+    ],
+)
+def test_what_a_node_waits_for_is_told(node: Path, mode: str, reason: str) -> None:
+    found = trace(node, args=(mode,))
+    assert found.outcome.status == "timed-out"
+    assert (found.outcome.reason or "").startswith(reason)
+    assert own(found) == MADE | ({("subscriber", "news", "std_msgs/String")} if mode == "message" else set())
+
+
+@pytest.mark.ros
+def test_a_crash_is_the_nodes_own(node: Path) -> None:
+    found = trace(node, args=("invalid",))
+    assert (found.outcome.status, found.outcome.signal) == ("crashed", "SIGABRT")
+    assert "Using ~ names with NodeHandle methods is not allowed" in "\n".join(found.outcome.stderr_tail)
+    assert own(found) >= MADE
+    assert trace(node, args=("leave",)).outcome.exit_code == 3
+
+
+@pytest.mark.ros
+def test_traced_interfaces_equal_the_real_masters_view(package: Path, tmp_path: Path) -> None:
+    launch_file = tmp_path / "compiled.launch"
+    launch_file.write_text(
+        """
+        <launch>
+          <node name="plain" pkg="compiled" type="node"/>
+          <group ns="robot">
+            <remap from="chatter" to="/talk"/>
+            <node name="moved" pkg="compiled" type="node" args="rate">
+              <remap from="~state" to="status"/>
+              <remap from="arm" to="/left"/>
+            </node>
+          </group>
+          <node name="relay" pkg="compiled" type="relay" args="talk again"/>
+          <node name="mux" pkg="compiled" type="mux" args="out talk again"/>
+        </launch>
+        """
+    )
+    for tool in ("relay", "mux"):
+        if not (package / tool).exists():
+            (package / tool).symlink_to(f"/usr/lib/topic_tools/{tool}")
+    real = launched(launch_file, tmp_path, package)
+    requests = [
+        TraceRequest(
+            each["name"],
+            each["package"],
+            each["executable"],
+            tuple(each["args"]),
+            tuple((source, target) for source, target in each["remaps"]),
+            real["params"],
+        )
+        for each in real["nodes"]
+    ]
+    tracer = Tracer(environment(package), None)
+    interfaces = [tracer.trace(each, threading.Event()) for each in requests]
+    assert {i.outcome.status for i in interfaces} == {"spinning"}
+    assert master_view(requests, interfaces) == real["shown"]
+
+
+@pytest.mark.ros
+def test_the_cache_knows_the_trace_until_name_or_remaps_change(node: Path, tmp_path: Path) -> None:
+    tracer = Tracer(environment(node.parent), TraceCache(tmp_path))
+    os.utime(node, (0, 0))
+    asked = request(node, remaps=(("chatter", "talk"),))
+    assert not tracer.trace(asked, threading.Event()).cached
+    assert tracer.lookup(asked)
+    assert not tracer.lookup(request(node))
+    assert not tracer.lookup(request(node, "/other", remaps=asked.remaps))
+
+
+def test_the_library_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    planned = Library(tmp_path).planned().path
+    assert planned is not None
+    assert not os.path.exists(planned)
+    assert Library(tmp_path).build().path == planned
+    assert os.listdir(tmp_path) == [os.path.basename(planned)]
+    monkeypatch.setattr(preload, "_compile", lambda *_: pytest.fail("compiled again"))
+    assert Library(tmp_path).build().path == planned
+
+
+def test_the_library_does_nothing_in_a_program_without_roscpp(tmp_path: Path) -> None:
+    built = Library(tmp_path).build().path
+    assert built is not None
+    done = subprocess.run(["/bin/true"], env={"LD_PRELOAD": built}, capture_output=True, check=True)
+    assert (done.stdout, done.stderr) == (b"", b"")
+
+
+def master_alone(library: Library) -> Interface:
+    tracer = Tracer(environment(), None, library)
+    found = tracer.trace(request(ROSOUT, "/out", remaps=(("/rosout", "/log"),)), threading.Event())
+    assert found.outcome.status == "spinning"
+    assert own(found) == {
+        ("subscriber", "/rosout", "rosgraph_msgs/Log"),
+        ("publisher", "/rosout_agg", "rosgraph_msgs/Log"),
+    }
+    assert {e.name for e in found.endpoints if e.builtin} == {"~get_loggers", "~set_logger_level"}
+    return found
+
+
+@pytest.mark.ros
+def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(preload, "COMPILERS", ("no-such-compiler",))
+    found = master_alone(Library(tmp_path))
+    assert found.notes == (
+        "only what a ROS master sees of it is known: there is no C++ compiler to watch roscpp nodes with: "
+        "apt install g++",
+    )
+
+
+@pytest.mark.ros
+def test_what_does_not_compile_is_tried_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = tmp_path / "odd.cpp"
+    source.write_text("#error odd\n")
+    monkeypatch.setattr(preload, "SOURCE", source)
+    library = Library(tmp_path / "cache")
+    assert "does not compile" in master_alone(library).notes[0]
+    source.write_text("")
+    assert library.build() == library.planned()
+    assert library.planned().path is None
+
+
+def test_a_cache_folder_that_cannot_be_named_in_ld_preload_is_told(tmp_path: Path) -> None:
+    assert Library(tmp_path / "with blank").build().path is None
+
+
+def test_scripts_are_not_preloaded_into(tmp_path: Path) -> None:
+    script = tmp_path / "script"
+    script.write_text("#!/bin/sh\n")
+    assert not preload.applies(str(script))
+    assert not preload.applies(str(tmp_path / "absent"))
+    assert preload.applies("/bin/true")
