@@ -29,7 +29,9 @@ TAIL_COLUMNS = 500
 
 _ROLES = ("publisher", "subscriber", "service", "client")
 _ACCESS = ("get", "has", "set", "delete", "search", "list")
-_NAME = re.compile(r"[^\x00-\x1f\x7f]{1,300}\Z")
+_NAME = re.compile(r"[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{1,300}\Z")
+"""No control characters, of a terminal's either, and none that UTF-8 cannot say."""
+_FILE = re.compile(r"/[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{0,4095}\Z")
 _TYPE = re.compile(r"(\*|[A-Za-z]\w*/[A-Za-z]\w*)\Z")
 _MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
 _ESCAPES = re.compile(r"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[@-Z\\-_])")
@@ -145,7 +147,7 @@ def _text(value: object, pattern: re.Pattern[str]) -> str | None:
 
 def _place(record: Mapping[str, Any]) -> tuple[str | None, int | None]:
     file, line = record.get("file"), record.get("line")
-    if isinstance(file, str) and file.startswith("/") and len(file) < 4096 and isinstance(line, int) and line > 0:
+    if _text(file, _FILE) and isinstance(line, int) and line > 0:
         return file, line
     return None, None
 

@@ -21,7 +21,7 @@ from pathlib import Path
 
 import aspectlib  # type: ignore[import-untyped]
 
-from preflight_analysis.tracing import cgroup, seccomp
+from preflight_analysis.tracing import cgroup, seccomp, sockets
 
 LIBRARY = "/run/preflight/lib"
 """Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
@@ -209,8 +209,11 @@ def _isolation(visible: Iterable[str]) -> list[str]:
     for path in _SECRET_FILES:
         if os.path.exists(path):
             options += ["--ro-bind", "/dev/null", path]
-    for path in needs_binding(visible):
+    bound = needs_binding(visible)
+    for path in bound:
         options += ["--ro-bind", path, path]
+    for path in sockets.reachable(bound, _masks()):
+        options += ["--ro-bind", "/dev/null", path]
     options += ["--ro-bind", str(_AGENTS), LIBRARY + "/preflight_agents"]
     options += ["--ro-bind", str(Path(aspectlib.__file__).parent), LIBRARY + "/aspectlib"]
     options += ["--ro-bind", str(_AGENTS / "sitecustomize.py"), SITE + "/sitecustomize.py"]

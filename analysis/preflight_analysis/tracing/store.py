@@ -139,6 +139,9 @@ def fingerprint(path: str) -> str:
         return ""
     if not stat.S_ISREG(info.st_mode):
         return "no file"
+    if not info.st_size:
+        # The kernel's own files claim it too, and reading may take away what is there: /proc/kmsg.
+        return "empty"
     if path.startswith(_SYSTEM) or info.st_size > _HASHED_BYTES:
         return f"{info.st_mtime_ns}:{info.st_size}"
     return _digest(path, info.st_mtime_ns, info.st_size, info.st_ino)
@@ -148,7 +151,7 @@ def fingerprint(path: str) -> str:
 def _digest(path: str, mtime: int, size: int, inode: int) -> str:
     try:
         with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
-            return hashlib.sha256(file.read(_HASHED_BYTES)).hexdigest()
+            return hashlib.sha256(file.read(_HASHED_BYTES) or b"").hexdigest()
     except OSError:
         return "unreadable"
 
