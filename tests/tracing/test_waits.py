@@ -146,3 +146,114 @@ def test_an_end_after_an_answer_keeps_what_was_seen(tmp_path: Path) -> None:
     assert (found.outcome.status, found.outcome.exit_code) == ("crashed", 3)
     assert found.outcome.answers == (MESSAGE,)
     assert made(found) == {"before": False, "after": True}
+
+
+FED = "it waits for messages on /goal, and was given empty ones"
+LISTENS = "goal = []\nrospy.Subscriber('goal', Bool, lambda message: message.data and goal.append(message))\n"
+
+
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "rate = rospy.Rate(10)\nwhile not goal and not rospy.is_shutdown(): rate.sleep()",
+        "rate = rospy.Rate(1)\nwhile not goal: rate.sleep()",
+        "while not goal: rospy.sleep(0.1)",
+        "while not rospy.is_shutdown():\n    if goal: break\n    rospy.sleep(0.5)",
+        "while not goal: time.sleep(0.1)",
+        "while not goal: rospy.rostime.wallsleep(0.1)",
+        "before.publish('hello')\nwhile not goal: rospy.sleep(0.1)",
+    ],
+)
+def test_a_loop_that_polls_for_a_message_gets_one(tmp_path: Path, loop: str) -> None:
+    found = waiting(tmp_path, LISTENS + loop)
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    assert made(found) == {"before": False, "after": True}
+    assert found.outcome.answers == (FED,)
+    assert not found.complete
+
+
+def test_one_poll_after_another(tmp_path: Path) -> None:
+    found = waiting(
+        tmp_path,
+        f"""
+        {LISTENS.replace(chr(10), chr(10) + " " * 8)}
+        while not goal: rospy.sleep(0.1)
+        while not rospy.has_param("ready"): rospy.sleep(0.1)
+        more = []
+        rospy.Subscriber("more", String, more.append)
+        while len(more) < 5: rospy.sleep(0.1)
+        """,
+    )
+    assert made(found) == {"before": False, "after": True}
+    assert found.outcome.answers == (
+        FED,
+        "it waits for the parameter /ready, and was given 0",
+        "it waits for messages on /more, and was given empty ones",
+    )
+
+
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "while not rospy.has_param('ready'): time.sleep(0.1)",
+        "while rospy.get_param('ready', None) is None: rospy.sleep(0.1)",
+        """
+        while True:
+            try:
+                rospy.get_param("ready")
+                break
+            except KeyError:
+                rospy.sleep(0.1)
+        """,
+    ],
+)
+def test_a_loop_that_polls_for_a_parameter_gets_one(tmp_path: Path, loop: str) -> None:
+    found = waiting(tmp_path, loop)
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    assert made(found) == {"before": False, "after": True}
+    assert found.outcome.answers == ("it waits for the parameter /ready, and was given 0",)
+
+
+@pytest.mark.parametrize(
+    "wait",
+    [
+        "rospy.sleep(1.0)",
+        "rospy.Rate(10).sleep()",
+        "while rospy.Time.now() == rospy.Time(0): time.sleep(0.1)",
+        "while not rospy.get_time(): rospy.rostime.wallsleep(0.1)",
+    ],
+)
+def test_simulated_time_begins(tmp_path: Path, wait: str) -> None:
+    found = waiting(tmp_path, wait, params={"/use_sim_time": True})
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    assert made(found) == {"before": False, "after": True}
+    assert found.outcome.answers == ("it waits for simulated time on /clock, and was given the time of day",)
+
+
+@pytest.mark.parametrize(
+    ("work", "params"),
+    [
+        ("while not rospy.is_shutdown():\n    before.publish('x')\n    rate.sleep()", {}),
+        ("while not rospy.is_shutdown():\n    before.publish('x')\n    rate.sleep()", {"/use_sim_time": True}),
+        ("while True:\n    before.publish('x')\n    rospy.sleep(0.1)", {}),
+        ("while not rospy.is_shutdown():\n    rate.sleep()", {}),
+        ("while True: time.sleep(0.1)", {}),
+        # What it does to an empty message is not its fault where nothing else came of it.
+        ("while not rospy.is_shutdown():\n    rate.sleep()\n    if goal: raise SystemExit(1)", {}),
+        ("while not rospy.is_shutdown():\n    rospy.get_param('~gain', 1.0)\n    rate.sleep()", {}),
+    ],
+)
+def test_a_loop_that_does_its_work_is_as_before(tmp_path: Path, work: str, params: dict[str, object]) -> None:
+    body = LISTENS + "rate = rospy.Rate(10)\nrospy.Publisher('late', String, queue_size=1)\n" + work
+    found = waiting(tmp_path, body, params=params)
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    assert found.outcome.answers == found.notes == ()
+    assert made(found) == {"before": False, "late": False}
+    assert found.complete
+
+
+@pytest.mark.parametrize("pause", ["time.sleep(1.0)", "rospy.sleep(1.0)", "threading.Event().wait(1.0)"])
+def test_a_pause_is_no_wait(tmp_path: Path, pause: str) -> None:
+    found = waiting(tmp_path, LISTENS + pause)
+    assert made(found) == {"before": False, "after": False}
+    assert found.outcome.answers == ()

@@ -43,7 +43,11 @@ _ANSWERS = {
     "service": "it waits for the service {}, and was told that it is there",
     "call": "it calls the service {}, and was given an empty answer",
     "message": "it waits for a message on {}, and was given an empty one",
+    "poll": "it waits for messages on {}, and was given empty ones",
+    "parameter": "it waits for the parameter {}, and was given 0",
+    "clock": "it waits for simulated time on {}, and was given the time of day",
 }
+_MAYBE = ("poll", "parameter", "clock")
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
 
@@ -88,6 +92,10 @@ class _Gathered:
     wrote: dict[str, None] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
     answers: dict[str, None] = field(default_factory=dict)
+    fed: dict[str, None] = field(default_factory=dict)
+    """Answers to what only looked like a wait."""
+    waited: bool = False
+    """Whether it did: there was something new after it."""
     woven: bool = False
     end: Mapping[str, Any] | None = None
     dropped: int = 0
@@ -106,7 +114,13 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
             taken = False
         found.dropped += not taken
     tail = stderr_tail(raw.stderr)
-    outcome = dataclasses.replace(_outcome(raw, found, tail), answers=tuple(found.answers))
+    outcome = _outcome(raw, found, tail)
+    if found.waited:
+        found.answers |= found.fed
+    elif found.fed and not found.answers and outcome.status in ("exited", "crashed"):
+        # It slept in a loop, and ended of what we gave it without anything else to see.
+        outcome = Outcome("spinning", seconds=outcome.seconds)
+    outcome = dataclasses.replace(outcome, answers=tuple(found.answers))
     if outcome.status == "not-run":
         return Observation(Interface("none", outcome), Dependencies(), lasting=False)
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
@@ -183,7 +197,7 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
             kind, name = record.get("kind"), _text(record.get("name"), _NAME)
             if kind not in _ANSWERS or name is None or len(found.answers) >= MAX_ANSWERS:
                 return False
-            found.answers[_ANSWERS[kind].format(name)] = None
+            (found.fed if kind in _MAYBE else found.answers)[_ANSWERS[kind].format(name)] = None
         case "woven":
             found.woven = True
         case "weave-failed":
@@ -221,6 +235,7 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
     )
     # One that it made before as well is sure.
     key = repr(dataclasses.replace(endpoint, speculative=False))
+    found.waited = found.waited or (bool(found.fed) and key not in found.endpoints)
     found.endpoints.setdefault(key, (endpoint, _text(record.get("resolved"), _NAME)))
     return True
 
@@ -241,6 +256,7 @@ def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:
         source_line=line,
         builtin=record.get("builtin") is True,
     )
+    found.waited = found.waited or (bool(found.fed) and repr(use) not in found.params)
     found.params.setdefault(repr(use), (use, _text(record.get("resolved"), _NAME)))
     return True
 

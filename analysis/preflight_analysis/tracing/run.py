@@ -28,6 +28,8 @@ LOOPED_SECONDS = 0.1
 """The same once a whole turn of the loop has been seen."""
 SETTLED_SECONDS = 0.75
 """The same for a node that is up and asleep in a way that no hook knows."""
+STARVING_SECONDS = 1.0
+"""How long a loop that may be waiting for messages is given to get some: see `agents/polling.py`."""
 OUTER_SECONDS = 5.0
 """When the whole sandbox is killed from outside, after the end of the time it has; the supervisor inside should have
 ended long before."""
@@ -79,7 +81,13 @@ def execute(
     cannot be started."""
     job = {
         "params": encode_params(params),
-        "limits": {"wall": WALL_SECONDS, "quiet": QUIET_SECONDS, "looped": LOOPED_SECONDS, "settled": SETTLED_SECONDS},
+        "limits": {
+            "wall": WALL_SECONDS,
+            "quiet": QUIET_SECONDS,
+            "looped": LOOPED_SECONDS,
+            "settled": SETTLED_SECONDS,
+            "starving": STARVING_SECONDS,
+        },
     }
     return _execute(recipe, job, WALL_SECONDS, visible, interpreter, cancel)
 

@@ -36,6 +36,11 @@ def made_up(kind: str, name: str) -> None:
     channel.send("answered", kind=kind, name=name)
 
 
+def everywhere() -> None:
+    """What the whole process does from now on comes after a made-up answer."""
+    _all.set()
+
+
 def taken_to_be_there(service: str) -> None:
     """A wait for this service was answered: calls will be, too."""
     _services.add(service)
@@ -52,11 +57,11 @@ def call_is_answered(service: str, *site: Any) -> bool:
     return True
 
 
-def empty(described: Any) -> Any:
+def empty(described: Any, yes: bool = True) -> Any:
     """A message of zeros. A yes or no is a yes: a service that fails and a system that is not ready lead nowhere."""
     message = described()
     for field, kind in zip(message.__slots__, getattr(message, "_slot_types", ())):
-        if kind == "bool":
+        if kind == "bool" and yes:
             setattr(message, field, True)
     return message
 

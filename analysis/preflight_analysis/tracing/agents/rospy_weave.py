@@ -13,7 +13,7 @@ from typing import Any, Callable, Optional
 
 import aspectlib  # type: ignore[import-untyped]
 
-from . import answers, channel
+from . import answers, channel, polling
 
 Advised = Callable[..., Any]
 
@@ -113,7 +113,7 @@ def _after(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
     return aspect
 
 
-def _endpoint(role: str) -> Callable[[Advised], Advised]:
+def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
     def tell(arguments: dict[str, Any]) -> None:
         made, given = arguments["self"], str(arguments["name"])
         described = arguments.get("data_class", arguments.get("service_class"))
@@ -137,6 +137,9 @@ def _endpoint(role: str) -> Callable[[Advised], Advised]:
             builtin=internal and given in _BUILTINS,
             speculative=answers.speculative(),
         )
+        watch.something_new()
+        if role == "subscriber" and not internal:
+            watch.subscribed(made)
 
     return _after(tell)
 
@@ -148,7 +151,39 @@ def _default(value: object) -> object:
         return repr(value)[:_MAX_DEFAULT]
 
 
-def _parameter(access: str, unspecified: object, resolve: Callable[[str], str]) -> Callable[[Advised], Advised]:
+def _polled(
+    access: str, unspecified: object, resolve: Callable[[str], str], watch: polling.Watch
+) -> Callable[[Advised], Advised]:
+    """A parameter that the main thread asks for again and again until it is set."""
+
+    def aspect(cutpoint: Advised) -> Advised:
+        def advised(param_name: Any, default: Any = unspecified) -> Any:
+            more = () if default is unspecified else (default,)
+            try:
+                result = cutpoint(param_name, *more)
+            except KeyError:
+                if not polled(param_name):
+                    raise
+                return 0
+            if (result is False if access == "has" else result is None and default is None) and polled(param_name):
+                return True if access == "has" else 0
+            return result
+
+        return advised
+
+    def polled(name: Any) -> bool:
+        """Whether a parameter that is not set is to be taken as set."""
+        full = resolve(str(name))
+        if _in_main_thread() and full not in watch.given:
+            watch.asked(full, *_caller())
+        return full in watch.given
+
+    return aspect
+
+
+def _parameter(
+    access: str, unspecified: object, resolve: Callable[[str], str], watch: polling.Watch
+) -> Callable[[Advised], Advised]:
     def tell(arguments: dict[str, Any]) -> None:
         file, line, internal = _caller()
         name = str(arguments.get("param_name", "/"))
@@ -156,6 +191,7 @@ def _parameter(access: str, unspecified: object, resolve: Callable[[str], str]) 
         if site in _told or len(_told) > _MAX_SITES:
             return
         _told.add(site)
+        watch.something_new()
         default = arguments.get("default", unspecified)
         channel.send(
             "param",
@@ -191,56 +227,63 @@ def _other_threads() -> int:
         if thread is threading.main_thread() or isinstance(thread, threading._DummyThread):
             continue
         module = str(getattr(getattr(thread, "_target", None), "__module__", None) or type(thread).__module__)
-        if module.partition(".")[0] not in ("rospy", "rosgraph", "roslib") or module == "rospy.timer":
+        if (
+            module.partition(".")[0] not in ("rospy", "rosgraph", "roslib", "preflight_agents")
+            or module == "rospy.timer"
+        ):
             own += 1
     return own
 
 
-def _spin(flush: Callable[[], None]) -> Callable[[Advised], Advised]:
+def _spin(flush: Callable[[], None], watch: polling.Watch) -> Callable[[Advised], Advised]:
     """The main thread enters its event loop."""
 
     def tell(_arguments: dict[str, Any]) -> None:
         if _in_main_thread():
+            watch.over()
             flush()
             channel.send("state", state="spin", threads=_other_threads())
 
     return _before(tell)
 
 
-def _turn(flush: Callable[[], None], loops: bool) -> Callable[[Advised], Advised]:
+def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Callable[[Advised], Advised]:
     """A call that stands in a loop of the main thread: always (`loops`), or if it comes twice from the same place.
 
     A single `rospy.sleep` may be a pause before more endpoints are made.
     """
 
     def tell(arguments: dict[str, Any]) -> None:
-        if "looped" in _told_states or not _in_main_thread():
+        if "looped" in polling.told_states or not _in_main_thread():
             return
         file, line, internal = _caller()
         if internal:
             return
-        again = (file, line) in _turns
-        _turns.add((file, line))
+        again = (file, line) in polling.turns
+        polling.turns.add((file, line))
         state = "looped" if again else "idle"
-        if state == "idle" and not loops:
+        duration = arguments.get("duration", getattr(arguments.get("self"), "sleep_dur", 0.0))
+        seconds = duration.to_sec() if hasattr(duration, "to_sec") else float(duration)
+        pause = state == "idle" and not loops
+        starving = watch.turned((file, line), seconds, pause)
+        if pause:
             flush()
-            duration = arguments["duration"]
-            seconds = duration.to_sec() if hasattr(duration, "to_sec") else float(duration)
             channel.send("state", state="sleep", seconds=seconds)
-        elif state not in _told_states:
-            _told_states.add(state)
+        elif state not in polling.told_states:
+            polling.told_states.add(state)
             flush()
-            channel.send("state", state=state, threads=_other_threads())
+            channel.send("state", state=state, threads=_other_threads(), starving=starving)
 
     return _before(tell)
 
 
-_told_states: set[str] = set()
-_turns: set[tuple[Optional[str], Optional[int]]] = set()
-
-
 def _wait(
-    rospy: Any, flush: Callable[[], None], kind: str, argument: str, answer: Callable[[dict[str, Any]], Any]
+    rospy: Any,
+    flush: Callable[[], None],
+    watch: polling.Watch,
+    kind: str,
+    argument: str,
+    answer: Callable[[dict[str, Any]], Any],
 ) -> Callable[[Advised], Advised]:
     """The node blocks until somebody else is there; if nobody comes, `answer(bound arguments)` is returned."""
 
@@ -248,6 +291,8 @@ def _wait(
     def tell(state: str, name: str) -> None:
         file, line, _ = _caller()
         channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=_in_main_thread())
+        if _in_main_thread():
+            watch.waits(1 if state == "wait" else -1)
         if state == "wait":
             flush()
 
@@ -273,6 +318,25 @@ def _wait(
         return advised
 
     return aspect
+
+
+def _initialised(watch: polling.Watch) -> Callable[[dict[str, Any]], None]:
+    def tell(_arguments: dict[str, Any]) -> None:
+        channel.send("state", state="init")
+        if _in_main_thread():
+            watch.start()
+
+    return tell
+
+
+def _publishes(watch: polling.Watch) -> Callable[[Advised], Advised]:
+    """The main thread publishes."""
+
+    def tell(_arguments: dict[str, Any]) -> None:
+        if _in_main_thread() and not _caller()[2]:
+            watch.published()
+
+    return _before(tell)
 
 
 def _call(refused: Any) -> Callable[[Advised], Advised]:
@@ -315,6 +379,7 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
                 setattr(alias, name, getattr(module, name))
 
     root: Any = rospy
+    watch = polling.Watch(root)
     services = root.impl.tcpros_service
     for module, name, role in (
         (root.topics, "Publisher", "publisher"),
@@ -322,7 +387,7 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
         (services, "Service", "service"),
         (services, "ServiceProxy", "client"),
     ):
-        aspectlib.weave(getattr(module, name), _endpoint(role), methods=["__init__"], subclasses=False)
+        aspectlib.weave(getattr(module, name), _endpoint(role, watch), methods=["__init__"], subclasses=False)
 
     client = root.client
     for name, access in (
@@ -335,10 +400,12 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
         ("get_param_names", "list"),
     ):
         if hasattr(client, name):
-            function(client, name, _parameter(access, client._unspecified, root.names.resolve_name), rospy)
+            if access in ("get", "has"):
+                function(client, name, _polled(access, client._unspecified, root.names.resolve_name, watch), rospy)
+            function(client, name, _parameter(access, client._unspecified, root.names.resolve_name, watch), rospy)
 
-    function(client, "init_node", _after(lambda _arguments: channel.send("state", state="init")), rospy)
-    function(client, "spin", _spin(flush), rospy)
+    function(client, "init_node", _after(_initialised(watch)), rospy)
+    function(client, "spin", _spin(flush, watch), rospy)
 
     def there(arguments: dict[str, Any]) -> None:
         answers.taken_to_be_there(root.names.resolve_name(arguments["service"]))
@@ -346,13 +413,14 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
     def first(arguments: dict[str, Any]) -> Any:
         return answers.empty(arguments["topic_type"])
 
-    function(client, "wait_for_message", _wait(root, flush, "message", "topic", first), rospy)
-    function(services, "wait_for_service", _wait(root, flush, "service", "service", there), rospy)
+    function(client, "wait_for_message", _wait(root, flush, watch, "message", "topic", first), rospy)
+    function(services, "wait_for_service", _wait(root, flush, watch, "service", "service", there), rospy)
     aspectlib.weave(services.ServiceProxy, _call(services.ServiceException), methods=["call"], subclasses=False)
-    aspectlib.weave(root.timer.Rate, _turn(flush, loops=True), methods=["sleep"], subclasses=False)
+    aspectlib.weave(root.topics.Publisher, _publishes(watch), methods=["publish"], subclasses=False)
+    aspectlib.weave(root.timer.Rate, _turn(flush, watch, loops=True), methods=["sleep"], subclasses=False)
     # Only the names that nodes use: rospy's own modules call these on every turn.
-    function(rospy, "sleep", _turn(flush, loops=False))
-    function(rospy, "is_shutdown", _turn(flush, loops=True))
+    function(rospy, "sleep", _turn(flush, watch, loops=False))
+    function(rospy, "is_shutdown", _turn(flush, watch, loops=True))
     for name, what in (
         ("get_name", ("name",)),
         ("get_caller_id", ("name",)),

@@ -44,6 +44,8 @@ class Run:
         self.spins = False
         self.idle = False
         self.looped = False
+        self.starving = False
+        self.fed_until = 0.0
         self.initialised = False
         self.pause_until = 0.0
         self.waits: list[tuple[str, str]] = []
@@ -53,26 +55,27 @@ class Run:
         self.cpu = 0.0
         self.pid = -1
 
-    def emit(self, record: dict[str, Any]) -> None:
-        """One line to the host; repetitions are left out."""
+    def emit(self, record: dict[str, Any]) -> bool:
+        """One line to the host; repetitions are left out. Whether it was new."""
         line = json.dumps(record, sort_keys=True)
         with self.lock:
             if line in self.told or self.count >= MAX_EVENTS:
-                return
+                return False
             self.told.add(line)
             self.count += 1
             sys.stdout.write(line + "\n")
             sys.stdout.flush()
+            return True
 
     def master_report(self, event: str, **fields: Any) -> None:
         """What the stub master hears. Polling for a service is no activity, or a waiting node would never be quiet."""
         if event == "m-lookup":
             self._lookup(fields["name"])
-        else:
-            self.active = time.monotonic()
         if event == "m-endpoint" and fields["role"] == "service" and fields["name"].endswith("/set_logger_level"):
             self.initialised = True  # the last thing that roscpp and rospy do at their start
-        self.emit({"own": dict(fields, ev=event)})
+        # A parameter that is asked for again and again is none either.
+        if self.emit({"own": dict(fields, ev=event)}) and event != "m-lookup":
+            self.active = time.monotonic()
 
     def _lookup(self, service: str) -> None:
         self.lookups[service] = self.lookups.get(service, 0) + 1
@@ -103,7 +106,17 @@ class Run:
         elif state in ("spin", "idle", "looped"):
             self.idle = True
             self.looped = self.looped or (state == "looped" and alone)
+            self.starving = event.get("starving") is True
             self.pause_until = 0.0
+        elif state == "busy":
+            self.starving = False
+        elif state == "fed":
+            # Whatever loop it was in, it may leave now: it has to show one again.
+            self.idle = self.looped = self.starving = False
+            self.active = now
+            self.fed_until = now + 0.3
+            if isinstance(event.get("seconds"), (int, float)):
+                self.pause_until = now + min(float(event["seconds"]), 2.0)
         elif state == "init":
             self.initialised = True
             self.active = now
@@ -134,9 +147,11 @@ class Run:
             return "spinning"
         if now - self.started > self.job["limits"]["wall"]:
             return "timed-out"
-        if self.waits or now < self.pause_until or self._polls():
+        if self.waits or now < max(self.pause_until, self.fed_until) or self._polls():
             return None
         quiet = now - max(self.active, self.pause_until)
+        if self.starving and quiet < self.job["limits"]["starving"]:
+            return None
         if self.idle and quiet > self.job["limits"]["looped" if self.looped else "quiet"]:
             return "spinning"
         # An event loop that no hook knows: up and running, asleep, and nothing new for a good while.
