@@ -199,3 +199,12 @@ def test_help_says_that_running_is_consent(preflight: Run) -> None:
 @pytest.mark.parametrize("arguments", [[], ["nonsense"], ["rules", "a:=b", "c:=d"]])
 def test_bad_usage_is_exit_code_2(preflight: Run, arguments: list[str]) -> None:
     assert preflight(*arguments).code == 2
+
+
+def test_a_launch_prefix_does_not_stand_in_the_way(desk: Desk, preflight: Run) -> None:
+    desk.launch_file.write_text(
+        '<launch><node pkg="preflight_demo" type="talker.py" name="a" launch-prefix="xterm -e gdb -ex run --args"/>'
+        "</launch>"
+    )
+    (node,) = preflight("graph", desk.launch_file, "--format", "json").json["nodes"]
+    assert (node["interface_source"], node["outcome"]) == ("trace", "spinning")

@@ -104,3 +104,90 @@ def test_a_shell_wrapper_that_starts_a_node(tmp_path: Path) -> None:
     assert found.outcome.status == "spinning"
     (action,) = actions_of(found.endpoints)
     assert action.endpoint.name == "navigate"
+
+
+DAEMON = """
+    import os, sys
+    if os.fork():
+        os._exit(0)
+    os.setsid()
+    if os.fork():
+        os._exit(0)
+    import rospy
+    from std_msgs.msg import String
+    rospy.init_node("n")
+    rospy.Publisher("late", String, queue_size=1)
+"""
+
+
+def test_a_node_that_becomes_a_daemon_is_followed(tmp_path: Path) -> None:
+    found = trace(write_node(tmp_path, DAEMON + "    rospy.spin()\n"))
+    assert found.outcome.status == "spinning"
+    assert own(found) == {("publisher", "late", "std_msgs/String")}
+
+
+def test_a_daemon_that_ends_has_ended(tmp_path: Path) -> None:
+    found = trace(write_node(tmp_path, DAEMON + "    os._exit(0)\n"))
+    assert found.outcome.status == "exited"
+    assert own(found) == {("publisher", "late", "std_msgs/String")}
+
+
+def test_a_script_that_starts_a_node_in_the_background(tmp_path: Path) -> None:
+    write_node(tmp_path, NAVIGATE.format(make=CLIENT))
+    wrapper = tmp_path / "wrapped"
+    wrapper.write_text('#!/bin/sh\n"$(dirname "$0")/node.py" "$@" &\n')
+    wrapper.chmod(0o755)
+    found = trace(wrapper)
+    assert found.outcome.status == "spinning"
+    assert len(actions_of(found.endpoints)) == 1
+
+
+def test_a_node_that_ends_beside_its_children_has_ended(tmp_path: Path) -> None:
+    body = """
+        import os, subprocess
+        import rospy
+        rospy.init_node("n")
+        subprocess.Popen(["sleep", "60"])
+        os._exit(0)
+    """
+    assert trace(write_node(tmp_path, body)).outcome.status == "exited"
+
+
+def test_message_filters_subscribe_like_others(tmp_path: Path) -> None:
+    body = """
+        import message_filters
+        import rospy
+        from std_msgs.msg import String
+        rospy.init_node("n")
+        both = [message_filters.Subscriber(name, String) for name in ("left", "~right")]
+        message_filters.ApproximateTimeSynchronizer(both, 10, 0.1, allow_headerless=True)
+        rospy.spin()
+    """
+    node = write_node(tmp_path, body)
+    found = trace(node)
+    assert own(found) == {("subscriber", "left", "std_msgs/String"), ("subscriber", "~right", "std_msgs/String")}
+    assert {(e.source_file, e.source_line) for e in found.endpoints if not e.builtin} == {(str(node), 7)}
+
+
+def test_a_node_finds_the_parameters_of_the_whole_launch(tmp_path: Path) -> None:
+    body = """
+        import rospy
+        from std_msgs.msg import String
+        rospy.init_node("n")
+        found = [rospy.search_param(name) for name in ("robot", "limits/speed", "deep")]
+        assert found == ["/fleet/robot", "/limits/speed", "/fleet/one/n/deep"], found
+        rospy.Publisher(rospy.get_param(found[0]), String, queue_size=1)
+        rospy.Publisher("speed%d" % rospy.get_param("/limits")["speed"], String, queue_size=1)
+        rospy.Publisher(rospy.get_param("/fleet/two/other/topic"), String, queue_size=1)
+        rospy.spin()
+    """
+    params = {
+        "/robot": "far",
+        "/fleet/robot": "near",
+        "/limits/speed": 3,
+        "/fleet/one/n/deep": 1,
+        "/deep": 2,
+        "/fleet/two/other/topic": "of_another",
+    }
+    found = trace(write_node(tmp_path, body), "/fleet/one/n", params=params)
+    assert {name for _, name, _ in own(found)} == {"near", "speed3", "of_another"}

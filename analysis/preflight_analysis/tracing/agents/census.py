@@ -1,4 +1,4 @@
-"""How many processes and threads there are in the sandbox, for where nothing outside limits them."""
+"""Which processes and threads there are in the sandbox."""
 
 from __future__ import annotations
 
@@ -9,8 +9,14 @@ _FORKED = "/proc/loadavg"
 """Its last field is the last process number given in this pid namespace (proc(5))."""
 
 
+def left_behind() -> list[int]:
+    """The processes beside our own and bubblewrap's."""
+    return sorted(int(name) for name in os.listdir("/proc") if name.isdigit() and int(name) not in (1, os.getpid()))
+
+
 def crowded(most: Optional[int]) -> bool:
-    """Whether there are more than `most`. Cheap as long as not so many have ever been started."""
+    """Whether there are more than `most`, for where nothing outside limits them. Cheap as long as not so many have ever
+    been started."""
     if most is None:
         return False
     try:

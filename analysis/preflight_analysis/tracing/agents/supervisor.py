@@ -19,7 +19,7 @@ import threading
 import time
 from typing import Any, Optional
 
-from .census import crowded
+from .census import crowded, left_behind
 from .params import ParamTree
 
 MASTER_PORT = 11311
@@ -318,13 +318,19 @@ def exit_code(pid: int) -> Optional[int]:
 def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
     """Read events until the node is over. The status, and where it ended itself its exit code or minus the signal."""
     rest = b""
+    followed = False
     while True:
         ready = select.select([events, wake], [], [], TICK)[0]
         ended = None
         if wake in ready:
             os.read(wake, 512)
             ended = exit_code(run.pid)
+        elif followed:
+            ended = None if left_behind() else 0
         rest = drain(run, events, rest)
+        if ended == 0 and not run.initialised and not followed and (left := left_behind()):
+            # It goes on as a daemon, or was a script that started the node in the background.
+            followed, run.pid, ended = True, left[0], None
         if ended is not None:
             return "ended", ended, ""
         if crowded(run.job["most_processes"]):
