@@ -5,7 +5,7 @@ from __future__ import annotations
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Related
-from preflight_analysis.graph.model import Connection
+from preflight_analysis.graph.model import Connection, ParamRead
 
 
 def node_location(node: LaunchNode) -> Location:
@@ -27,3 +27,8 @@ def connection_location(connection: Connection) -> Location:
 def related_end(connection: Connection, verb: str) -> Related:
     """The other end, `verb` says what it does: `publishes`, `subscribes to`, ..."""
     return Related(f"{connection.node.name} {verb} {connection.name}", connection_location(connection))
+
+
+def related_param_read(read: ParamRead) -> Related:
+    """The node that reads a parameter."""
+    return Related(f"{read.node.name} reads {read.name}", node_location(read.node))

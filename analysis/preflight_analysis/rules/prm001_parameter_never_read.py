@@ -12,7 +12,7 @@ from preflight_analysis.findings.finding import Confidence, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
 from preflight_analysis.rules.parameters import by_namespace, grouped, name_place, renamed
-from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.places import node_location, related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_for_tools
@@ -208,7 +208,7 @@ def _default(read: ParamRead) -> str:
 
 def _related(param: Param, read: ParamRead) -> tuple[Related, ...]:
     return (
-        Related(f"{read.node.name} reads {read.name}", node_location(read.node)),
+        related_param_read(read),
         *include_chain(param.origin),
     )
 

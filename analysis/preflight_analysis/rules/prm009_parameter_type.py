@@ -1,0 +1,116 @@
+"""PRM009: a parameter's value is of another kind than the node's own default."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.places import related_param_read
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_BOOLEAN_WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "y", "n", "t", "f"})
+_OTHER_NUMBER = re.compile(
+    r"[-+]?(0[xob][0-9a-f_]+|[0-9][0-9_]*(\.[0-9_]*)?(e[-+]?[0-9]+)?|\.[0-9]+(e[-+]?[0-9]+)?)", re.I
+)
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None:
+        return
+    params = graph.tree.params
+    told: set[tuple[str, str]] = set()
+    for read in graph.param_reads:
+        if not read.use.has_default or read.use.builtin or read.use.access != "get":
+            continue
+        param = params.get(read.name)
+        if param is None or (read.name, read.node.name) in told:
+            continue
+        difference = _difference(param.value, read.use.default)
+        if difference is not None:
+            told.add((read.name, read.node.name))
+            yield _finding(rule, param, read, *difference)
+
+
+def _finding(
+    rule: Rule, param: Param, read: ParamRead, severity: Severity, confidence: Confidence, why: str
+) -> Finding:
+    return rule.finding(
+        f"'{param.name}' is {_shown(param.value)}, {_kind(param.value)}, but {read.node.name} reads it with the "
+        f"default {_shown(read.use.default)}, {_kind(read.use.default)}{why}",
+        name_place(param),
+        severity=severity,
+        confidence=confidence,
+        related=(related_param_read(read), *include_chain(param.origin)),
+    )
+
+
+def _difference(value: Any, default: Any) -> tuple[Severity, Confidence, str] | None:
+    """How severe it is, how sure, and what to add to the message; None where the value will do or nobody can tell.
+
+    A default is also what a node takes for "not set": `False`, `0`, `""` and `None` say little of the kind.
+    """
+    match default:
+        case bool():
+            if isinstance(value, str) and value.strip().lower() in _BOOLEAN_WORDS:
+                return "warning", "likely", ": any text that is not empty counts as true"
+        case int() | float():
+            if isinstance(value, str):
+                if _OTHER_NUMBER.fullmatch(value.strip()):
+                    return "warning", "possible", "; write it as a plain decimal number"
+                return ("warning", "likely", "") if default not in (0, -1) else ("hint", "possible", "")
+            if isinstance(value, list | dict):
+                return "warning", "likely", ""
+        case str() if default:
+            if isinstance(value, list | dict):
+                return "warning", "likely", ""
+        case list():
+            if isinstance(value, str) and value.strip().startswith("["):
+                return "warning", "likely", ': a <param> is never a list; write <rosparam param="...">[...]</rosparam>'
+            if isinstance(value, str | int | float | dict):
+                return "warning", "likely", ""
+        case dict():
+            if isinstance(value, str | int | float | list):
+                return "warning", "likely", ""
+    return None
+
+
+def _kind(value: Any) -> str:
+    match value:
+        case bool():
+            return "a boolean"
+        case int() | float():
+            return "a number"
+        case str():
+            return "a text"
+        case list():
+            return "a list"
+    return "a dictionary"
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+RULE = Rule(
+    id="PRM009",
+    name="parameter-type",
+    severity="warning",
+    what="Reports a parameter whose value is of another kind than the default with which a node reads it, where that "
+    "matters: a text for a number, a list or a boolean, a list for a single value. An integer for a float is fine, and "
+    'defaults that stand for "not set" (`False`, `0`, an empty text) are taken for what they are.',
+    why="Some nodes crash at it, some go on with the default, and some take `off` for true. To `roslaunch` "
+    "`1e3`, `0x10` and `1_000` are texts.",
+    example='<param name="rate" value="1e3"/> <!-- rospy.get_param("~rate", 10) -->',
+    instead='<param name="rate" value="1000"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

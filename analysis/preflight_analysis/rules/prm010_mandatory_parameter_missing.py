@@ -1,0 +1,131 @@
+"""PRM010: a node reads a parameter without a default, and nothing sets it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.parameters import by_namespace, name_place, renamed
+from preflight_analysis.rules.places import node_location, related_param_read
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.tracing.interface import Interface
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None or not context.tree.complete:
+        return
+    missing = _missing(context, graph)
+    if not missing:
+        return
+    read = {each.name for each in graph.param_reads}
+    unread: dict[str, list[Param]] = {}
+    for param in graph.tree.params.values():
+        if param.name not in read:
+            unread.setdefault(param.name.rpartition("/")[2], []).append(param)
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
+        optional: list[str] = []
+        for lacking in missing.get(id(node), ()):
+            died = _died_of_it(interface, lacking)
+            leaf = lacking.name.rpartition("/")[2]
+            meant = _elsewhere(lacking, unread.get(leaf, ())) if died or graph.complete else None
+            if died or meant is not None:
+                yield _finding(rule, context, lacking, meant, died=died)
+            else:
+                optional.append(lacking.name)
+        if optional:
+            one = len(optional) == 1
+            names = f"parameter{'' if one else 's'} {quoted(optional)}"
+            yield rule.finding(
+                f"{node.name} reads {names} without a default, and nothing sets {'it' if one else 'them'}",
+                node_location(node),
+                severity="hint",
+                confidence="possible",
+                related=include_chain(node.origin),
+            )
+
+
+def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
+    """By the id of the node what it reads without a default and nobody sets, each name once.
+
+    A node that asks whether there is such a parameter, or reads it with a default too, goes on without it.
+    """
+    namespaces: set[str] = set()
+    for namespace in context.once(by_namespace):
+        above = namespace
+        while above and above not in namespaces:
+            namespaces.add(above)
+            above = above.rpartition("/")[0]
+    known = graph.tree.params.keys() | namespaces | {command.param for command in graph.tree.commands}
+    known |= {r.name for r in graph.param_reads if r.use.access in ("set", "search")}
+    optional = {(id(r.node), r.name) for r in graph.param_reads if r.use.access == "has" or r.use.has_default}
+    found: dict[int, list[ParamRead]] = {}
+    seen = set(optional)
+    for read in graph.param_reads:
+        key = (id(read.node), read.name)
+        if not read.use.mandatory or read.use.access != "get" or read.use.builtin or key in seen:
+            continue
+        seen.add(key)
+        if read.name in known or is_for_tools(read.name) or f"_{read.use.name.strip('~')}:=" in read.node.args:
+            continue
+        found.setdefault(id(read.node), []).append(read)
+    return found
+
+
+def _died_of_it(interface: Interface, read: ParamRead) -> bool:
+    """Whether the node ended with the KeyError that rospy raises for this name."""
+    if interface.outcome.status not in ("crashed", "exited"):
+        return False
+    said = (*interface.outcome.stderr_tail, interface.outcome.reason or "")
+    return any("KeyError" in line and (read.use.name in line or read.name in line) for line in said)
+
+
+def _elsewhere(read: ParamRead, unread: list[Param] | tuple[Param, ...]) -> Param | None:
+    """The only parameter of this name that nobody reads and that stands in a namespace around the one of the read, or
+    is private to the node that reads it elsewhere."""
+    namespace = read.name.rpartition("/")[0] + "/"
+    near = [p for p in unread if namespace.startswith(f"{_namespace(p)}/") or _namespace(p) == read.node.name]
+    return near[0] if len(near) == 1 else None
+
+
+def _namespace(param: Param) -> str:
+    return param.name.rpartition("/")[0]
+
+
+def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, *, died: bool) -> Finding:
+    node: LaunchNode = read.node
+    message = f"{node.name} reads parameter '{read.name}' without a default, and nothing sets it"
+    if died:
+        message += "; it ended with a KeyError because of that"
+    related: tuple[Related, ...] = (related_param_read(read),)
+    if meant is not None:
+        message += f". '{meant.name}' is set, which no node reads: did you mean '{read.name}' there?"
+        related = (Related(f"'{meant.name}' is set here", name_place(meant)),)
+    return rule.finding(
+        message,
+        node_location(node),
+        confidence="likely" if died else "possible",
+        related=(*related, *include_chain(node.origin)),
+        fixes=renamed(context, meant, read.name) if meant is not None else (),
+    )
+
+
+RULE = Rule(
+    id="PRM010",
+    name="mandatory-parameter-missing",
+    severity="warning",
+    what="Reports a parameter that a node reads without giving a default and that the launch does not set. It is a "
+    "warning where the node ended because of it, or where a parameter of this name that nobody reads is set in a "
+    "namespace around the one that is read, or as a private one; otherwise a hint, as the node may cope.",
+    why="rospy raises a KeyError; in C++ the variable keeps whatever it had.",
+    example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'
+    '<node pkg="p" type="talker" name="talker"/>',
+    instead='<node pkg="p" type="talker" name="talker">\n  <param name="rate" value="10"/>\n</node>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
