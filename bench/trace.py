@@ -33,6 +33,7 @@ NODES = {
     "demo/talker (Rate loop)": (FIXTURES / "demo/scripts/talker.py", "/chatter"),
     "demo/listener (rospy.spin)": (FIXTURES / "demo/scripts/listener.py", "/chatter"),
     "tutorials/advanced_publish": (FIXTURES / "tutorials/scripts/advanced_publish.py", "~numbers"),
+    "rosout (roscpp, ros::spin)": (Path("/usr/lib/rosout/rosout"), "/rosout_agg"),
 }
 
 
@@ -80,7 +81,7 @@ def bare(script: Path, topic: str, variables: dict[str, str], number: int) -> fl
     topic = topic.replace("~", node + "/")
     began = time.perf_counter()
     process = subprocess.Popen(
-        [PYTHON, str(script), f"__name:={node[1:]}"],
+        [*([PYTHON] if script.suffix == ".py" else ()), str(script), f"__name:={node[1:]}"],
         env=variables,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
