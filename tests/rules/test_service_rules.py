@@ -1,6 +1,6 @@
 """SRV: who offers, who calls, with which type."""
 
-from preflight_check import apply, check
+from preflight_check import apply, check, findings_of
 
 
 def test_a_near_miss_is_a_warning_that_names_both() -> None:
@@ -84,3 +84,27 @@ def test_services_of_two_namespaces_and_those_of_every_node_are_not_offered_twic
         {"/left/base": {"services": {"reset": "std_srvs/Empty", "/x": "y/Z"}, "builtin": ["/x"]},
          "/right/base": {"services": {"reset": "std_srvs/Empty", "/x": "y/Z"}, "builtin": ["/x"]}}
     """)
+
+
+def test_a_client_whose_type_is_not_known_is_judged_by_its_sum() -> None:
+    text = """
+        <launch><node pkg="p" type="t" name="base"/><node pkg="p" type="t" name="dock"/></launch>
+        //- interfaces
+        {"/base": {"services": {"reset": "std_srvs/Empty"}, "md5": {"reset": "11"}},
+         "/dock": {"clients": {"reset": null}, "md5": {"reset": "SUM"}}}
+    """
+    (finding,) = findings_of(text.replace("SUM", "22"))
+    assert finding.rule == "SRV002"
+    assert "/dock calls it as an unknown type, with the MD5 sums 11 and 22" in finding.message
+    assert findings_of(text.replace("SUM", "11")) == []
+    assert findings_of(text.replace("SUM", "*")) == []
+
+
+def test_one_service_type_of_two_definitions() -> None:
+    (finding,) = findings_of("""
+        <launch><node pkg="p" type="t" name="base"/><node pkg="p" type="t" name="dock"/></launch>
+        //- interfaces
+        {"/base": {"services": {"reset": "x/Reset"}, "md5": {"reset": "11"}},
+         "/dock": {"clients": {"reset": "x/Reset"}, "md5": {"reset": "22"}}}
+    """)
+    assert "one of them was built from another definition" in finding.message

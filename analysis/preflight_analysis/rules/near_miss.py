@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from typing import Literal
 
 from preflight_analysis.documents.span import Location
@@ -12,7 +14,7 @@ from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.nearest import likeness, numbers_in
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS, may_dangle
@@ -64,23 +66,70 @@ class NearMiss:
 def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
     """For each wanting end that dangles the offering end that it was most likely meant for, if there is one."""
     found: list[NearMiss] = []
-    of_type: dict[str | None, list[Channel]] = {}
-    for channel in channels.values():
-        for type_ in {_known_type(end) for end in channel.offers}:
-            of_type.setdefault(type_, []).append(channel)
-    for wanting in dangling_wants(channels):
+    wants = list(dangling_wants(channels))
+    if not wants:
+        return ()
+    index = _Index(channels)
+    for wanting in wants:
         best: tuple[tuple[object, ...], NearMiss] | None = None
-        mine = _known_type(wanting)
-        fitting = channels.values() if mine is None else (*of_type.get(mine, ()), *of_type.get(None, ()))
-        for channel in fitting:
+        for channel in index.candidates(wanting):
             for candidate, distance in _candidates(wanting, channel):
                 how = _EVIDENCE.index(candidate.likeness)
                 rank = (how > 0, not candidate.offering_dangles, how, distance, channel.name)
                 if best is None or rank < best[0]:
                     best = (rank, candidate)
-        if best is not None and not _ambiguous(best[1], channels):
+        if best is not None and not index.ambiguous(best[1]):
             found.append(best[1])
     return tuple(found)
+
+
+class _Index:
+    """Channels by what a near miss has to share: the type, and the numbers in the name (`/robot3/scan`) or its last
+    segment. In a fleet of like robots that leaves few to compare."""
+
+    def __init__(self, channels: Mapping[str, Channel]) -> None:
+        self._channels = channels
+        self._by_type: dict[str | None, list[Channel]] = {}
+        self._by_numbers: dict[tuple[str | None, tuple[str, ...]], list[Channel]] = {}
+        self._by_leaf: dict[tuple[str | None, str], list[Channel]] = {}
+        self._lone: Counter[tuple[str, str | None, str]] = Counter()
+        for channel in channels.values():
+            leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
+            for type_ in {_known_type(end) for end in channel.offers}:
+                self._by_type.setdefault(type_, []).append(channel)
+                self._by_numbers.setdefault((type_, numbers), []).append(channel)
+                self._by_leaf.setdefault((type_, leaf), []).append(channel)
+            if not channel.offers or not channel.wants:
+                side = "offers" if channel.offers else "wants"
+                ends = channel.offers or channel.wants
+                self._lone.update((side, end.endpoint.type, leaf) for end in ends)
+
+    def candidates(self, wanting: Connection) -> Iterable[Channel]:
+        """The channels that the end may have been meant for, each once."""
+        type_, numbers = _known_type(wanting), numbers_in(wanting.name)
+        if type_ is None:
+            return self._channels.values()
+        found: list[Channel] = []
+        for key in (type_, None):
+            if numbers:
+                found += self._by_numbers.get((key, numbers), ())
+                found += self._by_numbers.get((key, ()), ())
+                found += self._by_leaf.get((key, _leaf(wanting.name)), ())
+            else:
+                found += self._by_type.get(key, ())
+        return {channel.name: channel for channel in found}.values()
+
+    def ambiguous(self, near: NearMiss) -> bool:
+        """Whether a namespace alone speaks for it, and others of the type have this last name: which was meant?"""
+        type_ = near.wanting.endpoint.type or ""
+        if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
+            return False
+        leaf = _leaf(near.wanting.name)
+        return any(self._lone[side, type_, leaf] > 1 for side in ("offers", "wants"))
+
+
+def _leaf(name: str) -> str:
+    return name.rpartition("/")[2]
 
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
@@ -108,12 +157,20 @@ def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
     return any(channel.wants and channel.offers for channel in others if channel is not None)
 
 
-def lone_of_type(wanting: Connection, dangling: Iterable[Connection]) -> Connection | None:
+def by_type(ends: Iterable[Connection]) -> Mapping[str | None, list[Connection]]:
+    """The ends by their types."""
+    found: dict[str | None, list[Connection]] = {}
+    for end in ends:
+        found.setdefault(end.endpoint.type, []).append(end)
+    return found
+
+
+def lone_of_type(wanting: Connection, dangling: Mapping[str | None, list[Connection]]) -> Connection | None:
     """The only one of the dangling offering ends that has the same specific type, if there is exactly one."""
     type_ = wanting.endpoint.type
     if type_ is None or type_ == "*" or type_.startswith(_GENERIC_PACKAGES):
         return None
-    found = [c for c in dangling if c.endpoint.type == type_ and c.node is not wanting.node]
+    found = list(islice((c for c in dangling.get(type_, ()) if c.node is not wanting.node), 2))
     return found[0] if len(found) == 1 else None
 
 
@@ -203,18 +260,6 @@ def _is_slash(short: Connection, long: Connection) -> bool:
     relative = long.remap is None and not long.endpoint.name.startswith(("/", "~"))
     namespace = names.parent(long.node.name)
     return absolute and relative and namespace != "/" and long.name == namespace.rstrip("/") + short.name
-
-
-def _ambiguous(near: NearMiss, channels: Mapping[str, Channel]) -> bool:
-    """Whether a namespace alone speaks for it and others of the type have the same last name: which one was meant?"""
-    type_ = near.wanting.endpoint.type or ""
-    if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
-        return False
-    leaf = near.wanting.name.rpartition("/")[2]
-    like = [c for name, c in channels.items() if name.rpartition("/")[2] == leaf]
-    offers = sum(c.endpoint.type == type_ for channel in like if not channel.wants for c in channel.offers)
-    wants = sum(c.endpoint.type == type_ for channel in like if not channel.offers for c in channel.wants)
-    return offers > 1 or wants > 1
 
 
 def _says_enough(name: str, other: str, type_: str) -> bool:

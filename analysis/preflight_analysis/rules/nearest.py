@@ -60,7 +60,7 @@ def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
     """
     if name == other:
         return None
-    mine, theirs = _numbers(name), _numbers(other)
+    mine, theirs = numbers_in(name), numbers_in(other)
     if mine != theirs and mine and theirs:
         return None
     distance = int(OSA.distance(name, other))
@@ -115,7 +115,8 @@ def _plain_words(name: str) -> frozenset[str]:
 
 
 @lru_cache(maxsize=_NAMES)
-def _numbers(name: str) -> tuple[str, ...]:
+def numbers_in(name: str) -> tuple[str, ...]:
+    """The numbers in a name. Names that both have some, and not the same, are never alike."""
     return tuple(re.findall(r"\d+", name))
 
 

@@ -1,12 +1,13 @@
 """TOP001: a node subscribes to what nobody publishes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import (
     NearMiss,
+    by_type,
     dangling_offers,
     dangling_wants,
     fixes,
@@ -28,7 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_ends)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.wanting), id(pair.offering)))]
-    dangling = list(dangling_offers(graph.topics))
+    dangling = by_type(dangling_offers(graph.topics))
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -61,7 +62,7 @@ def _near_message(graph: Graph, pair: NearMiss) -> str:
     )
 
 
-def _hint(rule: Rule, graph: Graph, end: Connection, dangling: list[Connection]) -> Finding:
+def _hint(rule: Rule, graph: Graph, end: Connection, dangling: Mapping[str | None, list[Connection]]) -> Finding:
     kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
     message = f"{nodes_looked_at(graph)} publishes '{end.name}'{kind}, to which {end.node.name} subscribes"
     lone = lone_of_type(end, dangling)

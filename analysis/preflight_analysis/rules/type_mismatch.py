@@ -37,7 +37,8 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
                     site, other = offering, wanting
                 yield rule.finding(
                     f"types of '{channel.name}' differ: {offering.node.name} {verbs.offers} it as "
-                    f"{offering.endpoint.type}, {wanting.node.name} {verbs.wants} it as {wanting.endpoint.type}"
+                    f"{offering.endpoint.type or 'an unknown type'}, {wanting.node.name} {verbs.wants} it as "
+                    f"{wanting.endpoint.type or 'an unknown type'}"
                     f"{difference}",
                     connection_location(site),
                     confidence=_confidence(graph, wanting, offering),
@@ -51,11 +52,15 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
 def _difference(wanting: Connection, offering: Connection) -> str | None:
     """None when they fit; else what to add to the message, which is empty when the types' names tell it all."""
     mine, theirs = wanting.endpoint, offering.endpoint
-    if mine.type is None or theirs.type is None or "*" in (mine.type, theirs.type):
+    if "*" in (mine.type, theirs.type, mine.md5, theirs.md5):
         return None
+    sums_differ = bool(mine.md5 and theirs.md5) and mine.md5 != theirs.md5
+    if mine.type is None or theirs.type is None:
+        # A roscpp client of a service knows no type, but what it sends is known by the sum.
+        return f", with the MD5 sums {theirs.md5} and {mine.md5}" if sums_differ else None
     if mine.type != theirs.type:
         return ""
-    if mine.md5 and theirs.md5 and "*" not in (mine.md5, theirs.md5) and mine.md5 != theirs.md5:
+    if sums_differ:
         return f", with the MD5 sums {theirs.md5} and {mine.md5}: one of them was built from another definition"
     return None
 
