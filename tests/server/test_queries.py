@@ -197,6 +197,7 @@ PATROL = """<launch>
   <node pkg="preflight_demo" type="talker.py" name="patrol">
     <actions><action name="move_base" type="m/MoveBaseAction" class="client"/></actions>
   </node>
+  <node pkg="tf2_ros" type="static_transform_publisher" name="mount" args="0 0 1 0 0 0 base laser"/>
   <node pkg="preflight_demo" type="none.py" name="home">
     <actions><action name="go" type="m/GoAction" class="client"/></actions>
   </node>
@@ -204,7 +205,7 @@ PATROL = """<launch>
 """
 
 
-async def test_hover_on_a_node_shows_an_action_as_one_thing(desk: Desk) -> None:
+async def test_hover_on_a_node_shows_an_action_as_one_thing_and_frames(desk: Desk) -> None:
     path = desk.launch_file.with_name("patrol.launch")
     path.write_text(PATROL)
     async with editing(desk, trusted=True) as editor:
@@ -213,3 +214,4 @@ async def test_hover_on_a_node_shows_an_action_as_one_thing(desk: Desk) -> None:
         home = await hovered(editor, path, 'name="home"')
         assert "Calls actions\n- `/go` `m/GoAction`" in home
         assert "Publishes" not in home
+        assert "Broadcasts\n- frame `laser` in `base`, static" in await hovered(editor, path, 'name="mount"')

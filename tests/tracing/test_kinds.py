@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Frame
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, own, trace, write_node
@@ -191,3 +192,57 @@ def test_a_node_finds_the_parameters_of_the_whole_launch(tmp_path: Path) -> None
     }
     found = trace(write_node(tmp_path, body), "/fleet/one/n", params=params)
     assert {name for _, name, _ in own(found)} == {"near", "speed3", "of_another"}
+
+
+def test_frames_that_are_broadcast(tmp_path: Path) -> None:
+    body = """
+        import rospy
+        from geometry_msgs.msg import TransformStamped
+        from tf2_msgs.msg import TFMessage
+        from std_msgs.msg import String
+        rospy.init_node("n")
+        def transform(parent, child):
+            made = TransformStamped()
+            made.header.frame_id, made.child_frame_id = parent, child
+            made.transform.rotation.w = 1
+            return made
+        rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True).publish([transform("base", "laser")])
+        moving = rospy.Publisher("tf", TFMessage, queue_size=1)
+        rospy.Publisher("word", String, queue_size=1).publish("hello")
+        while not rospy.is_shutdown():
+            moving.publish(TFMessage([transform("odom", "base"), transform("map", "odom")]))
+            moving.publish(transforms=[transform("base", "arm")])
+            rospy.sleep(0.05)
+    """
+    tracer = Tracer(environment(tmp_path), TraceCache(tmp_path / "cache"))
+    asked = TraceRequest("/n", "pkg", str(write_node(tmp_path, body)))
+    found = tracer.trace(asked, threading.Event())
+    assert found.outcome.status == "spinning"
+    assert found.notes == ()
+    assert found.frames == (
+        Frame("base", "arm"),
+        Frame("base", "laser", static=True),
+        Frame("map", "odom"),
+        Frame("odom", "base"),
+    )
+    again = tracer.lookup(asked)
+    assert again is not None
+    assert again.frames == found.frames
+
+
+@pytest.mark.parametrize("static", [False, True])
+def test_frames_of_tf2_ros(tmp_path: Path, static: bool) -> None:
+    name = "StaticTransformBroadcaster" if static else "TransformBroadcaster"
+    body = f"""
+        import rospy
+        from tf2_ros.{"static_" if static else ""}transform_broadcaster import {name}
+        from geometry_msgs.msg import TransformStamped
+        rospy.init_node("n")
+        made = TransformStamped()
+        made.header.frame_id, made.child_frame_id = "base", "laser"
+        made.transform.rotation.w = 1
+        {name}().sendTransform(made)
+        rospy.spin()
+    """
+    found = trace(write_node(tmp_path, body))
+    assert (found.outcome.status, found.frames) == ("spinning", (Frame("base", "laser", static),))

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from typing import Any
 
 from preflight_analysis.evaluation.tree_json import json_value
+from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import Frame, Interface
 
 SCHEMA = "ros-preflight/graph/1"
 
@@ -39,6 +40,7 @@ def graph_json(graph: Graph) -> dict[str, Any]:
                 "package": node.package,
                 "executable": node.executable,
                 **interface_json(interface, ends[id(node)], reads[id(node)]),
+                **_frames(frames_of(node, interface)),
             }
             for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True)
         ],
@@ -66,6 +68,12 @@ def interface_json(
         **{key: sorted(found, key=lambda end: (end["name"], str(end["type"]))) for key, found in lists.items()},
         "params_read": _params_read(reads),
     }
+
+
+def _frames(frames: Iterable[Frame]) -> dict[str, Any]:
+    """The transforms that the node broadcasts, where any are known."""
+    found = [{"parent": frame.parent, "child": frame.child, "static": frame.static} for frame in frames]
+    return {"frames": found} if found else {}
 
 
 def _params_read(reads: Iterable[ParamRead]) -> list[dict[str, Any]]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Origin, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
+from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import Action
 from preflight_analysis.queries.language import described
@@ -23,12 +24,13 @@ from preflight_analysis.queries.places import (
     use_at,
     uses_at,
 )
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Frame, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN_CONTEXTS = 3
 """A tag of a file that is included often makes many nodes; the first few say enough."""
 _SHOWN_PARAMS = 40
+_SHOWN_FRAMES = 40
 _SHOWN_LINES = 12
 _SHOWN_COLUMNS = 160
 _SHOWN_ROOTS = 8
@@ -293,6 +295,11 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
         if reads:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]
         lines += [f"\n{note}" for note in interface.notes]
+    frames = frames_of(node, interface or NOT_RUN)
+    if frames:
+        lines += ["", "Broadcasts", *map(_frame, frames[:_SHOWN_FRAMES])]
+        if len(frames) > _SHOWN_FRAMES:
+            lines.append(f"- … and {len(frames) - _SHOWN_FRAMES} more")
     for unknown in node.unknowns:
         lines += ["", f"Not known: {unknown.what} ({unknown.reason})"]
     return "\n".join(lines)
@@ -317,6 +324,10 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
     if outcome.status == "crashed" and outcome.stderr_tail:
         lines.append("```text\n" + "\n".join(outcome.stderr_tail) + "\n```")
     return "\n\n".join(lines)
+
+
+def _frame(frame: Frame) -> str:
+    return f"- frame `{frame.child}` in `{frame.parent}`" + (", static" if frame.static else "")
 
 
 def _made_at(what: Endpoint | ParamUse) -> str:

@@ -12,7 +12,7 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing.agents.params import ParamTree
-from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
@@ -142,4 +142,5 @@ def _decode(data: Mapping[str, Any]) -> Interface:
         tuple(Endpoint(**endpoint) for endpoint in data["endpoints"]),
         tuple(ParamUse(**use) for use in data["params"]),
         notes=tuple(data["notes"]),
+        frames=tuple(Frame(**frame) for frame in data["frames"]),
     )

@@ -47,6 +47,15 @@ class ParamUse:
     builtin: bool = False
 
 
+@dataclass(frozen=True, slots=True, order=True)
+class Frame:
+    """A transform that the node broadcasts (tf, tf2), from the frame `parent` to `child`."""
+
+    parent: str
+    child: str
+    static: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """How the run ended. `reason` is one sentence for the user where the status is not `spinning`."""
@@ -73,6 +82,9 @@ class Interface:
     cached: bool = False
     notes: tuple[str, ...] = ()
     """What else the user should know of the run: blocked writes, ignored SIGTERM, dropped event lines."""
+
+    frames: tuple[Frame, ...] = ()
+    """What it was seen to broadcast; other frames may follow."""
 
     @property
     def known(self) -> bool:

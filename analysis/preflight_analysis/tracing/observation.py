@@ -15,13 +15,14 @@ from typing import Any, cast
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
-from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
+from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse, Role
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import RLIMITS, WALL_SECONDS, RawRun
 
 MAX_ENDPOINTS = 2_000
 MAX_PARAMS = 5_000
+MAX_FRAMES = 500
 MAX_FILES = 10_000
 MAX_ANSWERS = 20
 TAIL_LINES = 20
@@ -89,6 +90,7 @@ class _Gathered:
     waits: list[tuple[str, str, str | None, int | None]] = field(default_factory=list)
     files: dict[str, None] = field(default_factory=dict)
     asked: set[str] = field(default_factory=set)
+    frames: dict[Frame, None] = field(default_factory=dict)
     wrote: dict[str, None] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
     answers: dict[str, None] = field(default_factory=dict)
@@ -135,7 +137,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     # A roscpp node can look at its name and remaps without being seen.
     if not found.woven or unexplained or not recipe.python:
         asked |= {"name", "remaps"} if recipe.remapped else {"name"}
-    interface = Interface("trace", outcome, endpoints, params, notes=_notes(found))
+    interface = Interface("trace", outcome, endpoints, params, notes=_notes(found), frames=tuple(sorted(found.frames)))
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
     return Observation(interface, dependencies, lasting=not raw.killed and not raw.cancelled)
 
@@ -182,6 +184,11 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
             return _told_endpoint(record, found)
         case "param":
             return _told_param(record, found)
+        case "frame":
+            parent, child = _text(record.get("parent"), _NAME), _text(record.get("child"), _NAME)
+            if parent is None or child is None or len(found.frames) >= MAX_FRAMES:
+                return False
+            found.frames[Frame(parent, child, record.get("static") is True)] = None
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":

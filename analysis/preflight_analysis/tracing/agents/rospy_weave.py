@@ -13,7 +13,7 @@ from typing import Any, Callable, Optional
 
 import aspectlib  # type: ignore[import-untyped]
 
-from . import answers, channel, polling
+from . import answers, channel, frames, polling
 
 Advised = Callable[..., Any]
 
@@ -137,6 +137,8 @@ def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
             builtin=internal and given in _BUILTINS,
             speculative=answers.speculative(),
         )
+        if role == "publisher":
+            frames.watch(made)
         watch.something_new()
         if role == "subscriber" and not internal:
             watch.subscribed(made)

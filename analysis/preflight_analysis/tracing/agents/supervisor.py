@@ -26,7 +26,9 @@ MASTER_PORT = 11311
 FIFO = "/run/preflight/events"
 MAX_LINE = 64_000
 MAX_EVENTS = 20_000
-EVENTS = frozenset(("endpoint", "param", "asked", "answered", "state", "files", "wrote", "woven", "weave-failed"))
+EVENTS = frozenset(
+    ("endpoint", "frame", "param", "asked", "answered", "state", "files", "wrote", "woven", "weave-failed")
+)
 TICK = 0.02
 """Seconds between looks at the clock."""
 
