@@ -62,8 +62,20 @@ int main(int argc, char** argv) {
     });
     ros::spin();
   }
-  if (mode == "service") ros::service::waitForService("switch");
-  if (mode == "existence") client.waitForExistence();
+  bool there = (mode == "service" && ros::service::waitForService("switch")) ||
+               (mode == "milliseconds" && ros::service::waitForService("switch", 60000)) ||
+               (mode == "existence" && client.waitForExistence());
+  if (there) {
+    late = node.advertise<std_msgs::String>("late", 1);
+    ros::spin();
+  }
+  std_srvs::SetBool call;
+  if (mode == "call" && !client.call(call) && client.waitForExistence() && client.call(call) && call.response.success &&
+      call.response.message.empty()) {
+    late = node.advertise<std_msgs::String>("late", 1);
+    ros::spin();
+  }
+  if (mode == "own_service" && ros::service::waitForService(server.getService())) ros::spin();
   if (mode == "message") ros::topic::waitForMessage<std_msgs::String>("news", node);
   if (mode == "invalid") own.advertise<std_msgs::String>("~x", 1);
   return 3;

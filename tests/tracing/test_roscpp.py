@@ -109,18 +109,36 @@ def test_parameters_as_given_and_none_mandatory(node: Path) -> None:
 
 @pytest.mark.ros
 @pytest.mark.parametrize(
-    ("mode", "reason"),
-    [
-        ("service", "it waits for the service switch"),
-        ("existence", "it waits for the service /switch"),
-        ("message", "it waits for a message on news"),
-    ],
+    ("mode", "service"), [("service", "switch"), ("milliseconds", "switch"), ("existence", "/switch")]
 )
-def test_what_a_node_waits_for_is_told(node: Path, mode: str, reason: str) -> None:
+def test_a_wait_for_a_service_is_answered_and_what_comes_then_marked(node: Path, mode: str, service: str) -> None:
     found = trace(node, args=(mode,))
+    assert found.outcome.status == "spinning"
+    assert found.outcome.answers == (f"it waits for the service {service}, and was told that it is there",)
+    assert own(found) == MADE | {LATE}
+    assert [e.name for e in found.endpoints if e.speculative] == ["late"]
+
+
+@pytest.mark.ros
+def test_a_call_is_answered_after_its_wait_was(node: Path) -> None:
+    found = trace(node, args=("call",))
+    assert (found.outcome.status, own(found)) == ("spinning", MADE | {LATE})
+    assert found.outcome.answers[1:] == ("it calls the service /switch, and was given an empty answer",)
+
+
+@pytest.mark.ros
+def test_a_service_that_comes_is_waited_for(node: Path) -> None:
+    found = trace(node, args=("own_service",))
+    assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
+    assert not any(e.speculative for e in found.endpoints)
+
+
+@pytest.mark.ros
+def test_a_wait_for_a_message_is_told(node: Path) -> None:
+    found = trace(node, args=("message",))
     assert found.outcome.status == "timed-out"
-    assert (found.outcome.reason or "").startswith(reason)
-    assert own(found) == MADE | ({("subscriber", "news", "std_msgs/String")} if mode == "message" else set())
+    assert (found.outcome.reason or "").startswith("it waits for a message on news")
+    assert own(found) == MADE | {("subscriber", "news", "std_msgs/String")}
 
 
 @pytest.mark.ros

@@ -37,6 +37,8 @@ constexpr int kLibraryThreads = 4;
 char fifo[256];
 std::atomic<int> told{0};
 std::atomic<int> library_threads{kLibraryThreads};
+std::atomic<bool> answered{false};           // the main thread, so that whatever comes may be due to it
+thread_local bool answered_here = false;
 thread_local int depth = 0;  // of hooks: what the library calls on the node's behalf is told once
 
 __attribute__((constructor)) void remember_fifo() {
@@ -190,6 +192,14 @@ struct ServiceOptions {
   std::string type;
 };
 
+// ros::SerializedMessage.
+struct Serialized {
+  void* buffer;
+  void* buffer_count;
+  size_t size;
+  const unsigned char* start;
+};
+
 struct ClientOptions {
   std::string service;
   std::string md5;
@@ -266,6 +276,7 @@ Event endpoint(const char* role, const Names& names, const std::string& md5) {
   Event event("endpoint");
   event.add("role", std::string(role)).add("name", names.given).add("md5", md5);
   if (!names.resolved.empty()) event.add("resolved", names.resolved);
+  event.add("speculative", answered || answered_here);
   return event;
 }
 
@@ -368,6 +379,30 @@ class Wait {
   bool outermost_;
   std::string kind_, name_;
 };
+
+#define WAIT_INT "_ZN3ros7service14waitForServiceE" STRING "i"
+
+std::string name_of_client(void* client) {
+  auto* service = REAL_IF_ANY("_ZN3ros13ServiceClient10getServiceB5cxx11Ev", std::string(void*));
+  return service == nullptr ? "" : service(client);
+}
+
+void tell_answered(const char* kind, const std::string& name) {
+  answered_here = true;
+  if (in_main_thread()) answered = true;
+  Event("answered").add("kind", std::string(kind)).add("name", name).send();
+}
+
+// Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for rospy
+// (answers.py).
+bool wait_briefly(const std::string& name) {
+  constexpr int kGrace = 300, kLaterGrace = 100;
+  Wait told("service", name);
+  int grace = answered || answered_here ? kLaterGrace : kGrace;
+  if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace)) return true;
+  quietly([&] { tell_answered("service", name); });
+  return true;
+}
 
 }  // namespace preflight
 
@@ -546,19 +581,18 @@ RATE(preflight_wall_rate, "_ZN3ros8WallRate5sleepEv")
 SLEEP(preflight_duration, "_ZNK3ros8Duration5sleepEv")
 SLEEP(preflight_wall_duration, "_ZNK3ros12WallDuration5sleepEv")
 
-// Waits. A ros::Duration by value is two integers in one register.
+// Waits. A ros::Duration by value is two integers in one register; how long the node would wait does not matter.
 
 #define WAIT_DURATION "_ZN3ros7service14waitForServiceE" STRING "NS_8DurationE"
 HOOK bool preflight_wait_for_service(const std::string& name, int64_t timeout) __asm__(WAIT_DURATION);
 HOOK bool preflight_wait_for_service(const std::string& name, int64_t timeout) {
-  Wait told("service", name);
+  if (depth == 0) return wait_briefly(name);
   return REAL(WAIT_DURATION, bool(const std::string&, int64_t))(name, timeout);
 }
 
-#define WAIT_INT "_ZN3ros7service14waitForServiceE" STRING "i"
 HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) __asm__(WAIT_INT);
 HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) {
-  Wait told("service", name);
+  if (depth == 0) return wait_briefly(name);
   return REAL(WAIT_INT, bool(const std::string&, int))(name, timeout);
 }
 
@@ -566,11 +600,8 @@ HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) {
 HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) __asm__(EXISTENCE);
 HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) {
   std::string name;
-  quietly([&] {
-    auto* service = REAL_IF_ANY("_ZN3ros13ServiceClient10getServiceB5cxx11Ev", std::string(void*));
-    if (service != nullptr) name = service(self);
-  });
-  Wait told("service", name);
+  quietly([&] { name = name_of_client(self); });
+  if (depth == 0 && !name.empty()) return wait_briefly(name);
   return REAL(EXISTENCE, bool(void*, int64_t))(self, timeout);
 }
 
@@ -583,4 +614,25 @@ HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHan
   quietly([&] { name = names_of(handle, options.topic).given; });
   Wait told("message", name);
   REAL(MESSAGE, void(TopicOptions&, void*, NodeHandle*, int64_t))(options, ready, handle, timeout);
+}
+
+// Once a wait was answered, so is the call of a service that nobody offers: with zeros, which are a response of any type,
+// after a first byte that makes its first field true or small.
+#define CALL "_ZN3ros13ServiceClient4callERKNS_17SerializedMessageERS1_" STRING
+HOOK bool preflight_call(void* self, const void* request, Serialized& response, const std::string& md5) __asm__(CALL);
+HOOK bool preflight_call(void* self, const void* request, Serialized& response, const std::string& md5) {
+  if (REAL(CALL, bool(void*, const void*, Serialized&, const std::string&))(self, request, response, md5)) return true;
+  bool made_up = false;
+  if (!answered && !answered_here) return false;
+  quietly([&] {
+    static const unsigned char zeros[65536] = {1};
+    auto* exists = REAL_IF_ANY("_ZN3ros13ServiceClient6existsEv", bool(void*));
+    if (exists == nullptr || exists(self) || response.buffer != nullptr) return;
+    // The library takes `start - buffer` off the size; the buffer stays nobody's, so that nothing is freed.
+    response.start = zeros;
+    response.size = sizeof zeros + reinterpret_cast<size_t>(zeros);
+    made_up = true;
+    tell_answered("call", name_of_client(self));
+  });
+  return made_up;
 }
