@@ -50,8 +50,11 @@ def test_the_mended_demo_is_clean(desk: Desk, preflight: Run) -> None:
 
 def test_no_run_executes_nothing(desk: Desk, preflight: Run) -> None:
     done = preflight("check", desk.launch_file, "--no-run", "--format", "json")
-    assert [f["rule"] for f in done.json["findings"]] == ["TRC004"]
-    assert "--no-run" in done.json["findings"][0]["message"]
+    not_run, from_source = done.json["findings"]
+    assert not_run["rule"] == "TRC004"
+    assert "--no-run" in not_run["message"]
+    assert [from_source[key] for key in ("rule", "severity", "confidence")] == ["TOP001", "info", "possible"]
+    assert "by its source" in from_source["related"][0]["message"]
     assert done.json["traced"] == 0
     assert desk.sandbox_starts() == 0
 
@@ -82,7 +85,7 @@ def test_package_path_means_there_and_nowhere_else(desk: Desk, preflight: Run, t
     done = preflight("check", desk.launch_file, "--package-path", tmp_path / "nothing", *options)
     assert {"PKG001"} <= {f["rule"] for f in done.json["findings"]}
     done = preflight("check", desk.launch_file, "--package-path", f"{tmp_path / 'nothing'}:{desk.workspace}", *options)
-    assert [f["rule"] for f in done.json["findings"]] == ["TRC004"]
+    assert [f["rule"] for f in done.json["findings"]] == ["TRC004", "TOP001"]
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,7 @@ def test_graph_in_text(desk: Desk, preflight: Run) -> None:
     assert "/rosout" not in done.out
 
 
-def test_graph_without_runs_has_what_annotations_tell(desk: Desk, preflight: Run) -> None:
+def test_graph_without_runs_has_what_annotations_and_sources_tell(desk: Desk, preflight: Run) -> None:
     desk.launch_file.write_text(
         '<launch><node pkg="preflight_demo" type="talker.py" name="a">'
         '<topics><topic name="t" type="std_msgs/String" class="pub"/></topics></node>'
@@ -56,9 +56,12 @@ def test_graph_without_runs_has_what_annotations_tell(desk: Desk, preflight: Run
     data = preflight("graph", desk.launch_file, "--no-run", "--format", "json").json
     assert [(n["interface_source"], n["outcome"]) for n in data["nodes"]] == [
         ("annotation", "not-run"),
-        ("none", "not-run"),
+        ("source", "not-run"),
     ]
-    assert data["topics"] == {"/t": {"types": ["std_msgs/String"], "publishers": ["/a"], "subscribers": []}}
+    assert data["topics"] == {
+        "/chatter": {"types": ["std_msgs/String"], "publishers": [], "subscribers": ["/b"]},
+        "/t": {"types": ["std_msgs/String"], "publishers": ["/a"], "subscribers": []},
+    }
     assert desk.sandbox_starts() == 0
 
 
@@ -131,8 +134,8 @@ def test_without_a_sandbox_check_runs_nothing_and_says_why(desk: Desk, preflight
     empty = desk.home / "empty"
     empty.mkdir()
     done = preflight("check", desk.launch_file, "--format", "json", environment={"PATH": str(empty)})
-    (finding,) = done.json["findings"]
-    assert finding["rule"] == "TRC004"
+    finding, from_source = done.json["findings"]
+    assert (finding["rule"], from_source["severity"]) == ("TRC004", "info")
     assert "bubblewrap is not installed" in finding["message"]
 
 

@@ -43,7 +43,9 @@ async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(desk: D
         for _ in range(10):
             assert children(editor.pid) == []
             await asyncio.sleep(0.1)
-        assert editor.rules(desk.launch_file) == ["TRC004"]
+        assert editor.rules(desk.launch_file) == ["TOP001", "TRC004"]
+        from_source = await editor.having(desk.launch_file, "TOP001")
+        assert from_source.severity == types.DiagnosticSeverity.Information
         assert editor.runs == {}
     assert desk.sandbox_starts() == 0
 
@@ -70,10 +72,12 @@ async def test_trust_that_is_granted_later_starts_the_runs(desk: Desk) -> None:
 async def test_trust_that_is_withdrawn_takes_back_what_runs_told(desk: Desk) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert found.severity == types.DiagnosticSeverity.Warning
         editor.trust(False)
         await editor.having(desk.launch_file, "TRC004")
-        await editor.without(desk.launch_file, "TOP001")
+        left = await editor.having(desk.launch_file, "TOP001")
+        assert left.severity == types.DiagnosticSeverity.Information, "only what the source tells"
 
 
 @pytest.mark.parametrize("value", ["true", 1, None])
@@ -95,7 +99,8 @@ async def test_where_no_sandbox_works_nothing_runs_and_the_reason_is_shown(desk:
         editor.open(desk.launch_file)
         found = await editor.having(desk.launch_file, "TRC004")
         assert "no permission for namespaces" in found.message
-        assert "TOP001" not in (editor.rules(desk.launch_file) or [])
+        found = await editor.having(desk.launch_file, "TOP001")
+        assert found.severity == types.DiagnosticSeverity.Information
     assert desk.sandbox_starts() == 0
 
 

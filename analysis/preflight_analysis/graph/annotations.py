@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from xml.sax.saxutils import quoteattr
 
 from preflight_analysis.documents.document import Document, Element
@@ -116,14 +116,7 @@ def annotated(traced: Interface, action: Action) -> Interface:
     annotation, _ = read_annotation(action)
     if annotation is None:
         return traced
-    seen = {(e.role, e.name) for e in traced.endpoints}
-    asked = {p.name for p in traced.params}
-    return replace(
-        traced,
-        source="annotation",
-        endpoints=traced.endpoints + tuple(e for e in annotation.endpoints if (e.role, e.name) not in seen),
-        params=traced.params + tuple(p for p in annotation.params if p.name not in asked),
-    )
+    return traced.with_more("annotation", annotation.endpoints, annotation.params)
 
 
 def annotation_text(interface: Interface, indent: str = "") -> str:

@@ -311,9 +311,9 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
         reason = reason or analysis.why_not_run
         return f"Its interface is not known{f': {reason}' if reason else ' yet'}"
     source = _SOURCES.get(interface.source, interface.source)
-    if interface.source != "trace":
-        return f"Interface {source}"
     outcome = interface.outcome
+    if outcome.status == "not-run":
+        return f"Interface {source}" + (f"; not run: {outcome.reason}" if outcome.reason else "")
     ending = f" with exit code {outcome.exit_code}" if outcome.exit_code else ""
     ending += f" ({outcome.signal})" if outcome.signal else ""
     how = f"{_OUTCOMES[outcome.status].capitalize()}{ending}"

@@ -26,9 +26,11 @@ def connection_location(connection: Connection) -> Location:
 
 def related_end(connection: Connection, verb: str) -> Related:
     """The other end, `verb` says what it does: `publishes`, `subscribes to`, ..."""
-    return Related(f"{connection.node.name} {verb} {connection.name}", connection_location(connection))
+    known = ", by its source" if connection.endpoint.inferred else ""
+    return Related(f"{connection.node.name} {verb} {connection.name}{known}", connection_location(connection))
 
 
 def related_param_read(read: ParamRead) -> Related:
     """The node that reads a parameter."""
-    return Related(f"{read.node.name} reads {read.name}", node_location(read.node))
+    known = ", by its source" if read.use.inferred else ""
+    return Related(f"{read.node.name} reads {read.name}{known}", node_location(read.node))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
 Status = Literal["spinning", "exited", "crashed", "timed-out", "not-run"]
+PENDING = "its run has not ended yet"
 Source = Literal["trace", "annotation", "settings", "source", "similar", "none"]
 
 
@@ -30,6 +31,8 @@ class Endpoint:
     """What every node of the client library has (`/rosout`, `~get_loggers`, ...)."""
     speculative: bool = False
     """Found after a made-up answer."""
+    inferred: bool = False
+    """Read from the source code, not seen in a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +101,26 @@ class Interface:
         declares it in an annotation."""
         spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers
         return self.source == "annotation" or spins
+
+    @property
+    def pending(self) -> bool:
+        """Whether its run has yet to end."""
+        return self.outcome.reason == PENDING
+
+    def with_more(self, source: Source, endpoints: tuple[Endpoint, ...], params: tuple[ParamUse, ...]) -> Interface:
+        """What a run saw together with what `source` says beyond that, types of what it saw among it."""
+        seen = {(e.role, e.name) for e in self.endpoints}
+        types = {(e.role, e.name): e.type for e in endpoints}
+        asked = {p.name for p in self.params}
+        return replace(
+            self,
+            source=source,
+            endpoints=(
+                *(e if e.type else replace(e, type=types.get((e.role, e.name))) for e in self.endpoints),
+                *(e for e in endpoints if (e.role, e.name) not in seen),
+            ),
+            params=self.params + tuple(p for p in params if p.name not in asked),
+        )
 
 
 NOT_RUN = Interface("none", Outcome("not-run"))

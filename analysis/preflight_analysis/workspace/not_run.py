@@ -5,8 +5,6 @@ from __future__ import annotations
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing.interface import Interface, Outcome
 
-PENDING = "its run has not ended yet"
-
 
 def not_run(node: LaunchNode, reason: str | None = None) -> Interface:
     """An empty interface that says why: what the launch file leaves unknown, no executable, or else `reason`."""

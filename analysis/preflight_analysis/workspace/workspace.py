@@ -23,6 +23,8 @@ from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
+from preflight_analysis.source.analyse import SourceAnalysis
+from preflight_analysis.source.fallback import fill_in
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.workspace.index import Root
@@ -81,6 +83,7 @@ class Workspace:
         self.commands = commands or NoResults()
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
+        self._source_analysis = SourceAnalysis(environment, sources)
         self._lock = threading.Lock()
         self._memo = Memo()
         self._memo_lock = threading.Lock()
@@ -139,6 +142,7 @@ class Workspace:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
         with self._lock:
             self._executables = ExecutableIndex(self.environment)
+            self._source_analysis = SourceAnalysis(self.environment, self.sources)
             self._memo = Memo()
             self._static.clear()
 
@@ -152,7 +156,7 @@ class Workspace:
 
         `why_not_run` says why nothing was executed, None where it was.
         """
-        graph = build_graph(analysis.tree, interfaces)
+        graph = build_graph(analysis.tree, fill_in(analysis.tree, interfaces, self._source_analysis))
         context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
         return replace(analysis, context=context)
 

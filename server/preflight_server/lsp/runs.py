@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import PENDING, Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.not_run import PENDING, not_run
+from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.command_runs import CommandRuns

@@ -1,0 +1,208 @@
+"""The source of a node to its possible endpoints and parameters, remembered until a file or a parameter changes."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import shlex
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import yaml
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.source.known_params import KnownParams, LaunchParams
+from preflight_analysis.source.python_text import parse
+from preflight_analysis.source.python_values import UNKNOWN
+from preflight_analysis.source.python_walk import walk
+from preflight_analysis.source.rospy_calls import RospyCalls
+from preflight_analysis.tracing.interface import Endpoint, ParamUse
+
+MAX_MODULES = 30
+"""How many modules of one program are followed."""
+_MAX_REMEMBERED = 1024
+_MAX_TREES = 256
+_RELAY = re.compile(r"^python_script = '([^'\n]+)'$", re.MULTILINE)
+"""What catkin writes in the place of a script in a devel space."""
+
+_SCALARS = (str, int, float, bool)
+
+
+class Texts(Protocol):
+    """What `workspace.sources.Sources` offers here."""
+
+    def digest(self, path: str) -> str:
+        """Names the content as it is now; "" where there is no such file."""
+
+    def text(self, path: str) -> Document | Unreadable:
+        """What the file holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class SourceInterface:
+    """What the source of a node says that it may do."""
+
+    endpoints: tuple[Endpoint, ...] = ()
+    params: tuple[ParamUse, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Remembered:
+    files: Mapping[str, str]
+    asked: Mapping[str, Any]
+    found: SourceInterface
+
+
+class SourceAnalysis:
+    """Reads the sources of nodes of one environment. Thread-safe; runs nothing and raises nothing."""
+
+    def __init__(self, environment: Environment, texts: Texts) -> None:
+        self._environment = environment
+        self._texts = texts
+        self._lock = threading.Lock()
+        self._remembered: dict[tuple[object, ...], _Remembered] = {}
+        self._trees: dict[str, ast.Module | None] = {}
+
+    def read(self, node: LaunchNode, params: LaunchParams) -> SourceInterface | None:
+        """What the source of the node says, None if there is none that can be read."""
+        path = node.resolved.path or next(iter(node.resolved.not_executable), None)
+        if path is None:
+            return None
+        remaps = tuple((remap.source, remap.target) for remap in node.remaps)
+        key = (path, node.name, node.args, remaps)
+        known = self._remembered.get(key)
+        if known is None or not self._is_valid(known, params):
+            known = self._analyse(path, node, remaps, params)
+            with self._lock:
+                self._remembered[key] = known
+                if len(self._remembered) > _MAX_REMEMBERED:
+                    del self._remembered[next(iter(self._remembered))]
+        return known.found if known.found.endpoints or known.found.params else None
+
+    def _is_valid(self, known: _Remembered, params: LaunchParams) -> bool:
+        return all(self._texts.digest(path) == digest for path, digest in known.files.items()) and all(
+            params.look(name) == value for name, value in known.asked.items()
+        )
+
+    def _analyse(
+        self, path: str, node: LaunchNode, remaps: tuple[tuple[str, str], ...], params: LaunchParams
+    ) -> _Remembered:
+        program = _Program(self, path, node)
+        try:
+            args = shlex.split(node.args)
+        except ValueError:
+            args = node.args.split()
+        asked = KnownParams(params, _private_params(args, node.name))
+        found = SourceInterface()
+        main = program.main()
+        if main is not None:
+            file, tree = main
+            calls = RospyCalls(node.name, names.resolve_remaps(remaps, node.name), (file, *args), asked, self._has_type)
+            walk(file, tree, program.load, calls)
+            found = SourceInterface(calls.endpoints, calls.params)
+        return _Remembered(program.files, asked.asked, found)
+
+    def text(self, path: str) -> tuple[str, str] | None:
+        """What a file holds, with its digest."""
+        digest = self._texts.digest(path)
+        found = self._texts.text(path) if digest else None
+        return (found.text, digest) if isinstance(found, Document) else None
+
+    def tree(self, path: str) -> tuple[ast.Module | None, str]:
+        """The syntax tree of a file, and the digest of what it was made from."""
+        found = self.text(path)
+        if found is None:
+            return None, self._texts.digest(path)
+        text, digest = found
+        with self._lock:
+            if digest in self._trees:
+                return self._trees[digest], digest
+        tree = parse(text)
+        with self._lock:
+            self._trees[digest] = tree
+            if len(self._trees) > _MAX_TREES:
+                del self._trees[next(iter(self._trees))]
+        return tree, digest
+
+    def package_source(self, name: str) -> str | None:
+        """The folder with the Python modules of a package by catkin's convention."""
+        package = self._environment.packages.get(name)
+        return os.path.join(package.share, "src") if package is not None else None
+
+    def _has_type(self, package: str, kind: str, name: str) -> bool:
+        found = self._environment.packages.get(package)
+        return found is not None and os.path.isfile(os.path.join(found.share, kind, f"{name}.{kind}"))
+
+
+def _private_params(args: Sequence[str], node: str) -> dict[str, Any]:
+    """What `_name:=value` among the arguments sets, values as YAML as rospy takes them."""
+    found: dict[str, Any] = {}
+    for arg in args:
+        name, mark, text = arg.partition(":=")
+        if mark and name.startswith("_") and not name.startswith("__"):
+            try:
+                value = yaml.safe_load(text)
+            except (yaml.YAMLError, ValueError, RecursionError):
+                value = text
+            found[names.resolve(f"~{name[1:]}", node)] = value if isinstance(value, _SCALARS) else UNKNOWN
+    return found
+
+
+class _Program:
+    """The files of one program. `files` has the digest of each that was looked at."""
+
+    def __init__(self, analysis: SourceAnalysis, path: str, node: LaunchNode) -> None:
+        self._analysis = analysis
+        self._path = path
+        self._package = node.package
+        self._loaded = 0
+        self.files: dict[str, str] = {}
+
+    def main(self) -> tuple[str, ast.Module] | None:
+        """The main file with its tree, None if it is not in Python."""
+        path = self._path
+        found = self._analysis.text(path)
+        if found is None:
+            return None
+        text, self.files[path] = found
+        first = text.partition("\n")[0]
+        if not path.endswith(".py") and not (first.startswith("#!") and "python" in first):
+            return None
+        relay = _RELAY.search(text)
+        if relay is not None and "exec(compile(" in text:
+            path = relay[1]
+        tree, self.files[path] = self._analysis.tree(path)
+        self._path = path
+        return (path, tree) if tree is not None else None
+
+    def load(self, name: str, level: int, importer: str) -> tuple[str, ast.Module] | None:
+        """The module that an import means, if it is of a package in source form. Implements `python_walk.Load`."""
+        for folder in self._folders(name, level, importer):
+            base = os.path.join(folder, *name.split(".")) if name else folder
+            for path in (f"{base}.py", os.path.join(base, "__init__.py")):
+                if os.path.isfile(path):
+                    if self._loaded >= MAX_MODULES:
+                        return None
+                    self._loaded += 1
+                    tree, self.files[path] = self._analysis.tree(path)
+                    return (path, tree) if tree is not None else None
+        return None
+
+    def _folders(self, name: str, level: int, importer: str) -> list[str]:
+        if level:
+            folder = os.path.dirname(importer)
+            for _ in range(level - 1):
+                folder = os.path.dirname(folder)
+            return [folder]
+        folders = [os.path.dirname(self._path)]
+        for package in dict.fromkeys((self._package, name.partition(".")[0])):
+            if (source := self._analysis.package_source(package)) is not None:
+                folders.append(source)
+        return folders

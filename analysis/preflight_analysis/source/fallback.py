@@ -1,0 +1,38 @@
+"""What to take a node's interface from where its run did not tell it to the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
+from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.source.analyse import SourceAnalysis
+from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.tracing.interface import Interface
+
+
+def fill_in(tree: LaunchTree, interfaces: Sequence[Interface], sources: SourceAnalysis) -> tuple[Interface, ...]:
+    """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end the source is added.
+
+    A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
+    """
+    params = LaunchParams({p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)})
+    return tuple(
+        _from_source(node, interface, params, sources) if _lacks(node, interface) else interface
+        for node, interface in zip(tree.nodes, interfaces, strict=True)
+    )
+
+
+def _lacks(node: LaunchNode, interface: Interface) -> bool:
+    outcome = interface.outcome
+    ended_well = outcome.status == "exited" and outcome.exit_code == 0
+    return not (interface.complete or ended_well or interface.pending) and read_annotation(node.action)[0] is None
+
+
+def _from_source(node: LaunchNode, interface: Interface, params: LaunchParams, sources: SourceAnalysis) -> Interface:
+    found = sources.read(node, params)
+    if found is None:
+        return interface
+    endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
+    return interface.with_more("source", endpoints, found.params)

@@ -1,0 +1,124 @@
+"""What the walk through a Python program knows of a value."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass, field
+from typing import Any
+
+_MAX_PARTS = 1000
+
+
+class _Unknown:
+    def __repr__(self) -> str:
+        return "UNKNOWN"
+
+
+UNKNOWN: Any = _Unknown()
+"""A value that only a run would tell."""
+
+
+@dataclass(frozen=True, slots=True)
+class Imported:
+    """Something of a module that is not followed, by its dotted name: `rospy.Publisher`, `std_msgs.msg.String`."""
+
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class StarImported:
+    """A name that nothing defines but one of the modules of which all was imported."""
+
+    name: str
+    modules: tuple[str, ...]
+
+
+@dataclass(eq=False, slots=True)
+class Module:
+    """A module that is followed."""
+
+    path: str
+    names: dict[str, Any] = field(default_factory=dict)
+    stars: list[str] = field(default_factory=list)
+    done: bool = False
+
+
+@dataclass(eq=False, slots=True)
+class Scope:
+    """The names of one call of a function; of a module its own dictionary."""
+
+    names: dict[str, Any]
+    module: Module
+    parent: Scope | None = None
+    globals: set[str] = field(default_factory=set)
+    owner: Class | None = None
+    """The class whose method it is."""
+    instance: Any = None
+
+
+@dataclass(eq=False, slots=True)
+class Function:
+    """A function, a lambda, or with `instance` a method that is bound."""
+
+    node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+    scope: Scope
+    owner: Class | None = None
+    instance: Any = None
+
+
+@dataclass(eq=False, slots=True)
+class Class:
+    """A class with its bases as far as they are known."""
+
+    name: str
+    names: dict[str, Any]
+    bases: tuple[Any, ...]
+
+    def find(self, name: str) -> Any:
+        """An attribute of the class or of a base; UNKNOWN if there is none that is known."""
+        for cls in self.order():
+            if name in cls.names:
+                return cls.names[name]
+        return UNKNOWN
+
+    def order(self) -> list[Class]:
+        """The class and its known bases, as attributes are looked up."""
+        found: list[Class] = []
+        pending: list[Class] = [self]
+        while pending and len(found) < 32:
+            cls = pending.pop(0)
+            if cls not in found:
+                found.append(cls)
+                pending[:0] = [base for base in cls.bases if isinstance(base, Class)]
+        return found
+
+
+@dataclass(eq=False, slots=True)
+class Instance:
+    """An object of a class that is followed."""
+
+    cls: Class
+    names: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Super:
+    """`super()` in a method of `cls`."""
+
+    cls: Class
+    instance: Any
+
+
+def is_plain(value: Any) -> bool:
+    """Whether it is a small value of the program that is fully known: no function, object or module."""
+    pending, left = [value], _MAX_PARTS
+    while pending and left:
+        left -= 1
+        part = pending.pop()
+        if isinstance(part, (list, tuple)):
+            pending += part[:_MAX_PARTS]
+        elif isinstance(part, dict):
+            pending += list(part.values())[:_MAX_PARTS]
+        elif not (part is None or isinstance(part, (str, int, float, bool))):
+            return False
+    return not pending

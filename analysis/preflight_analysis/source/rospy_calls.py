@@ -1,0 +1,177 @@
+"""What calls of rospy and of the libraries beside it make: endpoints and parameter uses."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.python_values import UNKNOWN, Imported, StarImported, is_plain
+from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
+
+_TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
+_TOPIC_TYPES = ("msg",)
+_SERVICE_TYPES = ("srv",)
+_TF = "tf2_msgs/TFMessage"
+
+_ENDS: Mapping[str, tuple[Role, tuple[str, str], tuple[str, ...]]] = {
+    "rospy.Publisher": ("publisher", ("name", "data_class"), _TOPIC_TYPES),
+    "rospy.Subscriber": ("subscriber", ("name", "data_class"), _TOPIC_TYPES),
+    "rospy.wait_for_message": ("subscriber", ("topic", "topic_type"), _TOPIC_TYPES),
+    "rospy.Service": ("service", ("name", "service_class"), _SERVICE_TYPES),
+    "rospy.ServiceProxy": ("client", ("name", "service_class"), _SERVICE_TYPES),
+    "message_filters.Subscriber": ("subscriber", ("name", "data_class"), _TOPIC_TYPES),
+    "actionlib.SimpleActionServer": ("action_server", ("name", "ActionSpec"), _TOPIC_TYPES),
+    "actionlib.ActionServer": ("action_server", ("ns", "ActionSpec"), _TOPIC_TYPES),
+    "actionlib.SimpleActionClient": ("action_client", ("ns", "ActionSpec"), _TOPIC_TYPES),
+    "actionlib.ActionClient": ("action_client", ("ns", "ActionSpec"), _TOPIC_TYPES),
+}
+"""The role, the parameters for name and type, and in which kind of module the type is."""
+
+_LIBRARIES = frozenset({"rospy", "actionlib", "message_filters", "tf", "tf2_ros", "dynamic_reconfigure"})
+_FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
+    "tf.TransformBroadcaster": (("publisher", "/tf", _TF),),
+    "tf2_ros.TransformBroadcaster": (("publisher", "/tf", _TF),),
+    "tf2_ros.StaticTransformBroadcaster": (("publisher", "/tf_static", _TF),),
+    "tf.TransformListener": (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF)),
+    "tf2_ros.TransformListener": (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF)),
+    "dynamic_reconfigure.Server": (
+        ("service", "~set_parameters", "dynamic_reconfigure/Reconfigure"),
+        ("publisher", "~parameter_descriptions", "dynamic_reconfigure/ConfigDescription"),
+        ("publisher", "~parameter_updates", "dynamic_reconfigure/Config"),
+    ),
+}
+_ACCESS = {
+    "rospy.get_param": "get",
+    "rospy.get_param_cached": "get",
+    "rospy.has_param": "has",
+    "rospy.search_param": "search",
+    "rospy.set_param": "set",
+    "rospy.delete_param": "delete",
+}
+_MAX_FOUND = 500
+
+HasType = Callable[[str, str, str], bool]
+"""Whether a package has a message or service of a name: package, `msg` or `srv`, name."""
+
+
+class RospyCalls:
+    """Collects what the calls of one node make. Implements `python_walk.Calls`."""
+
+    def __init__(
+        self, node: str, remaps: Mapping[str, str], argv: Sequence[str], params: KnownParams, has_type: HasType
+    ) -> None:
+        self._node = node
+        self._remaps = remaps
+        self._argv = list(argv)
+        self._params = params
+        self._has_type = has_type
+        self._awaited: list[Endpoint] = []
+        self._endpoints: dict[tuple[str, str, str | None], Endpoint] = {}
+        self._uses: dict[tuple[str, str, bool], ParamUse] = {}
+
+    @property
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """The ends found, in order; a service that is only waited for is one that is called."""
+        called = {e.name for e in self._endpoints.values() if e.role == "client"}
+        return (*self._endpoints.values(), *(e for e in self._awaited if e.name not in called))
+
+    @property
+    def params(self) -> tuple[ParamUse, ...]:
+        """The uses of parameters found, in order."""
+        return tuple(self._uses.values())
+
+    def value(self, path: str) -> Any:
+        """`sys.argv` is known; everything else is what its name says."""
+        return list(self._argv) if path == "sys.argv" else Imported(path)
+
+    def call(self, path: str, args: Sequence[Any], kwargs: Mapping[str, Any], file: str, line: int) -> Any:
+        """Note what the call makes; its value where it has one that is known."""
+        name = _plain(path)
+
+        def given(index: int, keyword: str) -> Any:
+            return args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN)
+
+        if end := _ENDS.get(name):
+            role, (first, second), kinds = end
+            type_ = self._type(given(1, second), kinds)
+            qos = {"latch": True} if role == "publisher" and kwargs.get("latch") is True else {}
+            self._found(Endpoint(role, given(0, first), type_, None, qos, file, line))
+            return Imported(f"{name}()")
+        if fixed := _FIXED.get(name):
+            for role, topic, type_ in fixed:
+                self._found(Endpoint(role, topic, type_, None, {}, file, line))
+            return Imported(f"{name}()")
+        if name == "rospy.wait_for_service":
+            service = given(0, "service")
+            if _is_name(service):
+                self._awaited.append(Endpoint("client", service, None, None, {}, file, line))
+            return None
+        if name in _ACCESS:
+            has_default = name.startswith("rospy.get_param") and (len(args) > 1 or "default" in kwargs)
+            return self._param(_ACCESS[name], given(0, "param_name"), given(1, "default"), has_default, file, line)
+        if name == "rospy.get_param_names":
+            self._use(ParamUse("/", "list", source_file=file, source_line=line))
+        return self._other(name, args, given)
+
+    def _other(self, name: str, args: Sequence[Any], given: Callable[[int, str], Any]) -> Any:
+        if name == "rospy.myargv":
+            return [word for word in self._argv if ":=" not in word]
+        if name == "rospy.get_name":
+            return self._node
+        if name == "rospy.get_namespace":
+            return names.parent(self._node)
+        if name in ("rospy.resolve_name", "rospy.remap_name"):
+            asked = given(0, "name")
+            return names.resolve(asked, self._node, self._remaps) if _is_name(asked) else UNKNOWN
+        if name in ("os.path.join", "rospy.names.ns_join", "rospy.ns_join") and all(isinstance(a, str) for a in args):
+            return os.path.join(*args) if args else UNKNOWN
+        if name == "rospy.numpy_msg":
+            return given(0, "msg_type")
+        return UNKNOWN
+
+    def _param(self, access: str, name: Any, default: Any, has_default: bool, file: str, line: int) -> Any:
+        default = default if has_default else UNKNOWN
+        if not _is_name(name):
+            return default
+        known = default if is_plain(default) else None
+        self._use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))
+        if access not in ("get", "has"):
+            return UNKNOWN
+        found = self._params.look(names.resolve(name, self._node, self._remaps))
+        if access == "has":
+            return UNKNOWN if found is UNKNOWN else True
+        return default if found is UNKNOWN else found
+
+    def _use(self, use: ParamUse) -> None:
+        if len(self._uses) < _MAX_FOUND:
+            self._uses.setdefault((use.name, use.access, use.has_default), use)
+
+    def _found(self, endpoint: Endpoint) -> None:
+        if _is_name(endpoint.name) and len(self._endpoints) < _MAX_FOUND:
+            self._endpoints.setdefault((endpoint.role, endpoint.name, endpoint.type), endpoint)
+
+    def _type(self, value: Any, kinds: Sequence[str]) -> str | None:
+        if isinstance(value, Imported):
+            if _plain(value.path) == "rospy.AnyMsg":
+                return "*"
+            found = _TYPE.match(value.path)
+            return f"{found[1]}/{found[3]}" if found and found[2] in kinds else None
+        if isinstance(value, StarImported):
+            packages = [m.rpartition(".") for m in value.modules if m.rpartition(".")[2] in kinds]
+            having = [p for p, _, kind in packages if len(packages) == 1 or self._has_type(p, kind, value.name)]
+            return f"{having[0]}/{value.name}" if len(having) == 1 else None
+        return None
+
+
+def _plain(path: str) -> str:
+    """`rospy.topics.Publisher` is `rospy.Publisher`."""
+    top, _, rest = path.partition(".")
+    return f"{top}.{rest.rpartition('.')[2]}" if top in _LIBRARIES else path
+
+
+def _is_name(value: Any) -> bool:
+    return isinstance(value, str) and bool(value) and len(value) < 500 and names.is_legal(value)

@@ -1,0 +1,294 @@
+"""What the text of a Python node alone tells of it."""
+
+from __future__ import annotations
+
+import os
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
+from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+HEAD = "import rospy\nfrom std_msgs.msg import String\n"
+
+
+class Desk:
+    """A package with a node in it."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        (folder / "package.xml").write_text("<package><name>p</name></package>")
+        package = Package("p", str(folder), str(folder / "package.xml"))
+        self.environment = Environment(1, "noetic", {}, (str(folder),), {"p": package}, {}, (), (), None)
+        self.sources = Sources()
+        self.analysis = SourceAnalysis(self.environment, self.sources)
+
+    def write(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+        path.chmod(0o755)
+        return path
+
+    def launch(self, inner: str = "", args: str = "") -> LaunchTree:
+        path = self.write(
+            "main.launch", f'<launch><node pkg="p" type="node.py" name="n" args="{args}">{inner}</node></launch>'
+        )
+        return Workspace(self.environment, self.sources, str(self.folder)).static(str(path)).tree
+
+    def read(self, text: str, inner: str = "", args: str = "") -> SourceInterface | None:
+        self.write("node.py", "#!/usr/bin/env python3\n" + HEAD + textwrap.dedent(text))
+        return self.again(inner, args)
+
+    def again(self, inner: str = "", args: str = "") -> SourceInterface | None:
+        tree = self.launch(inner, args)
+        params = LaunchParams({p.name: p.value for p in tree.params.values()})
+        return self.analysis.read(tree.nodes[0], params)
+
+    def ends(self, text: str, **more: Any) -> list[tuple[str, str, str | None]]:
+        found = self.read(text, **more)
+        return [(e.role, e.name, e.type) for e in found.endpoints] if found else []
+
+    def topics(self, text: str, **more: Any) -> list[str]:
+        return [name for _, name, _ in self.ends(text, **more)]
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    return Desk(tmp_path)
+
+
+def test_each_kind_of_end(desk: Desk) -> None:
+    assert desk.ends(
+        """
+        import actionlib, tf2_ros, message_filters
+        from rospy import Publisher as Pub
+        from std_srvs.srv import SetBool, Trigger
+        from nav.msg import GoAction
+        import sensor_msgs.msg as sm
+        Pub("a", String, queue_size=1)
+        rospy.Subscriber(name="b", data_class=sm.Image, callback=None)
+        message_filters.Subscriber("~c", sm.CameraInfo)
+        rospy.Service("d", SetBool, lambda request: None)
+        rospy.wait_for_service("e"), rospy.wait_for_service("f")
+        rospy.ServiceProxy("e", Trigger)
+        actionlib.SimpleActionServer("g", GoAction, auto_start=False)
+        actionlib.SimpleActionClient("/h", GoAction)
+        tf2_ros.TransformListener(tf2_ros.Buffer())
+        rospy.wait_for_message("i", rospy.AnyMsg)
+        """
+    ) == [
+        ("publisher", "a", "std_msgs/String"),
+        ("subscriber", "b", "sensor_msgs/Image"),
+        ("subscriber", "~c", "sensor_msgs/CameraInfo"),
+        ("service", "d", "std_srvs/SetBool"),
+        ("client", "e", "std_srvs/Trigger"),
+        ("action_server", "g", "nav/GoAction"),
+        ("action_client", "/h", "nav/GoAction"),
+        ("subscriber", "/tf", "tf2_msgs/TFMessage"),
+        ("subscriber", "/tf_static", "tf2_msgs/TFMessage"),
+        ("subscriber", "i", "*"),
+        ("client", "f", None),
+    ]
+
+
+def test_computed_names(desk: Desk) -> None:
+    assert desk.topics(
+        """
+        BASE = "arm"
+        NAMES = {"x": "joint_%d"}
+        rospy.Publisher(BASE + "/state", String)
+        rospy.Publisher(f"{BASE}/goal", String)
+        rospy.Publisher(NAMES["x"] % 3, String)
+        rospy.Publisher("{}/{}".format(BASE, "a"), String)
+        for i in range(2):
+            rospy.Publisher("wheel%s" % i, String)
+        rospy.Publisher(rospy.get_name() + "/own", String)
+        rospy.Publisher(compute(), String)
+        rospy.Publisher("not a name", String)
+        """
+    ) == ["arm/state", "arm/goal", "joint_3", "arm/a", "wheel0", "wheel1", "/n/own"]
+
+
+def test_objects_and_functions_are_followed_in_order(desk: Desk) -> None:
+    assert desk.topics(
+        """
+        class Base(object):
+            SUFFIX = "_in"
+            def __init__(self, topic):
+                self.topic = topic + self.SUFFIX
+                self.add()
+            def add(self):
+                rospy.Subscriber(self.topic, String, self.heard)
+            def heard(self, message):
+                rospy.Publisher("late", String)
+        class Node(Base):
+            def __init__(self, topic="scan"):
+                super().__init__(topic)
+            def unused(self):
+                rospy.Publisher("never", String)
+        def never_called():
+            rospy.Publisher("never_either", String)
+        def main():
+            Node()
+            Node(topic="laser")
+        if __name__ == "__main__":
+            main()
+        """
+    ) == ["scan_in", "laser_in", "late"]
+
+
+def test_conditions(desk: Desk) -> None:
+    assert desk.topics(
+        """
+        if rospy.get_param("~known"):
+            topic = "yes"
+        else:
+            topic = "no"
+        rospy.Publisher(topic, String)
+        if rospy.get_param("~unknown"):
+            rospy.Publisher("one", String)
+            other = "a"
+        else:
+            rospy.Publisher("two", String)
+            other = "b"
+        rospy.Publisher(other, String)
+        if rospy.is_shutdown():
+            import sys
+            sys.exit(1)
+        rospy.Publisher("after", String)
+        """,
+        inner='<param name="known" value="true"/>',
+    ) == ["yes", "one", "two", "after"], "what differs by a condition that is not known is not told"
+
+
+def test_parameters_of_the_launch_and_defaults_give_names(desk: Desk) -> None:
+    text = """
+        rospy.Publisher(rospy.get_param("~topic", "fallback"), String)
+        space = rospy.get_param("~space", {})
+        rospy.Publisher(space.get("inner", "none"), String)
+        """
+    assert desk.topics(text) == ["fallback", "none"]
+    inner = '<param name="topic" value="given"/><param name="space/inner" value="deep"/>'
+    assert desk.topics(text, inner=inner) == ["given", "deep"]
+    assert desk.topics(text, args="_topic:=argued") == ["argued", "none"]
+
+
+def test_uses_of_parameters(desk: Desk) -> None:
+    found = desk.read(
+        """
+        rospy.get_param("~rate", 10)
+        rospy.get_param("needed")
+        rospy.has_param("/maybe")
+        rospy.set_param("~made", 1)
+        rospy.get_param("~computed", len(rospy.get_time()))
+        """
+    )
+    assert found is not None
+    assert [(u.name, u.access, u.default, u.has_default, u.mandatory) for u in found.params] == [
+        ("~rate", "get", 10, True, False),
+        ("needed", "get", None, False, True),
+        ("/maybe", "has", None, False, False),
+        ("~made", "set", None, False, False),
+        ("~computed", "get", None, True, False),
+    ]
+
+
+def test_places(desk: Desk) -> None:
+    found = desk.read('\n\nrospy.Publisher("a", String)\n')
+    assert found is not None
+    (end,) = found.endpoints
+    assert (end.source_file, end.source_line) == (str(desk.folder / "node.py"), 6)
+
+
+def test_modules_of_the_package_are_followed(desk: Desk) -> None:
+    desk.write("src/p/__init__.py", "")
+    desk.write("src/p/parts.py", HEAD + "from .more import TOPIC\ndef start():\n  rospy.Publisher(TOPIC, String)\n")
+    desk.write("src/p/more.py", 'TOPIC = "from_module"\nif __name__ == "__main__":\n  TOPIC = "wrong"\n')
+    desk.write("beside.py", HEAD + 'class Thing:\n  def __init__(self): rospy.Publisher("beside", String)\n')
+    text = (
+        "import beside\nimport p.parts\nfrom p import parts as again\np.parts.start()\nbeside.Thing()\nagain.start()\n"
+    )
+    assert desk.topics(text) == ["from_module", "beside"]
+
+
+def test_star_imports_give_types_where_one_package_has_it(desk: Desk) -> None:
+    text = "from std_msgs.msg import *\nrospy.Publisher('a', Bool)\nrospy.Service('s', Bool, None)\n"
+    assert desk.ends(text) == [("publisher", "a", "std_msgs/Bool"), ("service", "s", None)]
+    both = "from std_msgs.msg import *\nfrom p.msg import *\nrospy.Publisher('a', Thing)\n"
+    assert desk.ends(both) == [("publisher", "a", None)]
+    desk.write("msg/Thing.msg", "")
+    assert desk.ends(both + "#\n") == [("publisher", "a", "p/Thing")]
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        'print "python 2"',
+        "try:\n    pass\nexcept rospy.ROSException, e:\n    print e",
+        "def typing(:\n    pass",
+        "x = (",
+        "\tx = 1",
+        "raise ValueError, 'old'",
+    ],
+)
+def test_what_does_not_parse_costs_no_more_than_itself(desk: Desk, broken: str) -> None:
+    assert "before" in desk.topics(f'rospy.Publisher("before", String)\n{broken}\n')
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "def f(): f()\nf()",
+        "a = []\na.append(a)\nb = [a, a]\nrospy.Publisher(str(b), String)",
+        "x = ['a'] * 10**9\nrospy.Publisher('%999999999d' % 1, String)",
+        "x = 'a'\nfor i in range(60):\n  x = x + x\n  for j in range(60):\n    for k in range(60):\n      y = [x, x]",
+        "x = [1]\n" + "x = [x, x, x, x, x, x]\n" * 40 + "rospy.Publisher(x, String)",
+        "x = " + "(" * 150 + ")" * 150,
+        "x = " + "1+" * 700 + "1",
+        "while True:\n  pass",
+        "class A(A): pass\nA().x\nclass B(B if 0 else A): pass",
+        "rospy.Publisher(*None, **None)\nrospy.Publisher()\nrospy.get_param()",
+        "lambda x=(yield): 1",
+    ],
+)
+def test_hostile_programs_end_soon_and_raise_nothing(desk: Desk, text: str) -> None:
+    assert desk.topics(f'rospy.Publisher("before", String)\n{text}\n')[:1] == ["before"]
+
+
+def test_what_is_no_python_tells_nothing(desk: Desk) -> None:
+    desk.write("node.py", "")
+    os.chmod(desk.folder / "node.py", 0o755)
+    assert desk.again() is None
+    (desk.folder / "node.py").write_bytes(b"\x7fELF\0\0")
+    assert desk.again() is None
+
+
+def test_remembered_until_a_file_or_a_parameter_changes(desk: Desk) -> None:
+    desk.write("src/p/__init__.py", 'NAME = "a"\n')
+    first = desk.read('from p import NAME\nrospy.Publisher(NAME + rospy.get_param("~x", ""), String)\n')
+    assert first is not None and [e.name for e in first.endpoints] == ["a"]
+    assert desk.again('<param name="unread" value="1"/>') is first
+    changed = desk.again('<param name="x" value="b"/>')
+    assert changed is not None and [e.name for e in changed.endpoints] == ["ab"]
+    desk.write("src/p/__init__.py", 'NAME = "longer"\n')
+    changed = desk.again('<param name="x" value="b"/>')
+    assert changed is not None and [e.name for e in changed.endpoints] == ["longerb"]
+
+
+def test_a_relay_of_a_devel_space_leads_to_the_script(desk: Desk) -> None:
+    script = desk.write("scripts/real.py", HEAD + 'rospy.Publisher("real", String)\n')
+    desk.write(
+        "node.py",
+        "#!/usr/bin/python3\n"
+        f"python_script = '{script}'\n"
+        "with open(python_script, 'r') as fh:\n    exec(compile(fh.read(), python_script, 'exec'), {})\n",
+    )
+    found = desk.again()
+    assert found is not None and [e.name for e in found.endpoints] == ["real"]
