@@ -82,6 +82,7 @@ def _declared(endpoint: Endpoint) -> ActionEnd:
             f"{endpoint.name}/{topic}",
             _COMMON.get(topic) if type_ is None else _type(type_, topic),
             speculative=endpoint.speculative,
+            inferred=endpoint.inferred,
         )
         for topic in TOPICS
     )

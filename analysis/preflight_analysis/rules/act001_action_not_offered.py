@@ -31,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     explained = {id(pair.wanting) for pair in near}
     for end in dangling_wants(graph.actions):
         if id(end) not in explained:
-            sure = graph.complete and not end.endpoint.speculative
+            sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
             yield rule.finding(
                 f"{nodes_looked_at(graph)} offers action '{end.name}'{kind}, of which {end.node.name} is a client",

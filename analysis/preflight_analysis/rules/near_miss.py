@@ -177,7 +177,7 @@ def lone_of_type(wanting: Connection, dangling: Mapping[str | None, list[Connect
 def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
     """How severe a near miss is and how sure: without evidence beside a like name it is but a hint."""
     ends = (near.wanting.endpoint, near.offering.endpoint)
-    speculative = any(end.speculative or end.inferred for end in ends)
+    speculative = any(end.uncertain for end in ends)
     sure = graph.complete and near.same_type and not speculative
     evidence = near.same_type and (near.likeness == "typo" or (near.offering_dangles and graph.complete))
     severity: Severity = "info" if any(end.inferred for end in ends) else "warning"

@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.services):
         if id(end) not in explained:
-            sure = graph.complete and not end.endpoint.speculative
+            sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
             yield rule.finding(
                 f"{nodes_looked_at(graph)} offers service '{end.name}'{kind}, which {end.node.name} calls",

@@ -26,11 +26,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             found.setdefault(key, []).append((channel.name, servers))
     for (location, nodes), offered in found.items():
         names, servers = [name for name, _ in offered], offered[0][1]
-        sure = not any(c.endpoint.speculative for _, ends in offered for c in ends)
+        sure = not any(c.endpoint.uncertain for _, ends in offered for c in ends)
         subject = f"service {quoted(names)} is" if len(names) == 1 else f"services {quoted(names)} are"
         yield rule.finding(
             f"{subject} offered by {' and '.join(nodes)}: only the one that registers last is called",
             location,
+            severity="info" if any(c.endpoint.inferred for c in servers) else None,
             confidence="likely" if sure else "possible",
             related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
         )

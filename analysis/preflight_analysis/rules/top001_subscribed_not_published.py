@@ -70,7 +70,7 @@ def _hint(rule: Rule, graph: Graph, end: Connection, dangling: Mapping[str | Non
     if lone is not None:
         message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
         related = (related_end(lone, "publishes"), *related)
-    sure = graph.complete and not end.endpoint.speculative
+    sure = graph.complete and not end.endpoint.uncertain
     return rule.finding(
         message,
         connection_location(end),

@@ -23,7 +23,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if id(end) not in reported:
             at.setdefault((connection_location(end), end.node.name), []).append(end)
     for (location, node), ends in at.items():
-        sure = graph.complete and not any(end.endpoint.speculative for end in ends)
+        sure = graph.complete and not any(end.endpoint.uncertain for end in ends)
         yield rule.finding(
             f"no node of this launch subscribes to {quoted(sorted({end.name for end in ends}))}, published by {node}",
             location,

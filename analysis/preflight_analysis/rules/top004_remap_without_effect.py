@@ -41,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             f"{told}; {evidence}",
             remap.source_location,
-            confidence="likely" if idle.partner is not None and not meant.endpoint.speculative else "possible",
+            confidence="likely" if idle.partner is not None and not meant.endpoint.uncertain else "possible",
             related=(
                 *((related_end(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
                 *include_chain(remap.origin),

@@ -39,11 +39,11 @@ def _is_shared(end: Connection) -> bool:
 
 def _finding(rule: Rule, channel: Channel, ends: list[Connection], severity: Severity, consequence: str) -> Finding:
     ends = sorted(ends, key=lambda end: end.remap is not None)
-    sure = not any(end.endpoint.speculative for end in ends)
+    sure = not any(end.endpoint.uncertain for end in ends)
     return rule.finding(
         f"'{channel.name}' is published by {' and '.join(end.node.name for end in ends)}: {consequence}",
         connection_location(ends[-1]),
-        severity=severity,
+        severity="info" if any(end.endpoint.inferred for end in ends) else severity,
         confidence="likely" if sure else "possible",
         related=(*(related_end(end, "publishes") for end in ends[:-1]), *include_chain(ends[-1].node.origin)),
     )

@@ -34,6 +34,11 @@ class Endpoint:
     inferred: bool = False
     """Read from the source code, not seen in a run."""
 
+    @property
+    def uncertain(self) -> bool:
+        """Whether the real node may well not make it."""
+        return self.speculative or self.inferred
+
 
 @dataclass(frozen=True, slots=True)
 class ParamUse:
