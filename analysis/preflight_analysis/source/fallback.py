@@ -35,4 +35,5 @@ def _from_source(node: LaunchNode, interface: Interface, params: LaunchParams, s
     if found is None:
         return interface
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
-    return interface.with_more("source", endpoints, found.params)
+    params_used = tuple(replace(use, inferred=True) for use in found.params)
+    return interface.with_more("source", endpoints, params_used)

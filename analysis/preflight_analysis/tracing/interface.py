@@ -53,6 +53,8 @@ class ParamUse:
     source_file: str | None = None
     source_line: int | None = None
     builtin: bool = False
+    inferred: bool = False
+    """Read from the source code, not seen in a run."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
