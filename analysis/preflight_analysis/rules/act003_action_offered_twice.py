@@ -1,0 +1,45 @@
+"""ACT003: two nodes offer one action."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    for channel in context.graph.actions.values():
+        servers = list({c.node.name: c for c in channel.offers}.values())
+        if len(servers) < 2:
+            continue
+        # A remap that brings them together is the place to change; else the later of the nodes.
+        servers.sort(key=lambda c: c.remap is not None)
+        yield rule.finding(
+            f"action '{channel.name}' is offered by {' and '.join(c.node.name for c in servers)}: each of them takes "
+            "every goal",
+            connection_location(servers[-1]),
+            confidence="possible" if any(c.endpoint.speculative for c in servers) else "likely",
+            related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+        )
+
+
+RULE = Rule(
+    id="ACT003",
+    name="action-offered-twice",
+    severity="warning",
+    what="Reports an action that two nodes of the launch offer under one name.",
+    why="Goals are messages on a topic, so that both servers get each of them and both carry it out; the client takes "
+    "the first result for that of its goal.",
+    example='<node pkg="base" type="dock" name="left"/> <!-- both offer /dock -->\n'
+    '<node pkg="base" type="dock" name="right"/>',
+    instead='<node pkg="base" type="dock" name="left" ns="left"/>\n'
+    '<node pkg="base" type="dock" name="right" ns="right"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
