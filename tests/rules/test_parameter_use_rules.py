@@ -146,3 +146,17 @@ def test_private_parameters_among_the_arguments_are_set() -> None:
         //- interfaces
         {"/n": {"params": {"~rate": null}}}
     """)
+
+
+@pytest.mark.parametrize("access", ["null", '{"access": "has"}'])
+def test_a_node_that_ends_with_its_own_words_on_a_parameter(access: str) -> None:
+    text = """
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"params": {"~rate": ACCESS}, "status": "exited", "exit_code": 1, "stderr": ["LINE", "bye"]}}
+    """.replace("ACCESS", access)
+    (finding,) = [f for f in findings_of(text.replace("LINE", "param rate is not set")) if f.rule == "PRM010"]
+    assert (finding.severity, finding.confidence) == ("warning", "likely")
+    assert finding.message.endswith("and nothing sets it; it ended with: param rate is not set")
+    others = [f for f in findings_of(text.replace("LINE", "no device at 9600 baud, rates vary")) if f.rule == "PRM010"]
+    assert {f.severity for f in others} <= {"hint"}

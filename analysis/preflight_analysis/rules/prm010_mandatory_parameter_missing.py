@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -13,6 +14,8 @@ from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
+
+_COMPLAINT = re.compile(r"KeyError|param|not set|missing|required|mandatory|not (found|given|specified|defined)", re.I)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -30,11 +33,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
         optional: list[str] = []
         for lacking in missing.get(id(node), ()):
-            died = _died_of_it(interface, lacking)
+            died = _last_words(interface, lacking)
+            if died is None and not lacking.use.mandatory:
+                continue
             leaf = lacking.name.rpartition("/")[2]
             meant = _elsewhere(lacking, unread.get(leaf, ())) if died or graph.complete else None
-            if died or meant is not None:
-                yield _finding(rule, context, lacking, meant, died=died)
+            if died is not None or meant is not None:
+                yield _finding(rule, context, lacking, meant, died)
             else:
                 optional.append(lacking.name)
         if optional:
@@ -50,9 +55,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
-    """By the id of the node what it reads without a default and nobody sets, each name once.
+    """By the id of the node what it reads without a default, or asks for, and nobody sets, each name once.
 
-    A node that asks whether there is such a parameter, or reads it with a default too, goes on without it.
+    A node that asks whether there is such a parameter, or reads it with a default too, may go on without it: of these
+    it stands here as not mandatory.
     """
     namespaces: set[str] = set()
     for namespace in context.once(by_namespace):
@@ -62,26 +68,31 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
             above = above.rpartition("/")[0]
     known = graph.tree.params.keys() | namespaces | {command.param for command in graph.tree.commands}
     known |= {r.name for r in graph.param_reads if r.use.access in ("set", "search")}
-    optional = {(id(r.node), r.name) for r in graph.param_reads if r.use.access == "has" or r.use.has_default}
-    found: dict[int, list[ParamRead]] = {}
-    seen = set(optional)
+    with_default = {(id(r.node), r.name) for r in graph.param_reads if r.use.has_default}
+    first: dict[tuple[int, str], ParamRead] = {}
     for read in graph.param_reads:
         key = (id(read.node), read.name)
-        if not read.use.mandatory or read.use.access != "get" or read.use.builtin or key in seen:
+        asks = read.use.access == "has"
+        if read.use.builtin or key in with_default or not (asks or (read.use.access == "get" and read.use.mandatory)):
             continue
-        seen.add(key)
         if read.name in known or is_for_tools(read.name) or f"_{read.use.name.strip('~')}:=" in read.node.args:
             continue
-        found.setdefault(id(read.node), []).append(read)
+        if asks or key not in first:
+            first[key] = read
+    found: dict[int, list[ParamRead]] = {}
+    for (node, _), read in first.items():
+        found.setdefault(node, []).append(read)
     return found
 
 
-def _died_of_it(interface: Interface, read: ParamRead) -> bool:
-    """Whether the node ended with the KeyError that rospy raises for this name."""
+def _last_words(interface: Interface, read: ParamRead) -> str | None:
+    """The line in which the node, which ended, complains of the parameter: rospy's KeyError, or its own words."""
     if interface.outcome.status not in ("crashed", "exited"):
-        return False
+        return None
+    leaf = re.compile(rf"(?<!\w){re.escape(read.name.rpartition('/')[2])}(?!\w)")
     said = (*interface.outcome.stderr_tail, interface.outcome.reason or "")
-    return any("KeyError" in line and (read.use.name in line or read.name in line) for line in said)
+    found = [line.strip() for line in said if leaf.search(line) and _COMPLAINT.search(line)]
+    return found[-1] if found else None
 
 
 def _elsewhere(read: ParamRead, unread: list[Param] | tuple[Param, ...]) -> Param | None:
@@ -96,11 +107,12 @@ def _namespace(param: Param) -> str:
     return param.name.rpartition("/")[0]
 
 
-def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, *, died: bool) -> Finding:
+def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, died: str | None) -> Finding:
     node: LaunchNode = read.node
-    message = f"{node.name} reads parameter '{read.name}' without a default, and nothing sets it"
+    reads = "reads parameter '{}' without a default" if read.use.mandatory else "asks for parameter '{}'"
+    message = f"{node.name} {reads.format(read.name)}, and nothing sets it"
     if died:
-        message += "; it ended with a KeyError because of that"
+        message += f"; it ended with: {died}"
     related: tuple[Related, ...] = (related_param_read(read),)
     if meant is not None:
         message += f". '{meant.name}' is set, which no node reads: did you mean '{read.name}' there?"
