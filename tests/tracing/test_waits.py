@@ -257,3 +257,89 @@ def test_a_pause_is_no_wait(tmp_path: Path, pause: str) -> None:
     found = waiting(tmp_path, LISTENS + pause)
     assert made(found) == {"before": False, "after": False}
     assert found.outcome.answers == ()
+
+
+ACTION = """
+import actionlib
+from actionlib.msg import TestAction, TestGoal
+client = actionlib.SimpleActionClient("go", TestAction)
+"""
+SERVER = "it waits for the action server go, and was told that it is there"
+RESULT = "it waits for the result of the action go, and was given an empty one"
+TRANSFORMS = """
+import tf2_ros
+buffer = tf2_ros.Buffer()
+listener = tf2_ros.TransformListener(buffer)
+"""
+TRANSFORM = "it waits for the transform map <- odom, and was given the identity"
+AGAIN = "it asks for the transform map <- odom again and again, and was given the identity"
+
+
+@pytest.mark.parametrize("simulated", [False, True])
+@pytest.mark.parametrize(
+    ("body", "answers"),
+    [
+        (ACTION + "assert client.wait_for_server()", (SERVER,)),
+        (ACTION + "assert client.wait_for_server(rospy.Duration(20))", (SERVER,)),
+        (
+            ACTION + "client.wait_for_server()\nclient.send_goal(TestGoal())\nassert client.wait_for_result()\n"
+            "assert (client.get_state(), client.get_result().result) == (3, 0)",
+            (SERVER, RESULT),
+        ),
+        (ACTION + "assert client.send_goal_and_wait(TestGoal()) == 3", (RESULT,)),
+        (
+            TRANSFORMS + "found = buffer.lookup_transform('map', 'odom', rospy.Time(), rospy.Duration(20))\n"
+            "assert found.transform.rotation.w == 1",
+            (TRANSFORM,),
+        ),
+        (
+            TRANSFORMS + "assert buffer.can_transform('map', 'odom', rospy.Time(), timeout=rospy.Duration(20))\n"
+            "buffer.lookup_transform(target_frame='map', source_frame='odom', time=rospy.Time())",
+            (TRANSFORM,),
+        ),
+        (
+            TRANSFORMS + "while not buffer.can_transform('map', 'odom', rospy.Time()): time.sleep(0.1)",
+            (AGAIN,),
+        ),
+        (
+            f"""{TRANSFORMS}
+while True:
+    try:
+        buffer.lookup_transform("map", "odom", rospy.Time())
+        break
+    except tf2_ros.TransformException:
+        time.sleep(0.1)
+""",
+            (AGAIN,),
+        ),
+    ],
+)
+def test_a_wait_for_an_action_or_a_transform_is_answered(
+    tmp_path: Path, body: str, answers: tuple[str, ...], simulated: bool
+) -> None:
+    found = waiting(tmp_path, body, params={"/use_sim_time": simulated})
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    publishers = {name: speculative for name, speculative in made(found).items() if not name.startswith("go/")}
+    assert publishers == {"before": False, "after": True}
+    assert found.outcome.answers == answers
+
+
+def test_a_transform_that_is_there_needs_no_made_up_one(tmp_path: Path) -> None:
+    found = waiting(
+        tmp_path,
+        f"""{TRANSFORMS}
+from geometry_msgs.msg import TransformStamped
+made = TransformStamped()
+made.header.frame_id, made.child_frame_id = "map", "odom"
+made.transform.translation.x, made.transform.rotation.w = 2, 1
+tf2_ros.StaticTransformBroadcaster().sendTransform(made)
+assert buffer.lookup_transform("map", "odom", rospy.Time(), rospy.Duration(20)).transform.translation.x == 2
+""",
+    )
+    assert found.outcome.answers == ()
+    assert made(found)["after"] is False
+
+
+def test_an_end_without_a_transform_is_the_nodes_own(tmp_path: Path) -> None:
+    found = waiting(tmp_path, TRANSFORMS + "buffer.lookup_transform('map', 'odom', rospy.Time())")
+    assert (found.outcome.status, found.outcome.answers) == ("crashed", ())

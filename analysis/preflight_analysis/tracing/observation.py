@@ -46,9 +46,13 @@ _ANSWERS = {
     "message": "it waits for a message on {}, and was given an empty one",
     "poll": "it waits for messages on {}, and was given empty ones",
     "parameter": "it waits for the parameter {}, and was given 0",
+    "action": "it waits for the action server {}, and was told that it is there",
+    "result": "it waits for the result of the action {}, and was given an empty one",
+    "transform": "it waits for the transform {}, and was given the identity",
+    "transforms": "it asks for the transform {} again and again, and was given the identity",
     "clock": "it waits for simulated time on {}, and was given the time of day",
 }
-_MAYBE = ("poll", "parameter", "clock")
+_MAYBE = ("poll", "transforms", "parameter", "clock")
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
 

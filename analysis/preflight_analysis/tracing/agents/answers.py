@@ -28,6 +28,11 @@ def speculative() -> bool:
     return _all.is_set() or getattr(_thread, "answered", False)
 
 
+def grace() -> float:
+    """How long a wait may go on."""
+    return LATER_GRACE if speculative() else GRACE
+
+
 def made_up(kind: str, name: str) -> None:
     """The calling thread is about to get a made-up answer."""
     _thread.answered = True
@@ -71,9 +76,8 @@ def limited(call: Callable[..., Any], arguments: Any, interrupted: Any, timed_ou
     the node's."""
     given = arguments.arguments.get("timeout")
     seconds = given.to_sec() if hasattr(given, "to_sec") else given
-    grace = LATER_GRACE if speculative() else GRACE
-    if seconds is None or seconds > grace:
-        arguments.arguments["timeout"] = grace
+    if seconds is None or seconds > grace():
+        arguments.arguments["timeout"] = grace()
     try:
         return True, call(*arguments.args, **arguments.kwargs)
     except interrupted:

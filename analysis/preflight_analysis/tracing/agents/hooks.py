@@ -13,6 +13,7 @@ from typing import Any, Optional, Sequence
 
 from . import channel
 
+WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer")
 _BATCH = 200
 _MAX_FILES = 5_000
 _MAX_WRITES = 20
@@ -94,9 +95,14 @@ class _WeavingLoader(Loader):
         module.__loader__ = self._loader
         sys.path.insert(0, self._library)
         try:
-            from . import rospy_weave  # noqa: PLC0415
+            if module.__name__ == "rospy":
+                from . import rospy_weave  # noqa: PLC0415
 
-            rospy_weave.weave(module, self._files.flush)
+                rospy_weave.weave(module, self._files.flush)
+            else:
+                from . import peers  # noqa: PLC0415
+
+                peers.weave(module)
         except Exception as error:
             channel.send("weave-failed", message=repr(error))
         finally:
@@ -104,9 +110,10 @@ class _WeavingLoader(Loader):
 
 
 class _Finder(MetaPathFinder):
-    """Finds rospy as the others do and puts the weave behind its loader."""
+    """Finds a module as the others do and puts the weave behind its loader."""
 
-    def __init__(self, library: str, files: Files) -> None:
+    def __init__(self, name: str, library: str, files: Files) -> None:
+        self._name = name
         self._library = library
         self._files = files
 
@@ -116,7 +123,7 @@ class _Finder(MetaPathFinder):
         path: Optional[Sequence[str]],
         target: Optional[ModuleType] = None,
     ) -> Optional[ModuleSpec]:
-        if fullname != "rospy":
+        if fullname != self._name:
             return None
         sys.meta_path.remove(self)
         for finder in sys.meta_path:
@@ -133,5 +140,6 @@ def install(library: str) -> None:
     """Watch this process. `library` is the folder that holds aspectlib."""
     files = Files()
     sys.addaudithook(files.hook)
-    sys.meta_path.insert(0, _Finder(library, files))
+    for name in WOVEN:
+        sys.meta_path.insert(0, _Finder(name, library, files))
     atexit.register(files.flush)

@@ -27,7 +27,7 @@ class Watch:
     """What the main thread does, as the hooks tell it."""
 
     def __init__(self, rospy: Any) -> None:
-        self._rospy = rospy
+        self.rospy = rospy
         self._active = time.monotonic()
         self._pause_until = 0.0
         self._turned = False
@@ -45,6 +45,7 @@ class Watch:
         self.given: set[str] = set()
         """Parameters that are taken to be set."""
         self._clock = False
+        _watches.append(self)
 
     # what the hooks tell
 
@@ -72,7 +73,7 @@ class Watch:
         self._working = self._published > before
         self._period = seconds
         if pause:
-            self._pause_until = time.monotonic() + (0.0 if self._without_time() else seconds)
+            self._pause_until = time.monotonic() + (0.0 if self.without_time() else seconds)
         else:
             self._turned = True
         self._announced = self._starving()
@@ -90,17 +91,20 @@ class Watch:
         self._waits += change
         self._active = time.monotonic()
 
+    def waiting(self) -> bool:
+        """Whether the main thread is in such a call."""
+        return self._waits > 0
+
     def over(self) -> None:
         """The main thread has reached its event loop."""
         self._over = True
 
     # what is made of it
 
-    def _without_time(self) -> bool:
+    def without_time(self) -> bool:
+        """Whether time is simulated and has not begun."""
         return (
-            not self._clock
-            and not self._rospy.rostime.is_wallclock()
-            and self._rospy.rostime.get_rostime().to_sec() == 0
+            not self._clock and not self.rospy.rostime.is_wallclock() and self.rospy.rostime.get_rostime().to_sec() == 0
         )
 
     def _starved(self) -> list[Any]:
@@ -111,7 +115,7 @@ class Watch:
         ]
 
     def _starving(self) -> bool:
-        return not self._working and bool(self._starved() or self._missing or self._without_time())
+        return not self._working and bool(self._starved() or self._missing or self.without_time())
 
     def start(self) -> None:
         """Watch the calling thread, the main one, from now on."""
@@ -147,7 +151,7 @@ class Watch:
         """One kind of thing at a time: the more is made up, the less it says."""
         starved: list[Any] = []
         self._active = time.monotonic()
-        if self._without_time():
+        if self.without_time():
             self._clock = True
             answers.made_up("clock", "/clock")
             threading.Thread(target=self._tick, daemon=True).start()
@@ -170,8 +174,16 @@ class Watch:
 
     def _tick(self) -> None:
         while True:
-            self._rospy.rostime._set_rostime(self._rospy.rostime.Time.from_sec(time.time()))
+            self.rospy.rostime._set_rostime(self.rospy.rostime.Time.from_sec(time.time()))
             time.sleep(0.01)
+
+
+_watches: list[Watch] = []
+
+
+def watch() -> Watch:
+    """The one of this process, once rospy is there."""
+    return _watches[-1]
 
 
 told_states: set[str] = set()

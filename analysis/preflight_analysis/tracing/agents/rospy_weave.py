@@ -46,7 +46,7 @@ def _top(frame: FrameType) -> str:
     return str(frame.f_globals.get("__name__", "")).partition(".")[0]
 
 
-def _caller() -> tuple[Optional[str], Optional[int], bool]:
+def caller() -> tuple[Optional[str], Optional[int], bool]:
     """File and line of the node's own call, and whether rospy itself made the call."""
     frame: Optional[FrameType] = sys._getframe(1)
     while frame is not None and _top(frame) in ("preflight_agents", "aspectlib", "functools"):
@@ -59,7 +59,8 @@ def _caller() -> tuple[Optional[str], Optional[int], bool]:
     return frame.f_code.co_filename, frame.f_lineno, internal
 
 
-def _in_main_thread() -> bool:
+def in_main_thread() -> bool:
+    """Whether the calling thread is the one that reaches the event loop."""
     return threading.current_thread() is threading.main_thread()
 
 
@@ -117,7 +118,7 @@ def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
     def tell(arguments: dict[str, Any]) -> None:
         made, given = arguments["self"], str(arguments["name"])
         described = arguments.get("data_class", arguments.get("service_class"))
-        file, line, internal = _caller()
+        file, line, internal = caller()
         qos: dict[str, Any] = {}
         if role == "publisher":
             qos["latch"] = bool(arguments.get("latch", False))
@@ -176,8 +177,8 @@ def _polled(
     def polled(name: Any) -> bool:
         """Whether a parameter that is not set is to be taken as set."""
         full = resolve(str(name))
-        if _in_main_thread() and full not in watch.given:
-            watch.asked(full, *_caller())
+        if in_main_thread() and full not in watch.given:
+            watch.asked(full, *caller())
         return full in watch.given
 
     return aspect
@@ -187,7 +188,7 @@ def _parameter(
     access: str, unspecified: object, resolve: Callable[[str], str], watch: polling.Watch
 ) -> Callable[[Advised], Advised]:
     def tell(arguments: dict[str, Any]) -> None:
-        file, line, internal = _caller()
+        file, line, internal = caller()
         name = str(arguments.get("param_name", "/"))
         site = (access, name, file, line)
         if site in _told or len(_told) > _MAX_SITES:
@@ -214,7 +215,7 @@ def _asked(*what: str) -> Callable[[Advised], Advised]:
     """The node looks at its own name, namespace or remaps: what it does may depend on them."""
 
     def tell(_arguments: dict[str, Any]) -> None:
-        if what not in _told and not _caller()[2]:
+        if what not in _told and not caller()[2]:
             _told.add(what)
             for one in what:
                 channel.send("asked", what=one)
@@ -241,7 +242,7 @@ def _spin(flush: Callable[[], None], watch: polling.Watch) -> Callable[[Advised]
     """The main thread enters its event loop."""
 
     def tell(_arguments: dict[str, Any]) -> None:
-        if _in_main_thread():
+        if in_main_thread():
             watch.over()
             flush()
             channel.send("state", state="spin", threads=_other_threads())
@@ -256,9 +257,9 @@ def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Calla
     """
 
     def tell(arguments: dict[str, Any]) -> None:
-        if "looped" in polling.told_states or not _in_main_thread():
+        if "looped" in polling.told_states or not in_main_thread() or watch.waiting():
             return
-        file, line, internal = _caller()
+        file, line, internal = caller()
         if internal:
             return
         again = (file, line) in polling.turns
@@ -291,9 +292,9 @@ def _wait(
 
     @_quiet
     def tell(state: str, name: str) -> None:
-        file, line, _ = _caller()
-        channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=_in_main_thread())
-        if _in_main_thread():
+        file, line, _ = caller()
+        channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=in_main_thread())
+        if in_main_thread():
             watch.waits(1 if state == "wait" else -1)
         if state == "wait":
             flush()
@@ -325,7 +326,7 @@ def _wait(
 def _initialised(watch: polling.Watch) -> Callable[[dict[str, Any]], None]:
     def tell(_arguments: dict[str, Any]) -> None:
         channel.send("state", state="init")
-        if _in_main_thread():
+        if in_main_thread():
             watch.start()
 
     return tell
@@ -335,7 +336,7 @@ def _publishes(watch: polling.Watch) -> Callable[[Advised], Advised]:
     """The main thread publishes."""
 
     def tell(_arguments: dict[str, Any]) -> None:
-        if _in_main_thread() and not _caller()[2]:
+        if in_main_thread() and not caller()[2]:
             watch.published()
 
     return _before(tell)
@@ -350,7 +351,7 @@ def _call(refused: Any) -> Callable[[Advised], Advised]:
                 return cutpoint(self, *args, **kwargs)
             except refused as error:
                 service = self.resolved_name
-                if not str(error).endswith("unavailable") or not answers.call_is_answered(service, *_caller()):
+                if not str(error).endswith("unavailable") or not answers.call_is_answered(service, *caller()):
                     raise
                 return answers.empty(self.response_class)
 
