@@ -90,7 +90,7 @@ def _last_words(interface: Interface, read: ParamRead) -> str | None:
     if interface.outcome.status not in ("crashed", "exited"):
         return None
     leaf = re.compile(rf"(?<!\w){re.escape(read.name.rpartition('/')[2])}(?!\w)")
-    said = (*interface.outcome.stderr_tail, interface.outcome.reason or "")
+    said = (interface.outcome.reason or "", *interface.outcome.stderr_tail)
     found = [line.strip() for line in said if leaf.search(line) and _COMPLAINT.search(line)]
     return found[-1] if found else None
 
