@@ -170,6 +170,23 @@ attempt("all", lambda: len([p for p in os.listdir("/proc") if p.isdigit()]))
     assert done == {"host": "No such process", "group": "No such process", "init": "None", "all": "3"}
 
 
+def test_the_first_process_cannot_be_changed(tmp_path: Path) -> None:
+    """It ends the sandbox when the host goes, which its memory could be made to forget."""
+    done = attempts(
+        tmp_path,
+        """
+attempt("listed", lambda: os.listdir("/proc/1"))
+attempt("memory", lambda: open("/proc/1/mem", "r+b"))
+attempt("thread", lambda: open("/proc/1/task/1/mem", "r+b"))
+attempt("made", lambda: open("/proc/1/x", "w"))
+""",
+    )
+    missing = "No such file or directory"
+    made = done.pop("made")
+    assert made in ("Read-only file system", "Permission denied")
+    assert done == {"listed": "[]", "memory": missing, "thread": missing}
+
+
 def test_killing_everything_leaves_nothing(tmp_path: Path) -> None:
     body = "import os, signal\nos.kill(-1, signal.SIGKILL)\nos.kill(os.getpid(), signal.SIGKILL)\n"
     marker = f"preflight-{uuid.uuid4()}"

@@ -84,6 +84,38 @@ def test_threads_count_too(tmp_path: Path, few: None, monkeypatch: pytest.Monkey
         assert "can't start new thread" in outcome.stderr_tail[-1]
 
 
+SHARES = """
+import os, sys, time
+block = b"x" * ({before} << 20)
+for _ in range(3):
+    if os.fork() == 0:
+        block = b"y" * ({after} << 20) if {after} else block
+        time.sleep(2)
+        os._exit(0)
+time.sleep(1.2)
+sys.exit(4)
+"""
+
+
+def test_memory_of_all_processes_together_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three of 50 MB each, none of them too large by itself."""
+    monkeypatch.setattr(sandbox, "MEMORY_BYTES", 100 << 20)
+    began = time.monotonic()
+    outcome = trace(write_node(tmp_path, SHARES.format(before=0, after=50))).outcome
+    assert (outcome.status, outcome.reason) == ("crashed", "it took more than 0.1 GiB of memory and was stopped")
+    assert time.monotonic() - began < 3
+
+
+def test_memory_that_processes_share_counts_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sandbox, "MEMORY_BYTES", 100 << 20)
+    assert trace(write_node(tmp_path, SHARES.format(before=50, after=0))).outcome.exit_code == 4
+
+
+def test_the_node_is_the_first_to_go_when_memory_ends(tmp_path: Path) -> None:
+    body = "import sys\nprint(open('/proc/self/oom_score_adj').read(), file=sys.stderr)\n"
+    assert trace(write_node(tmp_path, body)).outcome.stderr_tail[-1] == "1000"
+
+
 def test_no_group_is_left_behind(tmp_path: Path) -> None:
     place = cgroup.place()
     trace(write_node(tmp_path, "pass\n"))
@@ -129,9 +161,9 @@ def test_a_group_gets_its_limits_before_anything_enters_it(tmp_path: Path) -> No
     class Kept(Exception):
         pass
 
-    with pytest.raises(Kept), cgroup.group(cgroup.Place(tmp_path, memory=True), 7) as folder:
+    with pytest.raises(Kept), cgroup.group(cgroup.Place(tmp_path, memory=True), 7, 9000) as folder:
         assert (folder / "pids.max").read_text() == "7"
-        assert (folder / "memory.max").read_text() == str(cgroup.MEMORY_BYTES)
+        assert (folder / "memory.max").read_text() == "9000"
         line = cgroup.entering(folder, ["/bin/sh", "-c", "echo $0 $$", "word"])
         said = subprocess.run(line, capture_output=True, text=True, check=True).stdout.split()
         assert said == ["word", (folder / "cgroup.procs").read_text().strip()]

@@ -18,9 +18,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-MEMORY_BYTES = 4 << 30
-"""Of all processes of a run together; with cgroup version 2 only."""
-
 _PREFIX = "ros-preflight-"
 _REMOVAL_SECONDS = 0.5
 _numbers = itertools.count()
@@ -47,7 +44,7 @@ def place() -> Place | None:
     for found in candidates(memberships, mounts):
         try:
             _remove_left_over(found.folder)
-            with group(found, 1):
+            with group(found, 1, 1 << 20):
                 return found
         except OSError:
             continue
@@ -86,14 +83,15 @@ def candidates(memberships: str, mounts: str) -> Iterator[Place]:
 
 
 @contextlib.contextmanager
-def group(below: Place, processes: int) -> Iterator[Path]:
-    """A group for one run, for as long as the block lasts. Raises `OSError` if it cannot be made."""
+def group(below: Place, processes: int, memory: int) -> Iterator[Path]:
+    """A group for one run, for as long as the block lasts, with at most so many processes and, where memory is counted
+    there, bytes of it. Raises `OSError` if it cannot be made."""
     folder = below.folder / f"{_PREFIX}{os.getpid()}-{next(_numbers)}"
     folder.mkdir()
     try:
         (folder / "pids.max").write_text(str(processes))
         if below.memory:
-            (folder / "memory.max").write_text(str(MEMORY_BYTES))
+            (folder / "memory.max").write_text(str(memory))
             with contextlib.suppress(OSError):  # a kernel without swap accounting
                 (folder / "memory.swap.max").write_text("0")
         yield folder

@@ -393,6 +393,9 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...]) -> Outcome:
         case "crowded":
             reason = f"it started more than {sandbox.PROCESSES} processes and was stopped"
             return Outcome("crashed", None, None, tail, reason, spent)
+        case "heavy":
+            reason = f"it took more than {sandbox.most_memory() / (1 << 30):.1f} GiB of memory and was stopped"
+            return Outcome("crashed", None, None, tail, reason, spent)
         case "exec-failed":
             why = _CONTROL.sub("", str(end.get("why")))[:300]
             return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {why}", spent)

@@ -118,6 +118,7 @@ def _execute(
     argv = [interpreter, "-I", "-S", "-c", start]
     with sandbox.prepared(argv, visible) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
         whole["most_processes"] = sandbox.PROCESSES if prepared.counting else None
+        whole["most_memory"] = sandbox.most_memory()
         handed.write(json.dumps(whole).encode())
         handed.seek(0)
         raw = RawRun(started=time.time())

@@ -32,6 +32,8 @@ TEMPORARY_BYTES = 64 << 20
 
 PROCESSES = 512
 """How many processes and threads a run may have at once."""
+MEMORY_BYTES = 4 << 30
+"""How much memory all processes of a run may have together; half of the machine's, if that is less."""
 
 _AGENTS = Path(__file__).parent / "agents"
 _SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-", "/etc/sudoers")
@@ -122,8 +124,13 @@ def prepared(argv: Sequence[str], visible: Iterable[str]) -> Iterator[Start]:
         command = [program, *options, "--", *argv]
         place = cgroup.place()
         if place is not None:
-            command = cgroup.entering(at_end.enter_context(cgroup.group(place, PROCESSES)), command)
+            command = cgroup.entering(at_end.enter_context(cgroup.group(place, PROCESSES, most_memory())), command)
         yield Start(command, descriptors, counting=place is None and os.geteuid() == 0)
+
+
+def most_memory() -> int:
+    """How much a run may have on this machine, in bytes."""
+    return min(MEMORY_BYTES, os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2)
 
 
 def _guarantees() -> tuple[str, ...]:
@@ -137,10 +144,9 @@ def _guarantees() -> tuple[str, ...]:
         count = f"no limit of processes that binds root; a run is ended once it has more than {PROCESSES}"
     else:
         count = f"at most {PROCESSES} processes, by RLIMIT_NPROC"
+    memory = f"a run is ended once it has more than {most_memory() / (1 << 30):.1f} GiB of memory"
     if place is not None and place.memory:
-        memory = f"at most {cgroup.MEMORY_BYTES >> 30} GiB of memory, by a control group"
-    else:
-        memory = "memory limited per process only"
+        memory += ", and gets no more by a control group"
     return ("files read-only, no network, own processes", calls, count, memory)
 
 
@@ -203,6 +209,8 @@ def _isolation(visible: Iterable[str]) -> list[str]:
     options += ["--dev", "/dev", "--size", size, "--tmpfs", "/dev/shm"]  # noqa: S108
     # Root in a container could else write through a fresh /proc, core_pattern for one.
     options += ["--proc", "/proc", "--ro-bind", "/proc/sys", "/proc/sys"]
+    # bubblewrap's own first process: with its memory changed it would not end when the run does.
+    options += ["--size", "4096", "--perms", "0555", "--tmpfs", "/proc/1", "--remount-ro", "/proc/1"]
     for root in _masks():
         options += ["--size", size, "--tmpfs", root]
     options += ["--dir", home(), "--chmod", "0700", home()]

@@ -12,7 +12,6 @@ import select
 import time
 from typing import Optional
 
-from .census import crowded
 from .supervisor import TICK, Run, drain, exit_code, host_is_gone, start
 
 PIECE = 36_000
@@ -20,8 +19,8 @@ PIECE = 36_000
 
 
 def watch(run: Run, events: int) -> None:
-    """Run the job's command and tell how it ended: `ended`, `exec-failed`, `timed-out`, `too-long`, `crowded` or
-    `abandoned`."""
+    """Run the job's command and tell how it ended: `ended`, `exec-failed`, `timed-out`, `too-long`, `crowded`, `heavy`
+    or `abandoned`."""
     read, write = os.pipe()
     wake, failure = start(run, write)
     os.close(write)
@@ -50,10 +49,8 @@ def watch(run: Run, events: int) -> None:
             status = "too-long"
         elif time.monotonic() > deadline:
             status = "timed-out"
-        elif crowded(run.job["most_processes"]):
-            status = "crowded"
-        elif host_is_gone():
-            status = "abandoned"
+        else:
+            status = run.census.exceeded() or ("abandoned" if host_is_gone() else "")
     drain(run, events, rest)
     _send(run, piece, sent)
     why = os.read(failure, 1000).decode(errors="replace") if status == "ended" and ended == 127 else ""

@@ -19,7 +19,7 @@ import threading
 import time
 from typing import Any, Optional
 
-from .census import crowded, left_behind
+from .census import Census, left_behind
 from .params import ParamTree
 
 MASTER_PORT = 11311
@@ -38,6 +38,7 @@ class Run:
 
     def __init__(self, job: dict[str, Any]) -> None:
         self.job = job
+        self.census = Census(job["most_processes"], job["most_memory"])
         self.lock = threading.Lock()
         self.told: set[str] = set()
         self.count = 0
@@ -205,10 +206,20 @@ def _limit(limits: dict[str, int]) -> None:
         resource.setrlimit(which, (value, value))
 
 
+def _first_to_go() -> None:
+    """Where the machine's memory ends all the same, the kernel ends us and not the user's programs."""
+    try:
+        with open("/proc/self/oom_score_adj", "w") as file:
+            file.write("1000")
+    except OSError:
+        pass
+
+
 def _exec(job: dict[str, Any], failure: int, output: Optional[int]) -> None:
     """In the child: become the node or command. Returns never; what went wrong is written to the pipe `failure`."""
     try:
         os.setsid()
+        _first_to_go()
         null = os.open(os.devnull, os.O_RDWR)
         os.dup2(null, 0)
         os.dup2(null if output is None else output, 1)
@@ -335,9 +346,7 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
             followed, run.pid, ended = True, left[0], None
         if ended is not None:
             return "ended", ended, ""
-        if crowded(run.job["most_processes"]):
-            return "crowded", None, ""
-        reason = "abandoned" if host_is_gone() else run.over()
+        reason = run.census.exceeded() or ("abandoned" if host_is_gone() else run.over())
         if reason is not None:
             return reason, None, ""
 
