@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import fnmatch
+import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from preflight_analysis.evaluation import names
@@ -17,11 +19,13 @@ _SERVICE_ROLES = ("service", "client")
 _CPP = (".cpp", ".cc", ".cxx", ".c++", ".C", ".h", ".hh", ".hpp")
 
 
-def build_graph(tree: LaunchTree, interfaces: Sequence[Interface]) -> Graph:
+def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topics: Sequence[str] = ()) -> Graph:
     """Who talks to whom after the launch of `tree`, given what each of its nodes does.
 
     `interfaces` has one entry for each of `tree.nodes`, in that order; `NOT_RUN` for a node of which nothing is known.
     Where a trace is missing or failed, what the launch file annotates is added to what was seen.
+
+    `external_topics` are patterns of the topics that something outside of the launch offers or wants.
 
     Raises `ValueError` if the lengths differ.
     """
@@ -47,7 +51,9 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface]) -> Graph:
                 services.append(_connect(node, endpoint, remaps))
         targets = {source: remap[1] for source, remap in remaps.items()}
         reads.extend(ParamRead(names.resolve(use.name, node.name, targets), node, use) for use in interface.params)
-    return Graph(tree, merged, _channels(topics), _channels(services), _channels(actions), tuple(reads))
+    return Graph(
+        tree, merged, _channels(topics, external_topics), _channels(services), _channels(actions), tuple(reads)
+    )
 
 
 def _effective_remaps(node: LaunchNode) -> dict[str, tuple[Remap, str]]:
@@ -96,8 +102,9 @@ def _made_by_rospy(endpoint: Endpoint) -> bool:
     return endpoint.source_file is not None and not endpoint.source_file.endswith(_CPP)
 
 
-def _channels(connections: Iterable[Connection]) -> dict[str, Channel]:
+def _channels(connections: Iterable[Connection], external: Sequence[str] = ()) -> dict[str, Channel]:
     """Grouped by final name, sorted by it; ends that a node made twice alike count once."""
+    is_external = re.compile("|".join(fnmatch.translate(pattern) for pattern in external)).match if external else None
     grouped: dict[str, list[Connection]] = {}
     seen: set[tuple[object, ...]] = set()
     for connection in connections:
@@ -111,6 +118,7 @@ def _channels(connections: Iterable[Connection]) -> dict[str, Channel]:
             name,
             tuple(c for c in grouped[name] if c.endpoint.role in _OFFERS),
             tuple(c for c in grouped[name] if c.endpoint.role not in _OFFERS),
+            is_external is not None and is_external(name) is not None,
         )
         for name in sorted(grouped)
     }

@@ -31,6 +31,8 @@ class Channel:
     """Publishers of a topic, servers of a service or action."""
     wants: tuple[Connection, ...]
     """Subscribers of a topic, clients of a service or action."""
+    external: bool = False
+    """The settings say that something outside of the launch offers or wants it."""
 
     @property
     def types(self) -> tuple[str, ...]:

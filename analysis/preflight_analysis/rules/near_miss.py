@@ -140,14 +140,14 @@ def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
 def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
     for channel in channels.values():
-        if not channel.offers:
+        if not channel.offers and not channel.external:
             yield from (c for c in channel.wants if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
 def dangling_offers(channels: Mapping[str, Channel]) -> Iterator[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     for channel in channels.values():
-        if not channel.wants and not _read_otherwise(channel.name, channels):
+        if not channel.wants and not channel.external and not _read_otherwise(channel.name, channels):
             yield from (c for c in channel.offers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
@@ -214,7 +214,7 @@ def _partner(near: NearMiss, end: Connection) -> Connection:
 
 
 def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMiss, int]]:
-    dangles = not channel.wants
+    dangles = not channel.wants and not channel.external
     alike: tuple[Literal["typo", "words"], int] | None = None
     for offering in channel.offers:
         if offering.endpoint.builtin or offering.node is wanting.node:

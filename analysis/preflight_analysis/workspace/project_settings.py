@@ -4,6 +4,8 @@ roots:                          # what is launched, beside the files that nothin
   - launch/robot.launch         # relative to this file
   - file: launch/robot.launch   # the same with arguments, for as many profiles as there are
     args: {sim: true}
+external:                       # what something that no launch file starts offers or uses
+  topics: [/joy, /teleop/*]     # full names; * stands for anything, slashes among it
 """
 
 from __future__ import annotations
@@ -34,6 +36,8 @@ class ProjectSettings:
     path: str | None = None
     roots: tuple[Root, ...] = ()
     problems: tuple[SettingsProblem, ...] = ()
+    external_topics: tuple[str, ...] = ()
+    """Patterns of full names."""
 
 
 def read_project_settings(folder: str) -> ProjectSettings:
@@ -51,14 +55,31 @@ def read_project_settings(folder: str) -> ProjectSettings:
         return ProjectSettings(path, (), (SettingsProblem(str(reason), mark.line + 1 if mark else 1),))
     problems: list[SettingsProblem] = []
     roots: list[Root] = []
+    external: list[str] = []
     for key, value in _entries(document, problems, "the settings"):
-        if key.value != "roots":
-            problems.append(_problem(key, f"'{key.value}' is no setting; there is: roots"))
+        if key.value == "external":
+            external += _external(value, problems)
+        elif key.value != "roots":
+            problems.append(_problem(key, f"'{key.value}' is no setting; there are: roots, external"))
         elif not isinstance(value, yaml.SequenceNode):
             problems.append(_problem(value, "roots is a list of launch files"))
         else:
             roots += (root for entry in value.value if (root := _root(entry, folder, problems)) is not None)
-    return ProjectSettings(path, tuple(dict.fromkeys(roots)), tuple(problems))
+    return ProjectSettings(path, tuple(dict.fromkeys(roots)), tuple(problems), tuple(external))
+
+
+def _external(node: yaml.Node, problems: list[SettingsProblem]) -> Iterator[str]:
+    for key, value in _entries(node, problems, "external"):
+        if key.value != "topics":
+            problems.append(_problem(key, f"'{key.value}' does not belong into external; it has topics"))
+        elif not isinstance(value, yaml.SequenceNode):
+            problems.append(_problem(value, "topics is a list of names"))
+        else:
+            for item in value.value:
+                if isinstance(item, yaml.ScalarNode) and item.value:
+                    yield "/" + item.value.lstrip("/")
+                else:
+                    problems.append(_problem(item, "a topic is a name or a pattern"))
 
 
 def _root(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> Root | None:

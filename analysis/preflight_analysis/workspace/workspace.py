@@ -11,6 +11,7 @@ from functools import cached_property
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
@@ -28,6 +29,7 @@ from preflight_analysis.source.fallback import fill_in
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.project_settings import ProjectSettings, read_project_settings
 from preflight_analysis.workspace.sources import Sources
 
 MAX_ANALYSES = 64
@@ -84,6 +86,7 @@ class Workspace:
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
         self._source_analysis = SourceAnalysis(environment, sources)
+        self._project: tuple[str, ProjectSettings] | None = None
         self._lock = threading.Lock()
         self._memo = Memo()
         self._memo_lock = threading.Lock()
@@ -156,9 +159,21 @@ class Workspace:
 
         `why_not_run` says why nothing was executed, None where it was.
         """
-        graph = build_graph(analysis.tree, fill_in(analysis.tree, interfaces, self._source_analysis))
+        interfaces = fill_in(analysis.tree, interfaces, self._source_analysis)
+        graph = build_graph(analysis.tree, interfaces, self._project_settings().external_topics)
         context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
         return replace(analysis, context=context)
+
+    def _project_settings(self) -> ProjectSettings:
+        """The settings file of the workspace as it is now."""
+        folder = self.environment.workspace
+        if folder is None:
+            return ProjectSettings()
+        digest = self.sources.digest(os.path.join(folder, SETTINGS_FILE))
+        known = self._project
+        if known is None or known[0] != digest:
+            known = self._project = digest, read_project_settings(folder)
+        return known[1]
 
     def is_current(self, tree: LaunchTree) -> bool:
         """Whether nothing that it was made of has changed since."""
