@@ -1,4 +1,6 @@
 // A node that makes one of everything; its first argument says how it goes on.
+#include <actionlib/TestAction.h>
+#include <actionlib/client/simple_action_client.h>
 #include <ros/ros.h>
 #include <ros/topic.h>
 #include <std_msgs/String.h>
@@ -74,6 +76,13 @@ int main(int argc, char** argv) {
       call.response.message.empty()) {
     late = node.advertise<std_msgs::String>("late", 1);
     ros::spin();
+  }
+  if (mode == "action") {
+    actionlib::SimpleActionClient<actionlib::TestAction> mover("move", true);
+    if (mover.waitForServer()) {
+      late = node.advertise<std_msgs::String>("late", 1);
+      ros::spin();
+    }
   }
   if (mode == "own_service" && ros::service::waitForService(server.getService())) ros::spin();
   if (mode == "message") ros::topic::waitForMessage<std_msgs::String>("news", node);

@@ -20,7 +20,16 @@ from tracing_desk import environment, own, request, trace
 ROSOUT = Path("/usr/lib/rosout/rosout")
 STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
 SET_BOOL_MD5 = "09fb03525b03e7ea1fd3992bafd87e16"
-LIBRARIES = ("roscpp", "rostime", "roscpp_serialization", "rosconsole", "boost_system", "boost_thread", "pthread")
+LIBRARIES = (
+    "actionlib",
+    "roscpp",
+    "rostime",
+    "roscpp_serialization",
+    "rosconsole",
+    "boost_system",
+    "boost_thread",
+    "pthread",
+)
 MADE = {
     ("publisher", "chatter", "std_msgs/String"),
     ("publisher", "~state", "std_msgs/String"),
@@ -124,6 +133,17 @@ def test_a_call_is_answered_after_its_wait_was(node: Path) -> None:
     found = trace(node, args=("call",))
     assert (found.outcome.status, own(found)) == ("spinning", MADE | {LATE})
     assert found.outcome.answers[1:] == ("it calls the service /switch, and was given an empty answer",)
+
+
+@pytest.mark.ros
+def test_a_wait_for_an_action_server_is_answered(node: Path) -> None:
+    found = trace(node, "/ns/node", args=("action",))
+    assert found.outcome.status == "spinning"
+    assert found.outcome.answers == ("it waits for the action server /ns/move, and was told that it is there",)
+    topics = {("publisher", "move/goal"), ("publisher", "move/cancel")}
+    topics |= {("subscriber", f"move/{name}") for name in ("status", "feedback", "result")}
+    assert {(e.role, e.name) for e in found.endpoints if not e.builtin and not e.speculative} >= topics
+    assert [e.name for e in found.endpoints if e.speculative] == ["late"]
 
 
 @pytest.mark.ros

@@ -1,7 +1,8 @@
 """The library that is preloaded into roscpp nodes: compiled with the user's compiler on first use, and kept.
 
-Our own code, so it is compiled outside the sandbox. `planned` says where it is or is going to be and costs nothing;
-`build` takes half a second the first time. Where it cannot be had, nodes are seen by the master alone.
+Our own code, so it is compiled outside the sandbox; the wheel holds no compiled one yet. `planned` says
+where it is or is going to be and costs nothing; `build` takes half a second the first time. Where it cannot be had,
+nodes are seen by the master alone.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ MACHINES = ("x86_64",)
 """Where the layout of arguments and results was tried."""
 
 _FLAGS = ("-shared", "-fPIC", "-O1", "-std=c++17", "-fvisibility=hidden", "-Wl,-z,nodelete")
-_EXPORTS = "{ global: _ZN3ros*; _ZNK3ros*; local: *; };"
+_EXPORTS = "{ global: _ZN3ros*; _ZNK3ros*; _ZN9actionlib*; local: *; };"
 """Nothing of the C++ library that was compiled into it takes the place of the node's."""
 _SECONDS = 30
 _ELF = b"\x7fELF\x02"

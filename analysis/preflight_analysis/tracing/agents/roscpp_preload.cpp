@@ -19,6 +19,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
+#include <mutex>
 #include <string>
 
 #define HOOK extern "C" __attribute__((visibility("default")))
@@ -380,6 +382,9 @@ class Wait {
   std::string kind_, name_;
 };
 
+// Milliseconds.
+constexpr int kGrace = 300, kLaterGrace = 100;
+
 #define WAIT_INT "_ZN3ros7service14waitForServiceE" STRING "i"
 
 std::string name_of_client(void* client) {
@@ -396,7 +401,6 @@ void tell_answered(const char* kind, const std::string& name) {
 // Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for rospy
 // (answers.py).
 bool wait_briefly(const std::string& name) {
-  constexpr int kGrace = 300, kLaterGrace = 100;
   Wait told("service", name);
   int grace = answered || answered_here ? kLaterGrace : kGrace;
   if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace)) return true;
@@ -635,4 +639,42 @@ HOOK bool preflight_call(void* self, const void* request, Serialized& response, 
     tell_answered("call", name_of_client(self));
   });
   return made_up;
+}
+
+// actionlib's clients. Which action one waits for, its result topic tells.
+
+std::mutex monitors_mutex;
+std::map<const void*, std::string>& monitors() {
+  static auto* all = new std::map<const void*, std::string>;  // never destroyed: nodes end in any order
+  return *all;
+}
+
+#define MONITOR(id, symbol)                                                          \
+  HOOK void id(void* self, void* feedback, void* result) __asm__(symbol);            \
+  HOOK void id(void* self, void* feedback, void* result) {                           \
+    REAL(symbol, void(void*, void*, void*))(self, feedback, result);                 \
+    quietly([&] {                                                                    \
+      auto* topic = REAL_IF_ANY("_ZNK3ros10Subscriber8getTopicB5cxx11Ev", std::string(void*)); \
+      std::string name = topic == nullptr ? "" : topic(result);                      \
+      std::lock_guard<std::mutex> locked(monitors_mutex);                            \
+      monitors()[self] = name.substr(0, name.rfind('/'));                            \
+    });                                                                              \
+  }
+MONITOR(preflight_monitor, "_ZN9actionlib17ConnectionMonitorC1ERN3ros10SubscriberES3_")
+
+#define ACTION "_ZN9actionlib17ConnectionMonitor26waitForActionServerToStartERKN3ros8DurationERKNS1_10NodeHandleE"
+HOOK bool preflight_wait_for_action(void* self, const int32_t* timeout, NodeHandle* handle) __asm__(ACTION);
+HOOK bool preflight_wait_for_action(void* self, const int32_t* timeout, NodeHandle* handle) {
+  auto* wait = REAL(ACTION, bool(void*, const int32_t*, NodeHandle*));
+  std::string name;
+  quietly([&] {
+    std::lock_guard<std::mutex> locked(monitors_mutex);
+    name = monitors()[self];
+  });
+  if (name.empty()) return wait(self, timeout, handle);
+  Wait told("action", name);
+  const int32_t grace[2] = {0, (answered || answered_here ? kLaterGrace : kGrace) * 1000000};
+  if (wait(self, grace, handle)) return true;
+  quietly([&] { tell_answered("action", name); });
+  return true;
 }
