@@ -21,9 +21,9 @@ TYPES = {
 }
 
 
-def client(name: str, file: str | None = None) -> list[Endpoint]:
+def client(name: str, file: str | None = None, md5: str | None = None) -> list[Endpoint]:
     roles: dict[str, Role] = dict.fromkeys(TOPICS, "subscriber") | {"goal": "publisher", "cancel": "publisher"}
-    return [Endpoint(roles[t], f"{name}/{t}", TYPES[t], source_file=file, source_line=7) for t in TOPICS]
+    return [Endpoint(roles[t], f"{name}/{t}", TYPES[t], md5, source_file=file, source_line=7) for t in TOPICS]
 
 
 def graph_of(launch: str, endpoints: list[Endpoint]) -> Graph:
@@ -78,13 +78,13 @@ def test_a_remap_of_the_name_moves_all_topics() -> None:
     assert {c.action for channel in graph.topics.values() for c in (*channel.offers, *channel.wants)} == {"/b/come"}
 
 
-def test_what_rospy_remapped_already_is_not_remapped_again() -> None:
+def test_what_a_client_library_remapped_already_is_not_remapped_again() -> None:
     launch = """
         <launch><node pkg="p" type="t" name="n">
           <remap from="go" to="come"/><remap from="come" to="stay"/>
         </node></launch>
     """
-    graph = graph_of(launch, client("/come", "/n.py"))
+    graph = graph_of(launch, client("/come", md5="0" * 32))
     (end,) = graph.actions["/come"].wants
     assert end.remap is not None
     assert end.remap.source == "go"

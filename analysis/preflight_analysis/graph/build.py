@@ -16,7 +16,6 @@ from preflight_analysis.tracing.interface import Endpoint, Interface
 _OFFERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
 _SERVICE_ROLES = ("service", "client")
-_CPP = (".cpp", ".cc", ".cxx", ".c++", ".C", ".h", ".hh", ".hpp")
 
 
 def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topics: Sequence[str] = ()) -> Graph:
@@ -80,8 +79,8 @@ def _connect_action(
     """
     endpoint = action.endpoint
     base, remap = names.resolve(endpoint.name, node.name), None
-    if _made_by_rospy(endpoint):
-        # The run shows the target: rospy looks the name up as it is written before it makes the topics.
+    if endpoint.md5 is not None:
+        # Told by a client library, which had moved the name when it made the topics (rospy: if it is written alike).
         remap = next((r for r, target in remaps.values() if target == base), None)
     elif base in remaps:
         remap, base = remaps[base]
@@ -96,10 +95,6 @@ def _connect_action(
         for (name, moved_by), topic in zip(ends, action.topics, strict=True)
     ]
     return [Connection(full, node, endpoint, remap)] if together else [], parts
-
-
-def _made_by_rospy(endpoint: Endpoint) -> bool:
-    return endpoint.source_file is not None and not endpoint.source_file.endswith(_CPP)
 
 
 def _channels(connections: Iterable[Connection], external: Sequence[str] = ()) -> dict[str, Channel]:
