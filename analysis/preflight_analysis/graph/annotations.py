@@ -96,6 +96,13 @@ def read_annotation(action: Action) -> tuple[Interface | None, tuple[AnnotationP
     return interface, tuple(problems)
 
 
+def read_item(
+    group: str, head: Span, attributes: Sequence[tuple[str, str, Span]], problems: list[AnnotationProblem]
+) -> Endpoint | ParamUse | None:
+    """One item of a group (`topics`), written elsewhere than in a tag; None after saying what is wrong with it."""
+    return _read_item(group, _Tag(_ITEMS[group], head, tuple(attributes), head, ()), problems)
+
+
 def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
     """What the annotation of a node's tag names, and where: the tag of the item (`topic`), the name, its place."""
     groups = [_from_action(child) for child in action.children if child.kind in GROUPS]

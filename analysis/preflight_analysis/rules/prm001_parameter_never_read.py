@@ -97,7 +97,7 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
 
 def _tells_params(interface: Interface) -> bool:
     """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
-    return interface.complete and (interface.source != "annotation" or bool(interface.params))
+    return interface.complete and (interface.source not in ("annotation", "settings") or bool(interface.params))
 
 
 def _namespaces(name: str) -> Iterator[str]:

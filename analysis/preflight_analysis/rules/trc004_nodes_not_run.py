@@ -23,7 +23,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # That there is nothing to run is a finding about the package or executable.
         if (
             interface.outcome.status == "not-run"
-            and interface.source != "annotation"
+            and interface.source not in ("annotation", "settings")
             and node.resolved.path is not None
         ):
             reason = interface.outcome.reason or "no reason is known"

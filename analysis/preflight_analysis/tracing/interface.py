@@ -105,9 +105,9 @@ class Interface:
     @property
     def complete(self) -> bool:
         """Whether it is all that the node does: it was seen to spin, and not only after a made-up answer, or the user
-        declares it in an annotation."""
+        declares it, in an annotation or the settings."""
         spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers
-        return self.source == "annotation" or spins
+        return self.source in ("annotation", "settings") or spins
 
     @property
     def pending(self) -> bool:

@@ -6,18 +6,27 @@ roots:                          # what is launched, beside the files that nothin
     args: {sim: true}
 external:                       # what something that no launch file starts offers or uses
   topics: [/joy, /teleop/*]     # full names; * stands for anything, slashes among it
+nodes:                          # what nodes do that cannot be run, in the words of the annotations of launch files
+  - package: my_drivers         # each node of this executable; or a single one by `name: /full/name`
+    executable: lidar
+    topics: [{name: scan, type: sensor_msgs/LaserScan, class: pub}]
+    params: [{name: ~rate, default: 10}]
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import yaml
 
 from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.detect import SETTINGS_FILE
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.index import Root
 
 
@@ -30,6 +39,22 @@ class SettingsProblem:
 
 
 @dataclass(frozen=True, slots=True)
+class NodeSettings:
+    """What the settings say of nodes: those of an executable of a package, or the one of a full name."""
+
+    package: str | None
+    executable: str | None
+    name: str | None
+    endpoints: tuple[Endpoint, ...]
+    params: tuple[ParamUse, ...]
+
+    def speaks_of(self, node: LaunchNode) -> bool:
+        """Whether the node is one of them."""
+        given = ((self.name, node.name), (self.package, node.package), (self.executable, node.executable))
+        return all(asked in (None, found) for asked, found in given)
+
+
+@dataclass(frozen=True, slots=True)
 class ProjectSettings:
     """What the settings file says. What is wrong in it is left out and stands in `problems`."""
 
@@ -38,6 +63,7 @@ class ProjectSettings:
     problems: tuple[SettingsProblem, ...] = ()
     external_topics: tuple[str, ...] = ()
     """Patterns of full names."""
+    nodes: tuple[NodeSettings, ...] = ()
 
 
 def read_project_settings(folder: str) -> ProjectSettings:
@@ -56,16 +82,74 @@ def read_project_settings(folder: str) -> ProjectSettings:
     problems: list[SettingsProblem] = []
     roots: list[Root] = []
     external: list[str] = []
+    nodes: list[NodeSettings] = []
     for key, value in _entries(document, problems, "the settings"):
-        if key.value == "external":
+        if key.value == "nodes" and isinstance(value, yaml.SequenceNode):
+            nodes += (node for item in value.value if (node := _node(item, problems)) is not None)
+        elif key.value == "nodes":
+            problems.append(_problem(value, "nodes is a list"))
+        elif key.value == "external":
             external += _external(value, problems)
         elif key.value != "roots":
-            problems.append(_problem(key, f"'{key.value}' is no setting; there are: roots, external"))
+            problems.append(_problem(key, f"'{key.value}' is no setting; there are: roots, external, nodes"))
         elif not isinstance(value, yaml.SequenceNode):
             problems.append(_problem(value, "roots is a list of launch files"))
         else:
             roots += (root for entry in value.value if (root := _root(entry, folder, problems)) is not None)
-    return ProjectSettings(path, tuple(dict.fromkeys(roots)), tuple(problems), tuple(external))
+    return ProjectSettings(path, tuple(dict.fromkeys(roots)), tuple(problems), tuple(external), tuple(nodes))
+
+
+def from_settings(
+    tree: LaunchTree, interfaces: Sequence[Interface], settings: Sequence[NodeSettings]
+) -> Sequence[Interface]:
+    """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end the settings are added.
+
+    An annotation in the launch file counts before them.
+    """
+    if not settings:
+        return interfaces
+    filled = list(interfaces)
+    for index, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
+        said = next((each for each in settings if each.speaks_of(node)), None)
+        if said is not None and not interface.complete and read_annotation(node.action)[0] is None:
+            filled[index] = interface.with_more("settings", said.endpoints, said.params)
+    return filled
+
+
+def _node(node: yaml.Node, problems: list[SettingsProblem]) -> NodeSettings | None:
+    who: dict[str, str] = {}
+    found: list[Endpoint | ParamUse] = []
+    for key, value in _entries(node, problems, "a node"):
+        if key.value in ("package", "executable", "name") and isinstance(value, yaml.ScalarNode):
+            who[key.value] = value.value
+        elif key.value in GROUPS and isinstance(value, yaml.SequenceNode):
+            found += (item for each in value.value if (item := _item(key.value, each, problems)) is not None)
+        else:
+            allowed = ", ".join(("package", "executable", "name", *GROUPS))
+            problems.append(_problem(key, f"'{key.value}' does not belong into a node like this; it has {allowed}"))
+    if "name" not in who and not {"package", "executable"} <= who.keys():
+        problems.append(_problem(node, "a node needs a package and an executable, or a name"))
+        return None
+    return NodeSettings(
+        who.get("package"),
+        who.get("executable"),
+        who.get("name"),
+        tuple(item for item in found if isinstance(item, Endpoint)),
+        tuple(item for item in found if isinstance(item, ParamUse)),
+    )
+
+
+def _item(group: str, node: yaml.Node, problems: list[SettingsProblem]) -> Endpoint | ParamUse | None:
+    at = Span(node.start_mark.line, node.start_mark.line)  # lines stand in for offsets here
+    attributes = []
+    for key, value in _entries(node, problems, group):
+        line = key.start_mark.line
+        text = value.value if isinstance(value, yaml.ScalarNode) else ""
+        attributes.append((key.value, text, Span(line, line)))
+    found: list[AnnotationProblem] = []
+    item = read_item(group, at, attributes, found)
+    problems += (SettingsProblem(each.message, each.span.start + 1) for each in found)
+    return item
 
 
 def _external(node: yaml.Node, problems: list[SettingsProblem]) -> Iterator[str]:

@@ -29,7 +29,7 @@ from preflight_analysis.source.fallback import fill_in
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.project_settings import ProjectSettings, read_project_settings
+from preflight_analysis.workspace.project_settings import ProjectSettings, from_settings, read_project_settings
 from preflight_analysis.workspace.sources import Sources
 
 MAX_ANALYSES = 64
@@ -159,8 +159,10 @@ class Workspace:
 
         `why_not_run` says why nothing was executed, None where it was.
         """
+        project = self._project_settings()
+        interfaces = from_settings(analysis.tree, interfaces, project.nodes)
         interfaces = fill_in(analysis.tree, interfaces, self._source_analysis)
-        graph = build_graph(analysis.tree, interfaces, self._project_settings().external_topics)
+        graph = build_graph(analysis.tree, interfaces, project.external_topics)
         context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
         return replace(analysis, context=context)
 

@@ -1,4 +1,4 @@
-"""Topics that the settings file declares external."""
+"""What the settings file says of topics and nodes."""
 
 from __future__ import annotations
 
@@ -46,4 +46,42 @@ def test_what_is_wrong_in_it_is_told_with_its_line(tmp_path: Path) -> None:
         (2, "'topic' does not belong into external"),
         (5, "a topic is a name or a pattern"),
         (6, "'other' is no setting"),
+    ]
+
+
+NODES = """nodes:
+  - package: p
+    executable: t
+    topics: [{name: chatter, type: std_msgs/String, class: pub}]
+    params: [{name: ~rate, default: 10}]
+  - name: /b
+    services: [{name: reset, type: std_srvs/Empty, class: server}]
+"""
+
+
+def test_nodes_that_cannot_be_run_are_known_from_the_settings(tmp_path: Path) -> None:
+    (tmp_path / "a.launch").write_text(
+        '<launch><node pkg="p" type="t" name="a"/><node pkg="q" type="t" name="b"/><node pkg="p" type="u" name="c"/>'
+        '<node pkg="p" type="t" name="d"><topics><topic name="own" type="*" class="sub"/></topics></node></launch>'
+    )
+    (tmp_path / ".ros-preflight.yaml").write_text(NODES)
+    workspace = Workspace(Environment(1, "noetic", {}, (), {}, {}, (), (), None, str(tmp_path)), Sources())
+    static = workspace.static(str(tmp_path / "a.launch"))
+    graph = workspace.with_interfaces(static, [NOT_RUN] * 4, None).graph
+    assert graph is not None
+    assert [interface.source for interface in graph.interfaces] == ["settings", "settings", "none", "annotation"]
+    assert [c.node.name for c in graph.topics["/chatter"].offers] == ["/a"]
+    assert [c.node.name for c in graph.services["/reset"].offers] == ["/b"]
+    assert [read.name for read in graph.param_reads] == ["/a/rate"]
+
+
+def test_what_is_wrong_with_a_node_is_told_with_its_line(tmp_path: Path) -> None:
+    (tmp_path / ".ros-preflight.yaml").write_text(
+        "nodes:\n  - package: p\n  - name: /a\n    topic: []\n    topics:\n      - name: x\n        class: wrong\n"
+    )
+    problems = read_project_settings(str(tmp_path)).problems
+    assert [(p.line, p.message.partition(";")[0]) for p in problems] == [
+        (2, "a node needs a package and an executable, or a name"),
+        (4, "'topic' does not belong into a node like this"),
+        (7, "class 'wrong' is not known"),
     ]
