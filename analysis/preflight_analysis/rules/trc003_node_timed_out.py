@@ -27,8 +27,8 @@ RULE = Rule(
     name="node-timed-out",
     severity="info",
     what="Says that a node was still starting when its time was up.",
-    why="Only what it did until then is known of it: it may have more topics, services and parameters. A node that "
-    "waits for a service or a message gets a made-up answer; this one waits for something else that nobody in the "
+    why="Only what it did until then is known of it: it may have more topics, services and parameters. A rospy node "
+    "that waits for another node gets a made-up answer; this one waits for something else that nobody in the "
     "sandbox gives it.",
     example="while not ready():  # for hardware, say\n    time.sleep(1)\npub = rospy.Publisher('state', String)",
     instead="pub = rospy.Publisher('state', String)\nwhile not ready():\n    time.sleep(1)",
