@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.reading import Unreadable
@@ -171,9 +172,11 @@ def _written_path(value: Value, path: str, packages: Mapping[str, str]) -> str |
 
 
 def _launch_files(folder: str) -> list[str]:
-    return [
-        os.path.join(place, name)
-        for place, _, names in walk(folder, SKIPPED)
-        for name in names
-        if name.endswith(SUFFIXES)
-    ]
+    """The launch files below a workspace. A folder that is nobody's workspace (`/tmp`, the home folder), taken for one
+    because a file in it was opened alone, is not walked: only its own files count."""
+    found: list[str] = []
+    for place, folders, names in walk(folder, SKIPPED):
+        if place in (tempfile.gettempdir(), os.path.expanduser("~"), "/"):
+            folders.clear()
+        found += (os.path.join(place, name) for name in names if name.endswith(SUFFIXES))
+    return found

@@ -1,0 +1,124 @@
+"""What the index of a workspace has, and how it follows changes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect
+from preflight_analysis.workspace.index import Root, WorkspaceIndex
+from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+LEAF = '<launch><arg name="x"/><node pkg="p" type="t" name="$(arg x)"/></launch>'
+
+
+def including(*lines: str) -> str:
+    return "<launch>" + "".join(lines) + "</launch>"
+
+
+def include(path: Path, x: str = "a", attributes: str = "") -> str:
+    return f'<include file="{path}" {attributes}><arg name="x" value="{x}"/></include>'
+
+
+class Desk:
+    """A workspace of a few launch files."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        environment = detect(str(folder), package_path=(str(folder),))
+        self.workspace = Workspace(environment, Sources())
+        self.index = WorkspaceIndex()
+
+    def write(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def build(self, *named: Root, changed: list[Path] | None = None) -> WorkspaceIndex:
+        paths = None if changed is None else [str(path) for path in changed]
+        built = build_index(self.workspace, str(self.folder), named, previous=self.index, changed=paths)
+        assert built is not None
+        fresh = build_index(self.workspace, str(self.folder), named)
+        assert built == fresh, "what is brought up to date equals what is made anew"
+        self.index = built
+        return built
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    return Desk(tmp_path)
+
+
+def paths(roots: tuple[Root, ...]) -> list[str]:
+    return sorted(Path(root.path).name for root in roots)
+
+
+def test_roots_are_what_nothing_includes(desk: Desk) -> None:
+    leaf = desk.write("leaf.launch", LEAF)
+    middle = desk.write("middle.launch", including(include(leaf)))
+    desk.write("one.launch", including(include(middle)))
+    desk.write("two.launch", including(include(leaf, "b")))
+    index = desk.build()
+    assert paths(index.roots_of(str(leaf))) == ["one.launch", "two.launch"]
+    assert paths(index.roots_of(str(middle))) == ["one.launch"]
+    assert sorted(i.args["x"] or "" for i in index.includers(str(leaf))) == ["a", "b"]
+    assert sorted(node.name for _, node in index.nodes()) == ["/a", "/b"]
+
+
+def test_a_file_that_is_only_included_under_a_false_condition_is_its_own_root(desk: Desk) -> None:
+    leaf = desk.write("leaf.launch", LEAF)
+    desk.write("one.launch", including(include(leaf, attributes='if="false"')))
+    index = desk.build()
+    assert index.roots_of(str(leaf)) == (Root(str(leaf)),)
+    assert [i.root for i in index.includers(str(leaf))] == [None], "but who would include it is known"
+
+
+def test_a_file_whose_includer_only_the_evaluation_knows_is_no_root(desk: Desk) -> None:
+    leaf = desk.write("leaf.launch", LEAF)
+    where = f'<arg name="where" default="{desk.folder}"/>'
+    desk.write("one.launch", including(where, '<include file="$(arg where)/leaf.launch"/>'))
+    assert paths(desk.build().roots_of(str(leaf))) == ["one.launch"]
+
+
+def test_files_that_include_each_other_have_a_root(desk: Desk) -> None:
+    one, two = desk.folder / "one.launch", desk.folder / "two.launch"
+    desk.write("one.launch", including(include(two)))
+    desk.write("two.launch", including(include(one)))
+    index = desk.build()
+    assert index.roots_of(str(one)) == index.roots_of(str(two))
+
+
+def test_a_root_that_the_settings_name_stays_one(desk: Desk) -> None:
+    leaf = desk.write("leaf.launch", LEAF)
+    desk.write("one.launch", including(include(leaf)))
+    named = Root.of(str(leaf), {"x": "named"})
+    assert desk.build(named).roots_of(str(leaf))[0] == named
+
+
+def test_changes_are_followed(desk: Desk) -> None:
+    leaf = desk.write("leaf.launch", LEAF)
+    one = desk.write("one.launch", including(include(leaf)))
+    desk.build()
+    one = desk.write("one.launch", including())
+    assert desk.build(changed=[one]).roots_of(str(leaf)) == (Root(str(leaf)),)
+    two = desk.write("two.launch", including(include(leaf, "z")))
+    assert paths(desk.build(changed=[two]).roots_of(str(leaf))) == ["two.launch"]
+    two.unlink()
+    assert desk.build(changed=[two]).roots_of(str(leaf)) == (Root(str(leaf)),)
+
+
+def test_a_file_opened_in_the_home_folder_does_not_make_all_of_it_a_workspace(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("HOME", str(desk.folder))
+    (desk.folder / "project").mkdir()
+    desk.write("project/other.launch", including())
+    mine = desk.write("mine.launch", including())
+    assert list(desk.build().files) == [str(mine)]
+
+
+def test_it_can_be_stopped(desk: Desk) -> None:
+    desk.write("leaf.launch", LEAF)
+    assert build_index(desk.workspace, str(desk.folder), cancelled=lambda: True) is None
