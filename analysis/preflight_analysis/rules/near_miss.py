@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from typing import Literal
@@ -64,7 +65,52 @@ class NearMiss:
 
 
 def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
-    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one."""
+    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one.
+
+    All names of one type are compared with each other: where hundreds dangle that takes longer than a keystroke may, so
+    it is remembered which ends met as long as no end of the graph changes.
+    """
+    key = tuple(_ends(channel) for channel in channels.values())
+    with _lock:
+        places = _remembered.pop(key, None)
+    if places is None:
+        places = tuple(_place(near, channels) for near in _near_misses(channels))
+    with _lock:
+        _remembered[key] = places
+        while len(_remembered) > _MOST_REMEMBERED:
+            del _remembered[next(iter(_remembered))]
+    return tuple(
+        NearMiss(channels[to].wants[want], channels[of].offers[offer], how, same_type, dangles)
+        for to, want, of, offer, how, same_type, dangles in places
+    )
+
+
+_Place = tuple[str, int, str, int, Evidence, bool, bool]
+"""A near miss as channels and the numbers of their ends, for a graph of which only the places have changed."""
+
+_MOST_REMEMBERED = 16
+_lock = threading.Lock()
+_remembered: dict[Hashable, tuple[_Place, ...]] = {}
+
+
+def _ends(channel: Channel) -> Hashable:
+    """All that the search looks at."""
+    return channel.name, channel.external, *(map(_end, channel.offers)), None, *(map(_end, channel.wants))
+
+
+def _end(end: Connection) -> Hashable:
+    given = end.endpoint
+    return end.node.name, end.remap is None, end.action, given.role, given.name, given.type, given.builtin
+
+
+def _place(near: NearMiss, channels: Mapping[str, Channel]) -> _Place:
+    to, of = near.wanting.name, near.offering.name
+    want = next(i for i, end in enumerate(channels[to].wants) if end is near.wanting)
+    offer = next(i for i, end in enumerate(channels[of].offers) if end is near.offering)
+    return to, want, of, offer, near.likeness, near.same_type, near.offering_dangles
+
+
+def _near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
     found: list[NearMiss] = []
     wants = list(dangling_wants(channels))
     if not wants:
