@@ -20,7 +20,7 @@ _COMPLAINT = re.compile(r"KeyError|param|not set|missing|required|mandatory|not 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    if graph is None or not context.tree.complete:
+    if graph is None or not graph.param_reads or not context.tree.complete:
         return
     missing = _missing(context, graph)
     if not missing:

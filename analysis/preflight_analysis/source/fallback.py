@@ -12,11 +12,17 @@ from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Interface
 
 
-def fill_in(tree: LaunchTree, interfaces: Sequence[Interface], sources: SourceAnalysis) -> tuple[Interface, ...]:
+def fill_in(
+    tree: LaunchTree, interfaces: Sequence[Interface], sources: SourceAnalysis, most: int | None = None
+) -> tuple[Interface, ...]:
     """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end the source is added.
 
-    A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
+    A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it. Where
+    more than `most` nodes lack something nothing is added.
     """
+    lacking = sum(_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True))
+    if most is not None and lacking > most:
+        return tuple(interfaces)
     params = LaunchParams({p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)})
     return tuple(
         _from_source(node, interface, params, sources) if _lacks(node, interface) else interface

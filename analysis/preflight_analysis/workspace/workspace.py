@@ -154,14 +154,22 @@ class Workspace:
         params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
-    def with_interfaces(self, analysis: Analysis, interfaces: Sequence[Interface], why_not_run: str | None) -> Analysis:
+    def with_interfaces(
+        self,
+        analysis: Analysis,
+        interfaces: Sequence[Interface],
+        why_not_run: str | None,
+        *,
+        most_from_source: int | None = None,
+    ) -> Analysis:
         """The analysis with the graph that the interfaces (one a node of the tree, in order) make, and all findings.
 
-        `why_not_run` says why nothing was executed, None where it was.
+        `why_not_run` says why nothing was executed, None where it was. Where more than `most_from_source` nodes were
+        not run to their end, their sources are not looked at.
         """
         project = self._project_settings()
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
-        interfaces = fill_in(analysis.tree, interfaces, self._source_analysis)
+        interfaces = fill_in(analysis.tree, interfaces, self._source_analysis, most_from_source)
         graph = build_graph(analysis.tree, interfaces, project.external_topics)
         context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
         return replace(analysis, context=context)
