@@ -6,7 +6,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from preflight_analysis.queries.completion import TRIGGERS, complete
 from preflight_analysis.queries.completion_items import Completion
@@ -356,6 +356,7 @@ WHOLE = """<launch>
 """
 
 
+@example(at=125, deleted=14, typed="", trigger=None)  # a value over two lines
 @given(
     st.integers(0, len(WHOLE)),
     st.integers(0, 40),

@@ -87,9 +87,11 @@ class Asked:
         return self.document.text[self.place.word.start : self.place.word.end]
 
     def word(self, typed: str, end: re.Pattern[str]) -> Span:
-        """The word of which `typed` is before the cursor; what `end` matches after it belongs to it."""
-        found = end.match(self.document.text, self.offset)
-        return Span(self.offset - len(typed), found.end() if found else self.offset)
+        """The word of which `typed` is before the cursor; what `end` matches after it on the line belongs to it."""
+        text = self.document.text
+        found = end.match(text, self.offset)
+        after = text[self.offset : found.end()].split("\n", 1)[0] if found else ""
+        return Span(self.offset - len(typed), self.offset + len(after))
 
 
 def complete_value(asked: Asked, trigger: str | None) -> Completion | None:

@@ -114,12 +114,20 @@ def _in_start_tag(text: str, parents: tuple[Element, ...], element: Element, off
             continue
         if text.startswith(quote, value.end):
             if offset <= value.end:
-                return Place("value", value, parents, element, attribute)
+                return Place("value", _on_line(text, value, offset), parents, element, attribute)
         elif not text[value.end : offset].strip(" \t"):
             # The closing quote is missing: the scanner leaves out blanks that are just being typed, and what follows
             # the word at the cursor may well belong to something else.
             word = _UNCLOSED_WORD.match(text, offset)
-            return Place("value", Span(value.start, word.end() if word else offset), parents, element, attribute)
+            there = Span(value.start, word.end() if word else offset)
+            return Place("value", _on_line(text, there, offset), parents, element, attribute)
     if text[offset - 1] in _BLANKS:
         return Place("attribute", Span(offset, offset), parents, element)
     return None
+
+
+def _on_line(text: str, span: Span, offset: int) -> Span:
+    """What of the span is on the line of the cursor, which is all that an editor lets a completion replace. A value
+    goes on over lines where a quote is missing."""
+    end = text.find("\n", offset, span.end)
+    return Span(max(span.start, text.rfind("\n", 0, offset) + 1), span.end if end < 0 else end)
