@@ -89,6 +89,8 @@ class Session:
         """The root that the user chose for a file to be shown in."""
         self._dirty: dict[Root, int] = {}
         """Roots whose analysis is out of date, and the edit that made it so."""
+        self._broken: dict[Root, int] = {}
+        """Roots whose analysis raised, and the edit at which it did: it is not tried again before the next."""
         self._edits = 0
         self._remerge = False
         self._quiet_at = 0.0
@@ -351,6 +353,8 @@ class Session:
         self.runs.wake()
 
     def _is_due(self, root: Root) -> bool:
+        if self._broken.get(root) == self._edits:
+            return False
         return root in self._dirty or root not in self._analyses
 
     async def _turn(self, workspace: Workspace, root: Root | None) -> None:
@@ -365,6 +369,8 @@ class Session:
             self._dirty.pop(root, None)
         if round_ is not None:
             self._commit(round_)
+        elif root is not None:
+            self._broken[root] = self._edits
 
     async def _round(self, workspace: Workspace, root: Root | None) -> _Round | None:
         analyses = dict(self._analyses)
