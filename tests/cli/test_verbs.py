@@ -162,6 +162,8 @@ def test_an_interrupt_ends_the_runs(desk: Desk) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        # Tests that a shell started in the background inherit that the signal is ignored, and so would the command.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as process:
         while desk.sandbox_starts() < 2:
             time.sleep(0.05)
