@@ -37,6 +37,21 @@ async def test_an_included_file_is_told_of_and_cleared_with_the_root(desk: Desk)
         await editor.until(lambda: editor.rules(inner) == [])
 
 
+async def test_an_edit_during_the_first_analysis_of_a_file_is_not_lost(desk: Desk) -> None:
+    filling = "".join(f'  <param name="p{k}" value="{k}"/>\n' for k in range(1500))
+    async with editing(desk) as editor:
+        editor.open(desk.launch_file)
+        await editor.until(lambda: editor.rules(desk.launch_file) is not None)
+        for attempt in range(6):
+            path = desk.workspace / f"first_{attempt}.launch"
+            path.write_text(EMPTY)
+            editor.open(path, f"<launch>\n{filling}</launch>\n")
+            await asyncio.sleep(0.03 * attempt)
+            editor.change(path, UNDECLARED)
+            assert ("nothing", "parameter") in await editor.tokens(path)
+            await editor.having(path, "ARG001")
+
+
 async def test_an_included_file_keeps_its_findings_while_another_root_reports_them(desk: Desk) -> None:
     inner = desk.workspace / "inner.launch"
     inner.write_text(UNDECLARED)

@@ -91,6 +91,8 @@ class Session:
         """Roots whose analysis is out of date, and the edit that made it so."""
         self._broken: dict[Root, int] = {}
         """Roots whose analysis raised, and the edit at which it did: it is not tried again before the next."""
+        self._touched: set[str] | None = set()
+        """The files that changed since the analysis that is being made began; None: any may have."""
         self._edits = 0
         self._remerge = False
         self._quiet_at = 0.0
@@ -313,6 +315,7 @@ class Session:
         for root, analysis in self._analyses.items():
             if touched is None or root.path in touched or not touched.isdisjoint(analysis.tree.inputs):
                 self._dirty[root] = self._edits
+        self._touched = None if touched is None or self._touched is None else self._touched | touched
         self._remerge = True
         self._quiet_at = asyncio.get_running_loop().time() + quiet
         self.runs.hold(quiet)
@@ -361,7 +364,10 @@ class Session:
         """Analyse one root, and put the findings of all of them together."""
         asked = self._dirty.get(root, self._edits) if root is not None else None
         self._remerge = False
+        self._touched = set()
         round_ = await self._round(workspace, root)
+        if root is not None and round_ is not None and self._missed_an_edit(round_.analyses[root]):
+            self._dirty[root] = self._edits
         if self._workspace is not workspace or (root is not None and self._dirty.get(root, asked) != asked):
             self._remerge = True
             return  # superseded by a newer text
@@ -371,6 +377,10 @@ class Session:
             self._commit(round_)
         elif root is not None:
             self._broken[root] = self._edits
+
+    def _missed_an_edit(self, analysis: Analysis) -> bool:
+        """Whether a file that it was made from changed meanwhile. Only now it is known which ones those are."""
+        return self._touched is None or not self._touched.isdisjoint(analysis.tree.inputs)
 
     async def _round(self, workspace: Workspace, root: Root | None) -> _Round | None:
         analyses = dict(self._analyses)
