@@ -132,3 +132,32 @@ def test_only_full_knowledge_makes_a_graph_complete() -> None:
     assert graph_of(text.replace("STATUS", "spinning")).complete
     for status in ("crashed", "timed-out", "exited", "not-run"):
         assert not graph_of(text.replace("STATUS", status)).complete
+
+
+def test_a_client_that_told_only_its_sum_has_the_type_of_its_server() -> None:
+    graph = graph_of("""
+        <launch>
+          <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"services": {"reset": "std_srvs/Empty"}, "md5": {"reset": "11"}},
+         "/b": {"services": {"wipe": "x/Nothing"}, "md5": {"wipe": "11"}},
+         "/c": {"clients": {"reset": null}, "md5": {"reset": "11"}}}
+    """)
+    (client,) = graph.services["/reset"].wants
+    assert client.endpoint.type == "std_srvs/Empty"
+
+
+def test_a_client_without_a_server_has_the_only_type_of_its_sum() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"services": {"reset": "x/A"}, "md5": {"reset": "11"}},
+         "/b": {"services": {"wipe": "SECOND"}, "md5": {"wipe": "11"}},
+         "/c": {"clients": {"rest": null}, "md5": {"rest": "11"}}}
+    """
+    for second, expected in (("x/A", "x/A"), ("x/B", None)):
+        (client,) = graph_of(text.replace("SECOND", second)).services["/rest"].wants
+        assert client.endpoint.type == expected

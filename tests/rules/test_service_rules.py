@@ -108,3 +108,15 @@ def test_one_service_type_of_two_definitions() -> None:
          "/dock": {"clients": {"reset": "x/Reset"}, "md5": {"reset": "22"}}}
     """)
     assert "one of them was built from another definition" in finding.message
+
+
+def test_types_of_one_definition_can_be_called() -> None:
+    assert (
+        findings_of("""
+        <launch><node pkg="p" type="t" name="base"/><node pkg="p" type="t" name="dock"/></launch>
+        //- interfaces
+        {"/base": {"services": {"reset": "std_srvs/Empty"}, "md5": {"reset": "11"}},
+         "/dock": {"clients": {"reset": "x/Nothing"}, "md5": {"reset": "11"}}}
+    """)
+        == []
+    )

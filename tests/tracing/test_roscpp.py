@@ -39,7 +39,7 @@ MADE = {
     ("publisher", "~below/deep", "std_msgs/String"),
     ("subscriber", "chatter", "std_msgs/String"),
     ("service", "~enable", "std_srvs/SetBool"),
-    ("client", "switch", None),
+    ("client", "switch", "std_srvs/SetBool"),
 }
 LATE = ("publisher", "late", "std_msgs/String")
 

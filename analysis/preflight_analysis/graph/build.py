@@ -5,6 +5,7 @@ from __future__ import annotations
 import fnmatch
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
@@ -51,7 +52,7 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topi
         targets = {source: remap[1] for source, remap in remaps.items()}
         reads.extend(ParamRead(names.resolve(use.name, node.name, targets), node, use) for use in interface.params)
     return Graph(
-        tree, merged, _channels(topics, external_topics), _channels(services), _channels(actions), tuple(reads)
+        tree, merged, _channels(topics, external_topics), _channels(_named(services)), _channels(actions), tuple(reads)
     )
 
 
@@ -95,6 +96,26 @@ def _connect_action(
         for (name, moved_by), topic in zip(ends, action.topics, strict=True)
     ]
     return [Connection(full, node, endpoint, remap)] if together else [], parts
+
+
+def _named(services: Sequence[Connection]) -> list[Connection]:
+    """A client that told only its MD5 sum has the type of the server of that sum, if its own server does not have it of
+    the only one in the graph."""
+    types: dict[tuple[str | None, str], set[str]] = {}
+    for server in services:
+        end = server.endpoint
+        if end.role == "service" and end.type and end.md5:
+            for name in (server.name, None):
+                types.setdefault((name, end.md5), set()).add(end.type)
+
+    def named(client: Connection) -> Connection:
+        end = client.endpoint
+        if end.role != "client" or end.type is not None or not end.md5:
+            return client
+        found = types.get((client.name, end.md5)) or types.get((None, end.md5)) or set()
+        return replace(client, endpoint=replace(end, type=next(iter(found)))) if len(found) == 1 else client
+
+    return [named(connection) for connection in services]
 
 
 def _channels(connections: Iterable[Connection], external: Sequence[str] = ()) -> dict[str, Channel]:

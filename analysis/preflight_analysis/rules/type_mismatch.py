@@ -60,7 +60,8 @@ def _difference(wanting: Connection, offering: Connection) -> str | None:
         # A roscpp client of a service knows no type, but what it sends is known by the sum.
         return f", with the MD5 sums {theirs.md5} and {mine.md5}" if sums_differ else None
     if mine.type != theirs.type:
-        return ""
+        # Of a service only the sums are compared when it is called.
+        return None if mine.role == "client" and mine.md5 and mine.md5 == theirs.md5 else ""
     if sums_differ:
         return f", with the MD5 sums {theirs.md5} and {mine.md5}: one of them was built from another definition"
     return None

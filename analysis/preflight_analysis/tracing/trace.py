@@ -17,6 +17,7 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Observation, observe
 from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.service_types import ServiceTypes
 
 _log = logging.getLogger(__name__)
 
@@ -34,6 +35,7 @@ class Tracer:
         self.environment = environment
         self.cache = cache
         self._library = library or preload.library()
+        self._services = ServiceTypes(environment)
 
     @functools.cached_property
     def _visible(self) -> list[str]:
@@ -47,7 +49,7 @@ class Tracer:
         try:
             planned = self._library.planned() if preload.applies(alone.executable) else _NO_PRELOAD
             found = self.cache.load(recipes.make(self.environment, alone, planned.path), alone)
-            return nodelets.with_manager(found, request) if found is not None else None
+            return self._finished(found, request) if found is not None else None
         except Exception:
             _log.exception("looking up a trace of %s failed", request.node)
             return None
@@ -58,10 +60,14 @@ class Tracer:
         if found is not None:
             return found
         try:
-            return nodelets.with_manager(self._run(nodelets.standalone(request), cancel), request)
+            return self._finished(self._run(nodelets.standalone(request), cancel), request)
         except Exception as error:
             _log.exception("tracing %s failed", request.node)
             return _not_run(f"the run failed: {error}")
+
+    def _finished(self, found: Interface, request: TraceRequest) -> Interface:
+        """What the run of the node alone does not tell, and depends on more than it did."""
+        return nodelets.with_manager(self._services.name_clients(found), request)
 
     def _run(self, request: TraceRequest, cancel: threading.Event) -> Interface:
         status = sandbox.probe()
