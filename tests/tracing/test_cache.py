@@ -246,17 +246,14 @@ def test_the_least_recently_used_goes_first(desk: Desk, tmp_path: Path) -> None:
     cache.max_bytes = 10**9
     for n, (recipe, asked) in enumerate(zip(recipes, requests, strict=True)):
         cache.store(recipe, asked, INTERFACE, Dependencies(), started=time.time())
-        for path in (cache.folder / make_place(cache, recipe, asked)).glob("*.json"):
+        place = cache._place(recipe, asked)
+        for path in place.folder.glob(f"{place.recipe}-*.json"):
             os.utime(path, (1000 + n, 1000 + n))
     assert cache.load(recipes[0], requests[0])
     size = entries(cache)[0].stat().st_size
     cache.max_bytes = int(size * 3.5)
     cache.sweep()
     assert [n for n in range(6) if cache.load(recipes[n], requests[n])] == [0, 4, 5]
-
-
-def make_place(cache: TraceCache, recipe: Any, asked: TraceRequest) -> Path:
-    return cache._place(recipe, asked).relative_to(cache.folder)
 
 
 def test_several_processes_at_once(desk: Desk, tmp_path: Path) -> None:

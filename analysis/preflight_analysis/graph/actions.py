@@ -67,6 +67,8 @@ def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEnd | No
         source_file=goal.source_file,
         source_line=goal.source_line,
         speculative=speculative,
+        inferred=any(topic.inferred for topic in topics),
+        similar=any(topic.similar for topic in topics),
     )
     return ActionEnd(endpoint, tuple(topics))
 
@@ -83,6 +85,7 @@ def _declared(endpoint: Endpoint) -> ActionEnd:
             _COMMON.get(topic) if type_ is None else _type(type_, topic),
             speculative=endpoint.speculative,
             inferred=endpoint.inferred,
+            similar=endpoint.similar,
         )
         for topic in TOPICS
     )

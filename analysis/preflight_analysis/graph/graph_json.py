@@ -12,6 +12,7 @@ from preflight_analysis.tracing.interface import Frame, Interface
 
 SCHEMA = "ros-preflight/graph/1"
 
+_FLAGS = ("builtin", "speculative", "inferred", "similar")
 _KEYS = {
     "publisher": "publishers",
     "subscriber": "subscribers",
@@ -58,7 +59,7 @@ def interface_json(
     for connection in connections:
         endpoint = connection.endpoint
         end: dict[str, Any] = {"name": connection.name, "type": endpoint.type, "qos": json_value(endpoint.qos)}
-        end.update({flag: True for flag in ("builtin", "speculative", "inferred") if getattr(endpoint, flag)})
+        end.update({flag: True for flag in _FLAGS if getattr(endpoint, flag)})
         if connection.action is not None:
             end["action"] = connection.action
         lists[_KEYS[endpoint.role]].append(end)

@@ -310,7 +310,7 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
         reason = interface.outcome.reason if interface is not None else None
         reason = reason or analysis.why_not_run
         return f"Its interface is not known{f': {reason}' if reason else ' yet'}"
-    source = _SOURCES.get(interface.source, interface.source)
+    source = _SOURCES.get(interface.source, interface.source) + _elsewhere(analysis, interface)
     outcome = interface.outcome
     if outcome.status == "not-run":
         return f"Interface {source}" + (f"; not run: {outcome.reason}" if outcome.reason else "")
@@ -324,6 +324,16 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
     if outcome.status == "crashed" and outcome.stderr_tail:
         lines.append("```text\n" + "\n".join(outcome.stderr_tail) + "\n```")
     return "\n\n".join(lines)
+
+
+def _elsewhere(analysis: Analysis, interface: Interface) -> str:
+    """Which run a similar trace is of."""
+    run = interface.elsewhere
+    if run is None:
+        return ""
+    where = f" in `{shown_path(run.launch, analysis.environment.workspace)}`" if run.launch else ""
+    changed = ", before the executable changed" if run.changed else ""
+    return f", that of `{run.node}`{where}{changed}"
 
 
 def _frame(frame: Frame) -> str:
@@ -345,6 +355,8 @@ def _connection(connection: Connection, interface: Interface) -> str:
         text += ", latched"
     if endpoint.speculative:
         text += ", after a made-up answer"
+    if endpoint.similar:
+        text += ", seen elsewhere"
     return text + _made_at(endpoint)
 
 

@@ -6,6 +6,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Related
 from preflight_analysis.graph.model import Connection, ParamRead
+from preflight_analysis.tracing.interface import Endpoint, ParamUse
 
 
 def node_location(node: LaunchNode) -> Location:
@@ -26,11 +27,17 @@ def connection_location(connection: Connection) -> Location:
 
 def related_end(connection: Connection, verb: str) -> Related:
     """The other end, `verb` says what it does: `publishes`, `subscribes to`, ..."""
-    known = ", by its source" if connection.endpoint.inferred else ""
+    known = _how_known(connection.endpoint)
     return Related(f"{connection.node.name} {verb} {connection.name}{known}", connection_location(connection))
 
 
 def related_param_read(read: ParamRead) -> Related:
     """The node that reads a parameter."""
-    known = ", by its source" if read.use.inferred else ""
+    known = _how_known(read.use)
     return Related(f"{read.node.name} reads {read.name}{known}", node_location(read.node))
+
+
+def _how_known(what: Endpoint | ParamUse) -> str:
+    if what.similar:
+        return ", by a run elsewhere"
+    return ", by its source" if what.inferred else ""

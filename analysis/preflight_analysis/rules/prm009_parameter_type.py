@@ -41,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _finding(
     rule: Rule, param: Param, read: ParamRead, severity: Severity, confidence: Confidence, why: str
 ) -> Finding:
-    if read.use.inferred:
+    if read.use.assumed:
         severity, confidence = ("info" if severity == "warning" else severity), "possible"
     return rule.finding(
         f"'{param.name}' is {_shown(param.value)}, {_kind(param.value)}, but {read.node.name} reads it with the "

@@ -31,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             f"{subject} offered by {' and '.join(nodes)}: only the one that registers last is called",
             location,
-            severity="info" if any(c.endpoint.inferred for c in servers) else None,
+            severity="info" if any(c.endpoint.assumed for c in servers) else None,
             confidence="likely" if sure else "possible",
             related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
         )

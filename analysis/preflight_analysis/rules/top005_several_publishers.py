@@ -43,7 +43,7 @@ def _finding(rule: Rule, channel: Channel, ends: list[Connection], severity: Sev
     return rule.finding(
         f"'{channel.name}' is published by {' and '.join(end.node.name for end in ends)}: {consequence}",
         connection_location(ends[-1]),
-        severity="info" if any(end.endpoint.inferred for end in ends) else severity,
+        severity="info" if any(end.endpoint.assumed for end in ends) else severity,
         confidence="likely" if sure else "possible",
         related=(*(related_end(end, "publishes") for end in ends[:-1]), *include_chain(ends[-1].node.origin)),
     )

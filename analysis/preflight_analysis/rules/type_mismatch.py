@@ -41,7 +41,7 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
                     f"{wanting.endpoint.type or 'an unknown type'}"
                     f"{difference}",
                     connection_location(site),
-                    severity="info" if wanting.endpoint.inferred or offering.endpoint.inferred else None,
+                    severity="info" if wanting.endpoint.assumed or offering.endpoint.assumed else None,
                     confidence=_confidence(graph, wanting, offering),
                     related=(
                         related_end(other, verbs.offers if other is offering else verbs.wants),
@@ -69,7 +69,7 @@ def _difference(wanting: Connection, offering: Connection) -> str | None:
 
 def _confidence(graph: Graph, *ends: Connection) -> Confidence:
     """Types that a run showed are certain; those of an annotation are the user's word, source code is only read."""
-    if any(end.endpoint.inferred for end in ends):
+    if any(end.endpoint.assumed for end in ends):
         return "possible"
     for end in ends:
         index = next(i for i, node in enumerate(graph.tree.nodes) if node is end.node)

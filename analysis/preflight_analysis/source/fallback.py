@@ -2,30 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.similar import SimilarTraces
 
 
 def fill_in(
-    tree: LaunchTree, interfaces: Sequence[Interface], sources: SourceAnalysis, most: int | None = None
+    tree: LaunchTree,
+    interfaces: Sequence[Interface],
+    sources: SourceAnalysis,
+    similar: SimilarTraces | None = None,
+    most: int | None = None,
 ) -> tuple[Interface, ...]:
-    """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end the source is added.
+    """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end is added what a run of the
+    same executable elsewhere told, or else its source.
 
     A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it. Where
     more than `most` nodes lack something nothing is added.
     """
     lacking = sum(_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True))
-    if most is not None and lacking > most:
+    if not lacking or (most is not None and lacking > most):
         return tuple(interfaces)
-    params = LaunchParams({p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)})
+    values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
+    params = LaunchParams(values)
     return tuple(
-        _from_source(node, interface, params, sources) if _lacks(node, interface) else interface
+        (
+            (_from_similar(node, interface, values, similar) if similar is not None else None)
+            or _from_source(node, interface, params, sources)
+        )
+        if _lacks(node, interface)
+        else interface
         for node, interface in zip(tree.nodes, interfaces, strict=True)
     )
 
@@ -34,6 +47,16 @@ def _lacks(node: LaunchNode, interface: Interface) -> bool:
     outcome = interface.outcome
     ended_well = outcome.status == "exited" and outcome.exit_code == 0
     return not (interface.complete or ended_well or interface.pending) and read_annotation(node.action)[0] is None
+
+
+def _from_similar(
+    node: LaunchNode, interface: Interface, params: Mapping[str, Any], similar: SimilarTraces
+) -> Interface | None:
+    found = similar.of(node, params)
+    if found is None:
+        return None
+    more = interface.with_more("similar", found.endpoints, found.params)
+    return replace(more, elsewhere=found.elsewhere)
 
 
 def _from_source(node: LaunchNode, interface: Interface, params: LaunchParams, sources: SourceAnalysis) -> Interface:

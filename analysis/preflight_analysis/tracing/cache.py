@@ -1,26 +1,54 @@
-"""Traces on disk: what a run gave, with everything it depended on, valid for as long as none of that has changed."""
+"""Traces on disk: what a run gave, with everything it depended on, valid for as long as none of that has changed.
+
+The traces of one executable share a folder, whatever its configuration and build were: where a node cannot be run, they
+tell what the executable does elsewhere (`similar.py`).
+"""
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.agents.params import ParamTree
 from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import encode_params
-from preflight_analysis.tracing.store import MAX_BYTES, Store, changed_since, fingerprint, listing
+from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint, listing
 
-SCHEMA = "ros-preflight/trace-cache/2"
+SCHEMA = "ros-preflight/trace-cache/3"
 MAX_ENTRY_BYTES = 4 << 20
+MOST_OF_ONE_EXECUTABLE = 64
+"""How many traces of an executable are looked at for a similar one, the last used."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A trace with what it was made from, which may be out of date.
+
+    `executable` is its path, `build` its fingerprint then; `given` are the parts of names in `interface` that came with
+    the arguments or parameters, as `bare` texts.
+    """
+
+    interface: Interface
+    node: str
+    launch: str | None
+    executable: str
+    build: str
+    args: tuple[str, ...]
+    given: frozenset[str]
+    used: float
+    """When it was last of use, in seconds since the epoch."""
 
 
 class TraceCache(Store):
@@ -69,10 +97,64 @@ class TraceCache(Store):
             "asked": {what: view.identity(what) for what in sorted(dependencies.asked)},
         }
         conditions = [known["params"], known["asked"]]
-        entry = {"dependencies": known, "interface": _encode(interface)}
+        # For `similar.py`. Of values no more is kept than the interface tells anyway.
+        made = {
+            "node": request.node,
+            "launch": request.launch,
+            "executable": request.executable,
+            "args": list(request.args),
+            "given": sorted(_given(interface, (*request.args, *view.values(dependencies.params)))),
+        }
+        entry = {"dependencies": known, "interface": _encode(interface), "made": made}
         return self._keep(self._place(recipe, request), conditions, entry)
 
-    def _place(self, recipe: Recipe, request: TraceRequest) -> Path:
+    def traces_of(self, package: str, executable: str, plugin: str | None) -> tuple[object, tuple[Kept, ...]]:
+        """What is kept of an executable (a nodelet: of its plugin), the last used first, and what tells when that has
+        changed. `package` and the file's name tell which one it is, wherever it is now and however often it was built.
+        """
+        folder = self._executable_folder(package, executable, plugin)
+        try:
+            state = os.stat(folder).st_mtime_ns
+            paths = [path for path in folder.iterdir() if path.suffix == ".json"]
+        except OSError:
+            return None, ()
+        dated = []
+        for path in paths:
+            with contextlib.suppress(OSError):
+                dated.append((path.stat().st_mtime, path))
+        kept = (self._kept(path, used) for used, path in sorted(dated, reverse=True)[:MOST_OF_ONE_EXECUTABLE])
+        return state, tuple(each for each in kept if each is not None)
+
+    def state_of(self, package: str, executable: str, plugin: str | None) -> object:
+        """What changes with what `traces_of` gives."""
+        try:
+            return os.stat(self._executable_folder(package, executable, plugin)).st_mtime_ns
+        except OSError:
+            return None
+
+    def _kept(self, path: Path, used: float) -> Kept | None:
+        entry = self._read(path)
+        if entry is None:
+            return None
+        try:
+            made, known = entry["made"], entry["dependencies"]
+            return Kept(
+                _decode(entry["interface"]),
+                str(made["node"]),
+                made["launch"],
+                made["executable"],
+                known["files"][made["executable"]],
+                tuple(made["args"]),
+                frozenset(made["given"]),
+                used,
+            )
+        except (KeyError, TypeError, ValueError, AttributeError):
+            return None
+
+    def _executable_folder(self, package: str, executable: str, plugin: str | None) -> Path:
+        return self._shared_folder({"package": package, "executable": executable, "plugin": plugin})
+
+    def _place(self, recipe: Recipe, request: TraceRequest) -> Place:
         named = {
             "executable": os.path.realpath(request.executable),
             "given": request.executable,
@@ -84,7 +166,8 @@ class TraceCache(Store):
             "env": dict(recipe.stable),
             "cwd": recipe.cwd,
         }
-        return self._folder_of(named)
+        name = os.path.basename(request.executable)
+        return self._place_of(named, self._executable_folder(request.package, name, nodelets.plugin(request)))
 
 
 class _View:
@@ -112,6 +195,13 @@ class _View:
             answer = True if dependency.access == "has" else self._tree.get(full)
         return hashlib.sha256(json.dumps(answer, sort_keys=True).encode(errors="surrogatepass")).hexdigest()
 
+    def values(self, looked_at: Iterable[ParamDependency]) -> Iterator[str]:
+        """The texts that these looks at the parameter server found."""
+        for dependency in looked_at:
+            full = names.resolve(dependency.name, self._node, self._remaps) if dependency.given else dependency.name
+            if dependency.access == "get" and self._tree.has(full):
+                yield from texts(self._tree.get(full))
+
     def identity(self, what: str) -> Any:
         """The node's name, its namespace or its remaps."""
         if what == "remaps":
@@ -126,6 +216,29 @@ def _valid(known: Mapping[str, Any], view: _View) -> bool:
         and all(fingerprint(path) == value for path, value in known["files"].items())
         and all(listing(folder) == value for folder, value in known["listings"].items())
     )
+
+
+def texts(value: Any) -> Iterator[str]:
+    """The texts in a parameter's value."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        for item in value.values():
+            yield from texts(item)
+    elif isinstance(value, (list, tuple)):
+        for item in value:
+            yield from texts(item)
+
+
+def bare(text: str) -> str:
+    """A text as a part of names: what an argument `_topic:=/scan` gives is `scan`."""
+    return text.rpartition(":=")[2].strip("/~")
+
+
+def _given(interface: Interface, said: Iterable[str]) -> set[str]:
+    """The bare texts of `said` that are whole parts of names in the interface."""
+    found = {f"/{e.name.strip('/~')}/" for e in interface.endpoints if not e.builtin}
+    return {text for text in map(bare, said) if text and any(f"/{text}/" in name for name in found)}
 
 
 def _encode(interface: Interface) -> dict[str, Any]:

@@ -28,7 +28,7 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.observation import paths, stderr_tail
-from preflight_analysis.tracing.store import MAX_BYTES, Store, changed_since, fingerprint
+from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
 from preflight_analysis.tracing.trace import on_host
 
 _log = logging.getLogger(__name__)
@@ -76,9 +76,9 @@ class CommandCache(Store):
             return False
         return self._keep(self._place(recipe, packages), known, {"files": known, "output": output})
 
-    def _place(self, recipe: recipes.Recipe, packages: str) -> Path:
+    def _place(self, recipe: recipes.Recipe, packages: str) -> Place:
         named = {"argv": list(recipe.argv), "env": dict(recipe.stable), "cwd": recipe.cwd, "packages": packages}
-        return self._folder_of(named)
+        return self._place_of(named)
 
 
 @dataclass(slots=True)

@@ -33,11 +33,18 @@ class Endpoint:
     """Found after a made-up answer."""
     inferred: bool = False
     """Read from the source code, not seen in a run."""
+    similar: bool = False
+    """Seen in a run of the same executable under another configuration, not in one of this node."""
+
+    @property
+    def assumed(self) -> bool:
+        """Whether no run of this node, and no word of the user, says that it makes it."""
+        return self.inferred or self.similar
 
     @property
     def uncertain(self) -> bool:
         """Whether the real node may well not make it."""
-        return self.speculative or self.inferred
+        return self.speculative or self.assumed
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +62,13 @@ class ParamUse:
     builtin: bool = False
     inferred: bool = False
     """Read from the source code, not seen in a run."""
+    similar: bool = False
+    """Seen in a run of the same executable under another configuration, not in one of this node."""
+
+    @property
+    def assumed(self) -> bool:
+        """Whether no run of this node, and no word of the user, says that it asks for it."""
+        return self.inferred or self.similar
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -82,6 +96,16 @@ class Outcome:
 
 
 @dataclass(frozen=True, slots=True)
+class Elsewhere:
+    """The run that a similar trace was made by: of the node of that name, in that launch file if it is known.
+    `changed` tells that the executable is not the same as now."""
+
+    node: str
+    launch: str | None
+    changed: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Interface:
     """A node's endpoints and parameters. `cached` tells that no new run was needed."""
 
@@ -95,6 +119,8 @@ class Interface:
 
     frames: tuple[Frame, ...] = ()
     """What it was seen to broadcast; other frames may follow."""
+    elsewhere: Elsewhere | None = None
+    """Where what is `similar` was seen."""
 
     @property
     def known(self) -> bool:

@@ -14,6 +14,13 @@ from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.request import TraceRequest
 
 
+def plugin(request: TraceRequest) -> str | None:
+    """The nodelet that a loader loads or a process of its own runs; None of any other executable."""
+    if request.package != "nodelet" or os.path.basename(request.executable) != "nodelet" or len(request.args) < 2:
+        return None
+    return request.args[1] if request.args[0] in ("load", "standalone") else None
+
+
 def standalone(request: TraceRequest) -> TraceRequest:
     """The request that shows what the nodelet does; any other request as it is."""
     if _manager(request) is None:

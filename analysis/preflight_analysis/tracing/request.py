@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -24,3 +25,13 @@ class TraceRequest:
     env: tuple[tuple[str, str], ...] = ()
     """What the launch file sets for the node."""
     cwd: str | None = None
+    launch: str | None = field(default=None, compare=False)
+    """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
+
+
+def split_args(text: str) -> tuple[str, ...]:
+    """A node's arguments as roslaunch hands them over; split at blanks where a quote is left open."""
+    try:
+        return tuple(shlex.split(text))
+    except ValueError:
+        return tuple(text.split())

@@ -1,7 +1,9 @@
 """What runs gave, on disk: entries that are valid for as long as nothing that they depended on has changed.
 
-A file per entry, JSON, in a folder per recipe; written to a temporary name and renamed, so that any number of processes
-can share the folder. Whatever cannot be read, is cut off or was written by another version is a miss.
+A file per entry, JSON, its name begins with the recipe's; the entries of what belongs together (the runs of one
+executable) share a folder, which so is an index that cannot be out of date. An entry is written to a temporary name and
+renamed, so that any number of processes can share the folder. Whatever cannot be read, is cut off or was written by
+another version is a miss.
 """
 
 from __future__ import annotations
@@ -14,9 +16,10 @@ import os
 import stat
 import tempfile
 import threading
+import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import platformdirs
 
@@ -29,6 +32,15 @@ _HASHED_BYTES = 8 << 20
 """Larger files count by size and time."""
 _SYSTEM = ("/usr/", "/lib/", "/lib64/", "/opt/", "/etc/", "/bin/", "/sbin/")
 _SWEEP_EVERY = 32
+_ABANDONED = 3600.0
+"""Seconds after which a file that was being written belongs to a process that is gone."""
+
+
+class Place(NamedTuple):
+    """Where the entries of a recipe are: those files of `folder` whose names begin with `recipe`."""
+
+    folder: Path
+    recipe: str
 
 
 class Store:
@@ -45,13 +57,9 @@ class Store:
         self._stores = 0
         self._lock = threading.Lock()
 
-    def _entries(self, place: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
+    def _entries(self, place: Place) -> Iterator[tuple[Path, dict[str, Any]]]:
         """The readable entries of a recipe."""
-        try:
-            paths = sorted(place.glob("*.json"))
-        except OSError:
-            return
-        for path in paths:
+        for path in _files(place):
             entry = self._read(path)
             if entry is not None:
                 yield path, entry
@@ -61,7 +69,7 @@ class Store:
         with contextlib.suppress(OSError):
             os.utime(path)
 
-    def _keep(self, place: Path, conditions: Any, entry: Mapping[str, Any]) -> bool:
+    def _keep(self, place: Place, conditions: Any, entry: Mapping[str, Any]) -> bool:
         """Write an entry; one under the same conditions is replaced. False if it is too large or the disk refused."""
         try:
             data = json.dumps({"schema": self._schema, **entry}, sort_keys=True).encode()
@@ -72,19 +80,28 @@ class Store:
         if len(data) > self._entry_bytes:
             return False
         name = hashlib.sha256(json.dumps(conditions, sort_keys=True).encode()).hexdigest()
+        path = place.folder / f"{place.recipe}-{name[:32]}.json"
         try:
-            place.mkdir(parents=True, exist_ok=True, mode=0o700)
-            _write(place / f"{name[:32]}.json", data)
+            try:
+                _write(path, data)
+            except FileNotFoundError:  # another process swept the folder away as it was still empty
+                _write(path, data)
             self._trim(place)
             self._sweep()
         except OSError:
             return False
         return True
 
-    def _folder_of(self, recipe: Mapping[str, Any]) -> Path:
-        """Where the entries of a recipe are."""
-        named = {"agents": _agents_digest(), "schema": self._schema, **recipe}
-        digest = hashlib.sha256(json.dumps(named, sort_keys=True).encode(errors="surrogatepass")).hexdigest()
+    def _place_of(self, recipe: Mapping[str, Any], folder: Path | None = None) -> Place:
+        """Where the entries of a recipe are: in `folder`, which it shares with others, or in one of its own."""
+        digest = _digest_of({"agents": _agents_digest(), "schema": self._schema, **recipe})
+        return Place(folder or self._folder_of(digest), digest[:32])
+
+    def _shared_folder(self, what: Mapping[str, Any]) -> Path:
+        """The folder of all recipes for one thing, whatever version of this program they were made by."""
+        return self._folder_of(_digest_of(what))
+
+    def _folder_of(self, digest: str) -> Path:
         return self.folder / digest[:2] / digest
 
     def _read(self, path: Path) -> dict[str, Any] | None:
@@ -99,8 +116,8 @@ class Store:
             return None
         return entry if isinstance(entry, dict) and entry.get("schema") == self._schema else None
 
-    def _trim(self, place: Path) -> None:
-        entries = sorted(place.glob("*.json"), key=_last_used)
+    def _trim(self, place: Place) -> None:
+        entries = sorted(_files(place), key=_last_used)
         for path in entries[: max(0, len(entries) - VARIANTS)]:
             path.unlink(missing_ok=True)
 
@@ -112,12 +129,19 @@ class Store:
         self.sweep()
 
     def sweep(self) -> None:
-        """Remove the least recently used entries until the rest fits, and what interrupted writes left behind."""
+        """Remove the least recently used entries until the rest fits, and what interrupted writes left behind. Files
+        that are none of ours stay."""
         entries: list[tuple[float, int, Path]] = []
         for path in self.folder.glob("*/*/*"):
+            unfinished = path.name.startswith(".") and path.suffix == ".tmp"
+            if not unfinished and path.suffix != ".json":
+                continue
             with contextlib.suppress(OSError):
                 info = path.stat()
-                entries.append((info.st_mtime, info.st_size, path))
+                if unfinished and time.time() - info.st_mtime > _ABANDONED:
+                    path.unlink()
+                else:
+                    entries.append((info.st_mtime, info.st_size, path))
         total = sum(size for _, size, _ in entries)
         for _, size, path in sorted(entries):
             if total <= self.max_bytes:
@@ -126,6 +150,16 @@ class Store:
                 path.unlink()
                 total -= size
                 path.parent.rmdir()
+
+
+def _files(place: Place) -> list[Path]:
+    """The files of a recipe's entries; sorted, so that the order does not depend on the disk."""
+    try:
+        found = os.listdir(place.folder)
+    except OSError:
+        return []
+    start = f"{place.recipe}-"
+    return [place.folder / name for name in sorted(found) if name.startswith(start) and name.endswith(".json")]
 
 
 def fingerprint(path: str) -> str:
@@ -182,6 +216,10 @@ def _agents_digest() -> str:
     return digest.hexdigest()
 
 
+def _digest_of(named: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(named, sort_keys=True).encode(errors="surrogatepass")).hexdigest()
+
+
 def _last_used(path: Path) -> float:
     try:
         return path.stat().st_mtime
@@ -190,6 +228,7 @@ def _last_used(path: Path) -> float:
 
 
 def _write(path: Path, data: bytes) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=".tmp")
     try:
         with os.fdopen(descriptor, "wb") as file:

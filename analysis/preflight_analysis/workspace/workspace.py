@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shlex
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -27,7 +26,8 @@ from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import fill_in
 from preflight_analysis.tracing.interface import Interface
-from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.request import TraceRequest, split_args
+from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.project_settings import ProjectSettings, from_settings, read_project_settings
 from preflight_analysis.workspace.sources import Sources
@@ -74,11 +74,17 @@ class Workspace:
     """The engine behind server and command. Thread-safe.
 
     `cwd` is what relative paths in launch files are relative to, the folder where roslaunch would be called.
-    `commands` knows what commands of parameters gave; none was run where it is left out.
+    `commands` knows what commands of parameters gave; none was run where it is left out. `similar` knows what
+    executables did under other configurations.
     """
 
     def __init__(
-        self, environment: Environment, sources: Sources, cwd: str | None = None, commands: Commands | None = None
+        self,
+        environment: Environment,
+        sources: Sources,
+        cwd: str | None = None,
+        commands: Commands | None = None,
+        similar: SimilarTraces | None = None,
     ) -> None:
         self.environment = environment
         self.sources = sources
@@ -86,6 +92,7 @@ class Workspace:
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
         self._source_analysis = SourceAnalysis(environment, sources)
+        self._similar = similar
         self._project: tuple[str, ProjectSettings] | None = None
         self._lock = threading.Lock()
         self._memo = Memo()
@@ -169,7 +176,7 @@ class Workspace:
         """
         project = self._project_settings()
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
-        interfaces = fill_in(analysis.tree, interfaces, self._source_analysis, most_from_source)
+        interfaces = fill_in(analysis.tree, interfaces, self._source_analysis, self._similar, most_from_source)
         graph = build_graph(analysis.tree, interfaces, project.external_topics)
         context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
         return replace(analysis, context=context)
@@ -210,9 +217,7 @@ class Workspace:
 def _request(node: LaunchNode, params: Mapping[str, object]) -> TraceRequest | None:
     if node.unknowns or node.resolved.path is None:
         return None
-    try:
-        args = tuple(shlex.split(node.args))
-    except ValueError:
-        args = tuple(node.args.split())
+    args = split_args(node.args)
     remaps = tuple((remap.source, remap.target) for remap in node.remaps)
-    return TraceRequest(node.name, node.package, node.resolved.path, args, remaps, params, node.env, node.cwd)
+    file = node.location.file
+    return TraceRequest(node.name, node.package, node.resolved.path, args, remaps, params, node.env, node.cwd, file)

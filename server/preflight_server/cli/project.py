@@ -15,6 +15,7 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
 from preflight_analysis.workspace.not_run import not_run
@@ -49,7 +50,7 @@ def open_project(args: argparse.Namespace) -> Project:
     values = options.launch_args(args.launch_args)
     environment = detect(path, package_path=options.package_path(args))
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
-    workspace = Workspace(environment, Sources(), commands=results)
+    workspace = Workspace(environment, Sources(), commands=results, similar=SimilarTraces(TraceCache()))
     analysis = workspace.static(path, values)
     lines = command_lines(analysis.tree)
     if lines and not args.no_run:

@@ -22,6 +22,8 @@ from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.rules.registry import all_rules
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -275,7 +277,8 @@ class Session:
         finally:
             self._detecting = None
         if (folder, package_path) == (self.folder, self.settings.package_path):
-            self._workspace = Workspace(environment, self._sources, commands=self.runs.commands.results)
+            commands, similar = self.runs.commands.results, SimilarTraces(TraceCache())
+            self._workspace = Workspace(environment, self._sources, commands=commands, similar=similar)
             self.runs.set_workspace(self._workspace)
 
     # Which roots are analysed

@@ -1,0 +1,223 @@
+"""Similar traces: what an executable does where it runs tells of a node that cannot be run."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.graph.graph_json import graph_json
+from preflight_analysis.queries.hover import hover
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.similar import SimilarTraces
+from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.not_run import not_run
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+from tracing_desk import environment, write_node
+
+NODE = """
+import sys, rospy
+from std_msgs.msg import String
+rospy.init_node("n")
+rospy.Publisher("status", String, queue_size=1)
+rospy.Publisher("~debug", String, queue_size=1)
+rospy.Subscriber(sys.argv[1], String, print)
+rospy.Subscriber(rospy.get_param("~input", "nothing"), String, print)
+rospy.get_param("~model")
+rospy.spin()
+"""
+WORKS = """
+<launch>
+  <node pkg="pkg" type="node.py" name="works" args="scan">
+    <param name="model" value="m"/>
+    <param name="input" value="/odom/raw"/>
+  </node>
+</launch>
+"""
+CRASHES = """
+<launch>
+  <group ns="robot"><node pkg="pkg" type="node.py" name="crashes" args="scan"/></group>
+</launch>
+"""
+
+
+class Desk:
+    """A package with one executable and a few launch files, with a cache of traces."""
+
+    def __init__(self, folder: Path) -> None:
+        self.package = folder / "pkg"
+        (self.package / "launch").mkdir(parents=True)
+        (self.package / "package.xml").write_text("<package><name>pkg</name></package>")
+        self.script = write_node(self.package, NODE)
+        os.utime(self.script, (1, 1))
+        self.cache = TraceCache(folder / "cache")
+        found = {"pkg": Package("pkg", str(self.package), str(self.package / "package.xml"))}
+        base = environment(self.package)
+        self.environment = Environment(
+            1, "noetic", base.variables, base.package_path, found, {}, (), ("/usr",), base.python, str(folder)
+        )
+        self.tracer = Tracer(self.environment, self.cache)
+        self.runs = 0
+
+    def analyse(self, name: str, text: str, *, run: bool = True) -> Analysis:
+        path = self.package / "launch" / name
+        path.write_text(text.lstrip())
+        similar = SimilarTraces(self.cache)
+        workspace = Workspace(self.environment, Sources(), str(self.package), similar=similar)
+        static = workspace.static(str(path))
+        interfaces = [
+            self._trace(request) if run and request else not_run(node, "not trusted")
+            for node, request in zip(static.tree.nodes, workspace.requests(static), strict=True)
+        ]
+        return workspace.with_interfaces(static, interfaces, None if run else "not trusted")
+
+    def _trace(self, request: TraceRequest) -> Interface:
+        found = self.tracer.trace(request, threading.Event())
+        self.runs += not found.cached
+        return found
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    desk = Desk(tmp_path)
+    first = interface(desk.analyse("works.launch", WORKS))
+    assert (first.source, first.outcome.status) == ("trace", "spinning")
+    return desk
+
+
+def interface(analysis: Analysis) -> Interface:
+    assert analysis.graph is not None
+    return analysis.graph.interfaces[0]
+
+
+def told(found: Interface) -> set[tuple[str, str]]:
+    return {(e.role, e.name) for e in found.endpoints if not e.builtin}
+
+
+def test_a_node_that_cannot_be_run_has_what_its_executable_does_elsewhere(desk: Desk) -> None:
+    analysis = desk.analyse("crashes.launch", CRASHES, run=False)
+    found = interface(analysis)
+    assert found.source == "similar"
+    assert not found.complete
+    assert found.elsewhere is not None
+    assert (found.elsewhere.node, found.elsewhere.changed) == ("/works", False)
+    assert told(found) == {("publisher", "status"), ("publisher", "~debug"), ("subscriber", "scan")}
+    assert all(e.similar and e.uncertain for e in found.endpoints)
+    assert {p.name for p in found.params if not p.builtin} == {"~input", "~model"}
+    assert analysis.graph is not None
+    assert "/robot/status" in analysis.graph.topics
+    assert "/robot/crashes/debug" in analysis.graph.topics
+    (node,) = graph_json(analysis.graph)["nodes"]
+    assert node["interface_source"] == "similar"
+    assert next(p for p in node["publishers"] if p["name"] == "/robot/status")["similar"] is True
+
+
+def test_what_a_crashed_node_made_itself_comes_first(desk: Desk) -> None:
+    found = interface(desk.analyse("crashes.launch", CRASHES))
+    assert (found.source, found.outcome.status) == ("similar", "crashed")
+    assert ("subscriber", "nothing") in told(found), "made by itself, with the default"
+    assert not any(e.similar for e in found.endpoints if e.name in ("status", "~debug", "scan", "nothing"))
+
+
+def test_names_of_the_other_configuration_are_left_out(desk: Desk) -> None:
+    other = CRASHES.replace('args="scan"', 'args="points"')
+    assert told(interface(desk.analyse("a.launch", other, run=False))) == {
+        ("publisher", "status"),
+        ("publisher", "~debug"),
+    }
+    same = CRASHES.replace("<group", '<param name="topic" value="/odom/raw"/><group')
+    assert ("subscriber", "/odom/raw") in told(interface(desk.analyse("b.launch", same, run=False)))
+
+
+def test_the_finding_is_weaker_than_that_of_a_run(desk: Desk) -> None:
+    other = '<node pkg="pkg" type="node.py" name="unable" args="scann"/>'
+    analysis = desk.analyse("crashes.launch", f"<launch>{other}</launch>", run=False)
+    assert analysis.findings
+    for finding in analysis.findings:
+        assert finding.severity in ("info", "hint"), finding
+        assert finding.rule == "TRC004" or finding.confidence != "certain"
+
+
+def test_annotations_come_first_and_the_source_last(desk: Desk) -> None:
+    annotated = CRASHES.replace("/></group>", '><topics><topic name="a" class="pub"/></topics></node></group>')
+    assert interface(desk.analyse("a.launch", annotated, run=False)).source == "annotation"
+    empty = TraceCache(desk.package / "other_cache")
+    desk.cache = empty
+    assert interface(desk.analyse("b.launch", CRASHES, run=False)).source == "source"
+
+
+def test_an_older_build_is_similar_and_said_to_be_one(desk: Desk) -> None:
+    desk.script.write_text(NODE.replace("status", "state"))
+    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    assert ("publisher", "status") in told(found)
+    assert found.elsewhere is not None
+    assert found.elsewhere.changed
+
+
+def test_the_present_build_is_more_similar(desk: Desk) -> None:
+    desk.script.write_text("#!/usr/bin/env python3\n" + NODE.replace("status", "state"))
+    past = time.time() - 100
+    os.utime(desk.script, (past, past))
+    assert interface(desk.analyse("works.launch", WORKS)).source == "trace"
+    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    assert ("publisher", "state") in told(found)
+    assert ("publisher", "status") not in told(found)
+
+
+def test_an_executable_that_is_gone_has_what_it_did_when_it_was_there(desk: Desk) -> None:
+    desk.script.unlink()
+    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    assert found.source == "similar"
+    assert found.outcome.status == "not-run"
+
+
+def test_another_executable_of_the_same_name_is_none(desk: Desk) -> None:
+    other = desk.package / "scripts"
+    other.mkdir()
+    desk.script.rename(other / "node.py")
+    write_node(other, "import rospy\n")
+    assert interface(desk.analyse("crashes.launch", CRASHES, run=False)).source != "similar"
+
+
+def test_an_entry_of_the_wrong_shape_is_none(desk: Desk) -> None:
+    import hashlib
+
+    (path,) = desk.cache.folder.glob("*/*/*.json")
+    entry = json.loads(path.read_bytes().partition(b"\n")[2])
+    made = entry["made"]
+    for changed in (
+        {"made": None},
+        {"made": made | {"args": 1}},
+        {"made": made | {"executable": "/other"}},
+        {"interface": {}},
+        {"dependencies": {}},
+        {"schema": "ros-preflight/trace-cache/2"},
+    ):
+        data = json.dumps(entry | changed).encode()
+        path.write_bytes(hashlib.sha256(data).hexdigest().encode() + b"\n" + data)
+        assert interface(desk.analyse("crashes.launch", CRASHES, run=False)).source == "source", changed
+
+
+def test_hover_says_where_it_comes_from(desk: Desk) -> None:
+    analysis = desk.analyse("crashes.launch", CRASHES, run=False)
+    text = analysis.documents[analysis.root].text
+    found = hover([analysis], analysis.root, text.index("<node"))
+    assert found is not None
+    assert "from a run of the same executable elsewhere, that of `/works` in `pkg/launch/works.launch`" in (
+        found.markdown
+    )
+    assert "not trusted" in found.markdown
+
+
+def test_a_configuration_with_a_secret_leaves_no_more_than_names(desk: Desk) -> None:
+    secret = WORKS.replace('value="m"', 'value="hunter2"')
+    desk.analyse("works.launch", secret)
+    for path in desk.cache.folder.glob("*/*/*.json"):
+        assert b"hunter2" not in path.read_bytes()
