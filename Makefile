@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
 
-.PHONY: help setup apt demo test lint bench corpus fuzz vsix test-editors docs clean
+.PHONY: help setup apt demo test lint bench corpus fuzz wheel vsix test-editors docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -52,6 +52,9 @@ corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslau
 fuzz: CORPUS = $(realpath ../shared/corpus/ros1)
 fuzz: $(READY) ## 50,000 random edits of files of ../shared/corpus/ros1, each compared with a fresh analysis
 	$(BIN)/python tests/random_edits.py $(CORPUS)/src
+
+wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
+	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
 vsix: ## the VS Code extension, out/ros-preflight.vsix
 	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package

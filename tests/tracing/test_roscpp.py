@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import threading
 from pathlib import Path
 
 import pytest
 from launched_desk import launched, master_view
-from preflight_analysis.tracing import preload
+from preflight_analysis.tracing import preload, preload_compile
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.preload import Library
@@ -20,16 +21,6 @@ from tracing_desk import environment, own, request, trace
 ROSOUT = Path("/usr/lib/rosout/rosout")
 STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
 SET_BOOL_MD5 = "09fb03525b03e7ea1fd3992bafd87e16"
-LIBRARIES = (
-    "actionlib",
-    "roscpp",
-    "rostime",
-    "roscpp_serialization",
-    "rosconsole",
-    "boost_system",
-    "boost_thread",
-    "pthread",
-)
 MADE = {
     ("publisher", "chatter", "std_msgs/String"),
     ("publisher", "~state", "std_msgs/String"),
@@ -42,23 +33,6 @@ MADE = {
     ("client", "switch", "std_srvs/SetBool"),
 }
 LATE = ("publisher", "late", "std_msgs/String")
-
-
-@pytest.fixture(scope="session")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A package with the node, compiled."""
-    folder = tmp_path_factory.mktemp("packages") / "compiled"
-    folder.mkdir()
-    (folder / "package.xml").write_text('<package format="2"><name>compiled</name></package>')
-    source = Path(__file__).parent / "roscpp_node.cpp"
-    command = ["g++", "-w", str(source), "-o", str(folder / "node"), *(f"-l{name}" for name in LIBRARIES)]
-    subprocess.run(command, check=True)
-    return folder
-
-
-@pytest.fixture(scope="session")
-def node(package: Path) -> Path:
-    return package / "node"
 
 
 def endpoint(interface: Interface, role: str, name: str) -> Endpoint:
@@ -227,7 +201,7 @@ def test_the_library_is_compiled_once(tmp_path: Path, monkeypatch: pytest.Monkey
     assert not os.path.exists(planned)
     assert Library(tmp_path).build().path == planned
     assert os.listdir(tmp_path) == [os.path.basename(planned)]
-    monkeypatch.setattr(preload, "_compile", lambda *_: pytest.fail("compiled again"))
+    monkeypatch.setattr(preload, "compile_library", lambda *_: pytest.fail("compiled again"))
     assert Library(tmp_path).build().path == planned
 
 
@@ -250,9 +224,13 @@ def master_alone(library: Library) -> Interface:
     return found
 
 
+@pytest.fixture
+def no_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(preload_compile, "COMPILERS", ("no-such-compiler",))
+
+
 @pytest.mark.ros
-def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(preload, "COMPILERS", ("no-such-compiler",))
+def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, no_compiler: None) -> None:
     found = master_alone(Library(tmp_path))
     assert found.notes == (
         "only what a ROS master sees of it is known: there is no C++ compiler to watch roscpp nodes with: "
@@ -270,6 +248,71 @@ def test_what_does_not_compile_is_tried_once(tmp_path: Path, monkeypatch: pytest
     source.write_text("")
     assert library.build() == library.planned()
     assert library.planned().path is None
+
+
+@pytest.fixture(scope="session")
+def prebuilt(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The library as it is made for a wheel."""
+    made = tmp_path_factory.mktemp("wheel") / "prebuilt.so"
+    compiler = preload_compile.compiler()
+    assert compiler is not None
+    preload_compile.compile_library(compiler, preload_compile.SOURCE, made, portable=True)
+    return made
+
+
+def test_a_library_for_other_machines_needs_old_versions_only(prebuilt: Path) -> None:
+    shown = subprocess.run(["objdump", "-T", str(prebuilt)], capture_output=True, text=True, check=True).stdout
+    needed = {(name, tuple(map(int, version.split(".")))) for name, version in re.findall(r"\((\w+)_([\d.]+)\)", shown)}
+    # Those of Ubuntu 16.04, where ROS Kinetic is.
+    newest = {"GLIBC": (2, 23), "GLIBCXX": (3, 4, 21), "CXXABI": (1, 3, 9), "GCC": (4, 2, 0)}
+    assert {name for name, _ in needed} <= set(newest)
+    assert [(name, version) for name, version in needed if version > newest[name]] == []
+
+
+def test_a_prebuilt_library_is_taken_from_wherever_it_is(tmp_path: Path, prebuilt: Path, no_compiler: None) -> None:
+    shipped = tmp_path / "with blank" / "shipped.so"
+    shipped.parent.mkdir()
+    shipped.write_bytes(prebuilt.read_bytes())
+    library = Library(tmp_path / "cache", shipped)
+    planned = library.planned().path
+    assert planned is not None
+    assert not os.path.exists(planned)
+    assert library.build().path == planned
+    assert Path(planned).read_bytes() == prebuilt.read_bytes()
+    assert os.listdir(tmp_path / "cache") == [os.path.basename(planned)]
+
+
+def lacking(tmp_path: Path) -> Path:
+    """A library that needs a version which no C library has."""
+    source, versions, needed = tmp_path / "a.c", tmp_path / "versions", tmp_path / "libneeded.so"
+    source.write_text("int wanted(void) { return 0; }\n")
+    versions.write_text("LACKING_1 { global: wanted; };\n")
+    make = ["gcc", "-shared", "-fPIC", f"-Wl,--version-script={versions}", str(source), "-o", str(needed)]
+    subprocess.run(make, check=True)
+    user, library = tmp_path / "b.c", tmp_path / "lacking.so"
+    user.write_text("int wanted(void); int use(void) { return wanted(); }\n")
+    subprocess.run(["gcc", "-shared", "-fPIC", str(user), "-o", str(library), str(needed)], check=True)
+    versions.write_text("OTHER_1 { global: wanted; };\n")
+    subprocess.run(make, check=True)
+    return library
+
+
+def test_a_prebuilt_library_that_does_not_fit_is_left_for_a_compiled_one(tmp_path: Path) -> None:
+    garbage = tmp_path / "garbage.so"
+    garbage.write_bytes(b"no library")
+    for shipped in (garbage, lacking(tmp_path)):
+        library = Library(tmp_path / "cache", shipped)
+        assert library.build() == library.planned()
+        assert library.build().path == Library(tmp_path / "cache", tmp_path / "absent").planned().path
+    assert len(os.listdir(tmp_path / "cache")) == 1
+
+
+def test_without_compiler_and_fitting_library_the_reason_is_told(tmp_path: Path, no_compiler: None) -> None:
+    garbage = tmp_path / "garbage.so"
+    garbage.write_bytes(b"no library")
+    built = Library(tmp_path / "cache", garbage).build()
+    assert built.path is None
+    assert "there is no C++ compiler" in str(built.reason)
 
 
 def test_a_cache_folder_that_cannot_be_named_in_ld_preload_is_told(tmp_path: Path) -> None:

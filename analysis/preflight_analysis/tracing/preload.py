@@ -1,8 +1,8 @@
-"""The library that is preloaded into roscpp nodes: compiled with the user's compiler on first use, and kept.
+"""The library that is preloaded into roscpp nodes: the one that came with the wheel, else compiled with the user's
+compiler on first use, and kept.
 
-Our own code, so it is compiled outside the sandbox; the wheel holds no compiled one yet. `planned` says
-where it is or is going to be and costs nothing; `build` takes half a second the first time. Where it cannot be had,
-nodes are seen by the master alone.
+Our own code, so it is compiled outside the sandbox. `planned` says where it is or is going to be and costs nothing;
+`build` takes half a second the first time. Where it cannot be had, nodes are seen by the master alone.
 """
 
 from __future__ import annotations
@@ -23,19 +23,14 @@ from pathlib import Path
 
 import platformdirs
 
+from preflight_analysis.tracing import preload_compile
+from preflight_analysis.tracing.preload_compile import FLAGS, MACHINES, PREBUILT, SECONDS, SOURCE, compile_library
+
 _log = logging.getLogger(__name__)
 
-SOURCE = Path(__file__).parent / "agents" / "roscpp_preload.cpp"
-COMPILERS = ("g++", "clang++", "c++")
-MACHINES = ("x86_64",)
-"""Where the layout of arguments and results was tried."""
-
-_FLAGS = ("-shared", "-fPIC", "-O1", "-std=c++17", "-fvisibility=hidden", "-Wl,-z,nodelete")
-_EXPORTS = "{ global: _ZN3ros*; _ZNK3ros*; _ZN9actionlib*; local: *; };"
-"""Nothing of the C++ library that was compiled into it takes the place of the node's."""
-_SECONDS = 30
 _ELF = b"\x7fELF\x02"
 """Of 64 bits, as the library is."""
+_PROBE = "/bin/true"
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,29 +51,37 @@ def applies(executable: str) -> bool:
 
 
 class Library:
-    """The library in one cache folder. Usable from several threads at once."""
+    """The library in one cache folder. Usable from several threads at once. `prebuilt` is the one to take, where there
+    is such a file and it can be loaded."""
 
-    def __init__(self, folder: Path | None = None) -> None:
+    def __init__(self, folder: Path | None = None, prebuilt: Path = PREBUILT) -> None:
         self._folder = folder or Path(platformdirs.user_cache_dir("ros-preflight")) / "preload"
+        self._prebuilt = prebuilt
         self._lock = threading.Lock()
+        self._unfit = False
         self._failure: str | None = None
 
     def planned(self) -> Preload:
         """Where the library is or is going to be; nothing is compiled."""
+        if self._copied is not None and not self._unfit:
+            return self._copied
         if self._failure is not None:
             return Preload(None, self._failure)
-        return self._plan
+        return self._compiled
 
     def build(self) -> Preload:
-        """The library, compiled if it was not yet. What fails is not tried again by this process."""
+        """The library, made if it was not yet. What fails is not tried again by this process."""
         with self._lock:
             plan = self.planned()
+            if plan is self._copied and plan.path is not None and not os.path.isfile(plan.path):
+                self._unfit = not _copy(self._prebuilt, Path(plan.path))
+                plan = self.planned()
             if plan.path is None or os.path.isfile(plan.path):
                 return plan
             try:
-                _compile(self._compiler or "", Path(plan.path))
+                compile_library(self._compiler or "", SOURCE, Path(plan.path))
             except subprocess.TimeoutExpired:
-                self._failure = f"the C++ compiler did not end within {_SECONDS} s"
+                self._failure = f"the C++ compiler did not end within {SECONDS} s"
             except subprocess.CalledProcessError as error:
                 said = error.stderr.decode(errors="replace").strip().splitlines()
                 self._failure = "the library for roscpp nodes does not compile" + (f": {said[0][:300]}" if said else "")
@@ -90,25 +93,39 @@ class Library:
 
     @functools.cached_property
     def _compiler(self) -> str | None:
-        return next((found for found in map(shutil.which, COMPILERS) if found), None)
+        return preload_compile.compiler()
 
     @functools.cached_property
-    def _plan(self) -> Preload:
-        if sys.platform != "linux" or platform.machine() not in MACHINES:
+    def _copied(self) -> Preload | None:
+        """The prebuilt one is used from the cache folder: where it was installed may be no name for LD_PRELOAD."""
+        if not _supported():
+            return None
+        try:
+            return self._at(hashlib.sha256(self._prebuilt.read_bytes()).hexdigest())
+        except OSError:
+            return None
+
+    @functools.cached_property
+    def _compiled(self) -> Preload:
+        if not _supported():
             return Preload(None, f"roscpp nodes are watched on {MACHINES[0]} only")
         if self._compiler is None:
             return Preload(None, "there is no C++ compiler to watch roscpp nodes with: apt install g++")
         compiler = os.path.realpath(self._compiler)
         with contextlib.suppress(OSError):
             info = os.stat(compiler)
-            named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *_FLAGS)
-            digest = hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + SOURCE.read_bytes()).hexdigest()
-            path = str(self._folder.absolute() / f"roscpp-{digest[:32]}.so")
-            # ld.so cuts LD_PRELOAD at both, and knows no quotes.
-            if any(c.isspace() or c == ":" for c in path):
-                return Preload(None, f"{self._folder} cannot be preloaded from: its name has blanks or colons")
-            return Preload(path)
+            named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *FLAGS)
+            return self._at(
+                hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + SOURCE.read_bytes()).hexdigest()
+            )
         return Preload(None, "the C++ compiler or our own source cannot be read")
+
+    def _at(self, digest: str) -> Preload:
+        path = str(self._folder.absolute() / f"roscpp-{digest[:32]}.so")
+        # ld.so cuts LD_PRELOAD at both, and knows no quotes.
+        if any(c.isspace() or c == ":" for c in path):
+            return Preload(None, f"{self._folder} cannot be preloaded from: its name has blanks or colons")
+        return Preload(path)
 
 
 @functools.lru_cache(maxsize=1)
@@ -117,13 +134,30 @@ def library() -> Library:
     return Library()
 
 
-def _compile(compiler: str, path: Path) -> None:
-    """Compile to a temporary name and rename. Raises `OSError` and the exceptions of `subprocess.run`."""
-    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".") as folder:
-        made = os.path.join(folder, "made.so")
-        exports = Path(folder, "exports")
-        exports.write_text(_EXPORTS)
-        command = [compiler, *_FLAGS, f"-Wl,--version-script={exports}", str(SOURCE), "-o", made, "-ldl"]
-        subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_SECONDS, check=True, cwd=folder)
-        os.replace(made, path)
+def _supported() -> bool:
+    return sys.platform == "linux" and platform.machine() in MACHINES
+
+
+def _copy(prebuilt: Path, path: Path) -> bool:
+    """Whether the prebuilt library can be loaded here; then it stands at `path`."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".") as folder:
+            made = os.path.join(folder, "made.so")
+            shutil.copyfile(prebuilt, made)
+            # What it lacks (a version of a library), the loader says; of a file that is none it says so and goes on.
+            probe = subprocess.run(
+                [_PROBE],
+                env={"LD_PRELOAD": made, "LC_ALL": "C"},
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                timeout=SECONDS,
+                check=False,
+            )
+            if probe.returncode == 0 and not probe.stderr:
+                os.replace(made, path)
+                return True
+            _log.info("the library for roscpp nodes that was shipped does not fit: %r", probe.stderr[:300])
+    except (OSError, subprocess.TimeoutExpired) as error:
+        _log.info("the library for roscpp nodes that was shipped cannot be used: %s", error)
+    return False

@@ -23,6 +23,14 @@
 #include <mutex>
 #include <string>
 
+#ifdef PREFLIGHT_PORTABLE
+// Since 2.34 these are in glibc itself under a new version, which older ones lack; the old version is still there.
+__asm__(".symver dlsym,dlsym@GLIBC_2.2.5");
+__asm__(".symver dlopen,dlopen@GLIBC_2.2.5");
+__asm__(".symver dlclose,dlclose@GLIBC_2.2.5");
+__asm__(".symver dladdr,dladdr@GLIBC_2.2.5");
+#endif
+
 #define HOOK extern "C" __attribute__((visibility("default")))
 #define STRING "RKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
 

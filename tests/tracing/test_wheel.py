@@ -1,0 +1,73 @@
+"""The wheel on a machine without a compiler."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parent.parent.parent
+
+
+@pytest.mark.ros
+def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Path, tmp_path: Path) -> None:
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    subprocess.run(
+        [
+            *pip,
+            "wheel",
+            "--no-deps",
+            "--no-build-isolation",
+            "--no-index",
+            "--wheel-dir",
+            str(tmp_path),
+            str(REPOSITORY),
+        ],
+        env={**os.environ, "ROS_PREFLIGHT_PREBUILT": "1"},
+        check=True,
+    )
+    (wheel,) = tmp_path.glob("*.whl")
+    assert wheel.name.endswith("-py3-none-any.whl")
+    installed = tmp_path / "installed"
+    venv.create(installed, symlinks=True)
+    interpreter = installed / "bin" / "python"
+    subprocess.run([*pip, "--python", str(interpreter), "install", "--no-deps", "--no-index", str(wheel)], check=True)
+    # The dependencies are those of this environment; its own link to the sources is not followed from there.
+    (site,) = installed.glob("lib/python3*/site-packages")
+    (site / "dependencies.pth").write_text(sysconfig.get_path("purelib") + "\n")
+
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    for tool in ("bwrap", "sh", "env", "python3"):
+        found = shutil.which(tool, path="/usr/bin:/bin")
+        assert found is not None
+        (tools / tool).symlink_to(found)
+    launch_file = tmp_path / "compiled.launch"
+    launch_file.write_text('<launch><node name="n" pkg="compiled" type="node"/></launch>')
+    variables = {
+        "PATH": str(tools),
+        "HOME": str(tmp_path),
+        "XDG_CACHE_HOME": str(tmp_path / "cache"),
+        "ROS_DISTRO": "noetic",
+        "ROS_PACKAGE_PATH": str(package.parent),
+    }
+    told = subprocess.run(
+        [str(installed / "bin" / "ros-preflight"), "graph", str(launch_file), "--format", "json"],
+        env=variables,
+        capture_output=True,
+        text=True,
+    )
+    assert told.returncode == 0, told.stderr
+    (node,) = json.loads(told.stdout)["nodes"]
+    assert node["outcome"] == "spinning"
+    chatter = {"name": "/chatter", "type": "std_msgs/String", "qos": {"latch": True, "queue_size": 7}}
+    assert chatter in node["publishers"]
+    (copy,) = (tmp_path / "cache" / "ros-preflight" / "preload").iterdir()
+    assert copy.read_bytes() == (site / "preflight_analysis/tracing/agents/roscpp_preload.so").read_bytes()
