@@ -126,3 +126,18 @@ def test_a_file_that_is_included_twice_is_told_of_once(desk: Desk, preflight: Ru
     assert (finding["rule"], finding["file"], finding["roots"]) == ("LCH013", str(inner), [str(outer)])
     related = [(r["message"].split(":")[0], r["file"], r["range"]["start"]["line"]) for r in finding["related"]]
     assert related == [("included here", str(outer), 2), ("in another context", str(outer), 3)]
+
+
+def test_what_is_wrong_with_the_settings_is_a_finding(desk: Desk, preflight: Run) -> None:
+    settings = desk.workspace / ".ros-preflight.yaml"
+    settings.write_text("external:\n  topic: [/a]\n")
+    fixed = desk.launch_file.with_name("fixed.launch")
+    done = preflight("check", fixed, "--no-run", "--fail-on", "warning")
+    assert done.code == 1
+    assert ".ros-preflight.yaml:2:3: warning LCH031 settings-file: in the settings: 'topic' does not" in done.out
+    assert "  2 |   topic: [/a]\n    |   ^^^^^^^^^^^\n" in done.out
+    assert preflight("check", fixed, "--no-run").code == 0, "a warning is below the default --fail-on"
+    (finding,) = [
+        f for f in preflight("check", fixed, "--no-run", "--format", "json").json["findings"] if f["rule"] == "LCH031"
+    ]
+    assert (finding["file"], finding["range"]["start"]) == (str(settings), {"line": 2, "column": 3})

@@ -121,6 +121,19 @@ async def test_the_settings_are_told_what_is_wrong_with_them(desk: Desk) -> None
         assert any(".ros-preflight.yaml:2: 'fiel' does not belong" in message for message in found)
 
 
+async def test_the_place_in_the_settings_is_shown_until_it_is_mended(desk: Desk) -> None:
+    settings = desk.workspace / ".ros-preflight.yaml"
+    settings.write_text("external:\n  topic: [/a]\n")
+    async with editing(desk) as editor:
+        editor.open(desk.launch_file, desk.launch_file.read_text() + "<")
+        found = await editor.having(settings, "LCH031")
+        assert "'topic' does not belong into external" in found.message
+        assert (found.range.start.line, found.range.start.character, found.range.end.character) == (1, 2, 13)
+        settings.write_text("external:\n  topics: [/a]\n")
+        editor.watched(settings)
+        await editor.without(settings, "LCH031")
+
+
 async def test_indexing_shows_its_progress(desk: Desk) -> None:
     for number in range(300):
         (desk.workspace / f"f{number}.launch").write_text(FRAGMENT)

@@ -36,6 +36,7 @@ class Context:
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
     None when they were. `executables` lists those of a package; without it the disk is walked where one is missing.
     `sources` reads files that the tree does not know, a package.xml that a fix changes for instance.
+    `settings_problems` is what is wrong with the workspace's settings file, and where.
     """
 
     root: str
@@ -47,6 +48,7 @@ class Context:
     why_not_run: str | None = None
     executables: ExecutableNames | None = None
     sources: Files | None = None
+    settings_problems: tuple[tuple[str, Location], ...] = ()
     _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def once(self, make: Callable[[Context], T]) -> T:

@@ -27,9 +27,10 @@ RULE = Rule(
     name="node-timed-out",
     severity="info",
     what="Says that a node was still starting when its time was up.",
-    why="Only what it did until then is known of it: it may have more topics, services and parameters. A rospy node "
-    "that waits for another node gets a made-up answer; this one waits for something else that nobody in the "
-    "sandbox gives it.",
+    why="Only what it did until then is known of it: it may have more topics, services and parameters. A node that is "
+    "seen to wait for another one (for a service, a message, an action server, a transform, a parameter, simulated "
+    "time) gets a made-up answer. This one waits for something that nobody in the sandbox gives it: the finding says "
+    "for what, if the node was seen to ask for it, and which answers did not help.",
     example="while not ready():  # for hardware, say\n    time.sleep(1)\npub = rospy.Publisher('state', String)",
     instead="pub = rospy.Publisher('state', String)\nwhile not ready():\n    time.sleep(1)",
     check=_check,

@@ -52,6 +52,19 @@ _ANSWERS = {
     "transforms": "it asks for the transform {} again and again, and was given the identity",
     "clock": "it waits for simulated time on {}, and was given the time of day",
 }
+_WAITS = {
+    "service": "the service {}",
+    "message": "a message on {}",
+    "call": "the answer of the service {}",
+    "action": "the action server {}",
+    "result": "the result of the action {}",
+    "transform": "the transform {}",
+    "transforms": "the transform {}",
+    "parameter": "the parameter {}",
+    "poll": "messages on {}",
+    "clock": "simulated time on {}",
+}
+"""What a node waits for at its end, by the kind that the library told."""
 _MAYBE = ("poll", "transforms", "parameter", "clock")
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
@@ -120,7 +133,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
             taken = False
         found.dropped += not taken
     tail = stderr_tail(raw.stderr)
-    outcome = _outcome(raw, found, tail)
+    outcome = _outcome(raw, found, tail, request)
     if found.waited:
         found.answers |= found.fed
     elif found.fed and not found.answers and outcome.status in ("exited", "crashed"):
@@ -371,7 +384,7 @@ def _params(found: _Gathered) -> tuple[tuple[ParamUse, ...], list[ParamDependenc
     return tuple(uses), [d for d in dependencies if d.access in ("get", "has", "search", "list")]
 
 
-def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...]) -> Outcome:
+def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...], request: TraceRequest) -> Outcome:
     if raw.cancelled:
         return Outcome("not-run", reason="the run was cancelled")
     end = found.end
@@ -389,7 +402,7 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...]) -> Outcome:
         case "spinning":
             return Outcome("spinning", seconds=spent)
         case "timed-out":
-            return Outcome("timed-out", None, None, tail, _waiting(end), spent)
+            return Outcome("timed-out", None, None, tail, _waiting(end, found, request), spent)
         case "crowded":
             reason = f"it started more than {sandbox.PROCESSES} processes and was stopped"
             return Outcome("crashed", None, None, tail, reason, spent)
@@ -408,15 +421,19 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...]) -> Outcome:
     return Outcome("crashed", None, None, tail, "the node garbled the report of its run", spent)
 
 
-def _waiting(end: Mapping[str, Any]) -> str:
+def _waiting(end: Mapping[str, Any], found: _Gathered, request: TraceRequest) -> str:
+    """Why its time was up: what it waits for, and what made-up answers did not help, as far as it is known."""
     waits = end.get("waits")
     limit = f"within {WALL_SECONDS:g} s"
+    text = f"it did not reach its event loop {limit}" + ("" if end.get("initialised") else ", nor register as a node")
+    given = [*found.answers, *found.fed]
     if isinstance(waits, list) and waits and isinstance(waits[0], list) and len(waits[0]) == 2:
         kind, name = waits[0]
-        if kind in ("service", "message") and _text(name, _NAME):
-            subject = f"the service {name}" if kind == "service" else f"a message on {name}"
-            return f"it waits for {subject}, and did not reach its event loop {limit}"
-    return f"it did not reach its event loop {limit}" + ("" if end.get("initialised") else ", nor register as a node")
+        if isinstance(kind, str) and kind in _WAITS and _text(name, _NAME):
+            text = f"it waits for {_WAITS[kind].format(name)}, and did not reach its event loop {limit}"
+    elif request.params.get("/use_sim_time") is True and not any("simulated time" in answer for answer in given):
+        text += "; it may wait for simulated time: /use_sim_time is set, and nobody tells the time here"
+    return text + (f"; before that {'; '.join(given)}" if given else "")
 
 
 def _signal(number: int) -> str:

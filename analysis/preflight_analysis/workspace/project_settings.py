@@ -21,8 +21,9 @@ from dataclasses import dataclass
 
 import yaml
 
-from preflight_analysis.documents.reading import Text, read_text
-from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Text, digest, read_text
+from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
@@ -64,6 +65,8 @@ class ProjectSettings:
     external_topics: tuple[str, ...] = ()
     """Patterns of full names."""
     nodes: tuple[NodeSettings, ...] = ()
+    text: str = ""
+    """What the file held."""
 
 
 def read_project_settings(folder: str) -> ProjectSettings:
@@ -78,7 +81,8 @@ def read_project_settings(folder: str) -> ProjectSettings:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         reason = getattr(error, "problem", None) or "it is no YAML"
-        return ProjectSettings(path, (), (SettingsProblem(str(reason), mark.line + 1 if mark else 1),))
+        problem = SettingsProblem(str(reason), mark.line + 1 if mark else 1)
+        return ProjectSettings(path, (), (problem,), text=found.text)
     problems: list[SettingsProblem] = []
     roots: list[Root] = []
     external: list[str] = []
@@ -96,7 +100,25 @@ def read_project_settings(folder: str) -> ProjectSettings:
             problems.append(_problem(value, "roots is a list of launch files"))
         else:
             roots += (root for entry in value.value if (root := _root(entry, folder, problems)) is not None)
-    return ProjectSettings(path, tuple(dict.fromkeys(roots)), tuple(problems), tuple(external), tuple(nodes))
+    return ProjectSettings(
+        path, tuple(dict.fromkeys(roots)), tuple(problems), tuple(external), tuple(nodes), found.text
+    )
+
+
+def located_problems(settings: ProjectSettings) -> tuple[Document | None, tuple[tuple[str, Location], ...]]:
+    """What is wrong with the settings file and where, with the text that the places are in; without the blanks around
+    what stands on the line. No text where nothing is wrong."""
+    if settings.path is None or not settings.problems:
+        return None, ()
+    text = settings.text
+    document = Document(settings.path, text, digest(text), (), (), LineIndex(text))
+    found = []
+    for problem in settings.problems:
+        start, end = document.lines.line_span(problem.line - 1)
+        line = text[start:end]
+        start += len(line) - len(line.lstrip())
+        found.append((problem.message, Location(settings.path, Span(start, max(start, start + len(line.strip()))))))
+    return document, tuple(found)
 
 
 def from_settings(

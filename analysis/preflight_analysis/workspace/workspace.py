@@ -29,7 +29,12 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.project_settings import ProjectSettings, from_settings, read_project_settings
+from preflight_analysis.workspace.project_settings import (
+    ProjectSettings,
+    from_settings,
+    located_problems,
+    read_project_settings,
+)
 from preflight_analysis.workspace.sources import Sources
 
 MAX_ANALYSES = 64
@@ -178,8 +183,16 @@ class Workspace:
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
         interfaces = fill_in(analysis.tree, interfaces, self._source_analysis, self._similar, most_from_source)
         graph = build_graph(analysis.tree, interfaces, project.external_topics)
-        context = replace(analysis.context, graph=graph, why_not_run=why_not_run, executables=self._executables)
-        return replace(analysis, context=context)
+        document, problems = located_problems(project)
+        context = replace(
+            analysis.context,
+            graph=graph,
+            why_not_run=why_not_run,
+            executables=self._executables,
+            settings_problems=problems,
+        )
+        documents = analysis.documents if document is None else {**analysis.documents, document.path: document}
+        return replace(analysis, context=context, documents=documents)
 
     def _project_settings(self) -> ProjectSettings:
         """The settings file of the workspace as it is now."""

@@ -1,0 +1,67 @@
+"""A node whose time was up: the reason says what it waits for, as far as anything told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.tracing.observation import observe
+from preflight_analysis.tracing.recipe import make
+from preflight_analysis.tracing.run import RawRun
+from tracing_desk import environment, request, trace, write_node
+
+
+def reason(tmp_path: Path, waits: Any, told: tuple[dict[str, Any], ...] = (), **more: Any) -> str:
+    """The reason of a run that ended while the node was in `waits`."""
+    asked = request(write_node(tmp_path, ""), **more)
+    end = {"ev": "end", "status": "timed-out", "waits": waits, "initialised": True, "seconds": 5.0}
+    raw = RawRun([*({"node": each} for each in told), {"own": end}], b"", started=0.0)
+    found = observe(raw, make(environment(tmp_path), asked), asked).interface.outcome
+    assert found.status == "timed-out"
+    return found.reason or ""
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("service", "it waits for the service there,"),
+        ("message", "it waits for a message on there,"),
+        ("call", "it waits for the answer of the service there,"),
+        ("action", "it waits for the action server there,"),
+        ("result", "it waits for the result of the action there,"),
+        ("transform", "it waits for the transform there,"),
+        ("parameter", "it waits for the parameter there,"),
+        ("clock", "it waits for simulated time on there,"),
+    ],
+)
+def test_each_kind_of_wait_is_named(tmp_path: Path, kind: str, said: str) -> None:
+    assert reason(tmp_path, [[kind, "there"]]).startswith(said)
+
+
+@pytest.mark.parametrize("waits", [[], None, [["service"]], [[["service"], "x"]], [["spell", "x"]], [["service", 1]]])
+def test_what_cannot_be_understood_is_left_out(tmp_path: Path, waits: Any) -> None:
+    assert reason(tmp_path, waits) == "it did not reach its event loop within 5 s"
+
+
+def test_answers_that_did_not_help_are_told(tmp_path: Path) -> None:
+    told = ({"ev": "answered", "kind": "action", "name": "/move"}, {"ev": "answered", "kind": "poll", "name": "/scan"})
+    assert reason(tmp_path, [["service", "start"]], told) == (
+        "it waits for the service start, and did not reach its event loop within 5 s; before that it waits for the "
+        "action server /move, and was told that it is there; it waits for messages on /scan, and was given empty ones"
+    )
+
+
+def test_simulated_time_may_be_what_is_missing(tmp_path: Path) -> None:
+    assert "it may wait for simulated time" in reason(tmp_path, [], params={"/use_sim_time": True})
+    assert "simulated" not in reason(tmp_path, [], params={"/use_sim_time": False})
+    told = ({"ev": "answered", "kind": "clock", "name": "/clock"},)
+    assert "it may wait" not in reason(tmp_path, [], told, params={"/use_sim_time": True})
+
+
+@pytest.mark.ros
+def test_a_node_that_goes_on_computing_after_an_answer(tmp_path: Path) -> None:
+    body = "import rospy\nrospy.init_node('n')\nrospy.wait_for_service('start')\nwhile True: pass\n"
+    found = trace(write_node(tmp_path, body)).outcome
+    assert found.status == "timed-out"
+    assert (found.reason or "").endswith("; before that it waits for the service start, and was told that it is there")
