@@ -25,8 +25,8 @@ from typing import Any
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.tracing import compiled, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.observation import paths, stderr_tail
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
 from preflight_analysis.tracing.trace import on_host
@@ -175,7 +175,8 @@ class CommandRunner:
             return job
         if cancel.is_set():
             return CommandResult("not-run", reason="the run was cancelled")
-        raw = run.execute_command(job.recipe, job.visible, self._interpreter, cancel)
+        agents = compiled.copies().of(self._interpreter, job.visible)
+        raw = run.execute_command(job.recipe, job.visible, self._interpreter, cancel, agents)
         ended = _read(raw)
         result = _result(raw, ended)
         if result.status == "failed":

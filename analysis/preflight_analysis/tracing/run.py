@@ -19,6 +19,7 @@ from typing import Any
 
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.sandbox import AGENTS, Agents
 
 WALL_SECONDS = 5.0
 """From exec to the end, at most."""
@@ -75,10 +76,15 @@ class RawRun:
 
 
 def execute(
-    recipe: recipes.Recipe, params: Mapping[str, Any], visible: list[str], interpreter: str, cancel: threading.Event
+    recipe: recipes.Recipe,
+    params: Mapping[str, Any],
+    visible: list[str],
+    interpreter: str,
+    cancel: threading.Event,
+    agents: Agents = AGENTS,
 ) -> RawRun:
-    """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in. Raises `OSError` if bubblewrap
-    cannot be started."""
+    """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in, `agents` our code for it.
+    Raises `OSError` if bubblewrap cannot be started."""
     job = {
         "params": encode_params(params),
         "limits": {
@@ -89,34 +95,45 @@ def execute(
             "starving": STARVING_SECONDS,
         },
     }
-    return _execute(recipe, job, WALL_SECONDS, visible, interpreter, cancel)
+    return _execute(_process(recipe) | job, WALL_SECONDS, visible, interpreter, cancel, agents)
 
 
-def execute_command(recipe: recipes.Recipe, visible: list[str], interpreter: str, cancel: threading.Event) -> RawRun:
+def execute_command(
+    recipe: recipes.Recipe, visible: list[str], interpreter: str, cancel: threading.Event, agents: Agents = AGENTS
+) -> RawRun:
     """Run a command to its end; what it prints is among the records. Otherwise as `execute`."""
     job = {"output": {"wall": COMMAND_SECONDS, "bytes": COMMAND_BYTES}}
-    return _execute(recipe, job, COMMAND_SECONDS, visible, interpreter, cancel)
+    return _execute(_process(recipe) | job, COMMAND_SECONDS, visible, interpreter, cancel, agents)
 
 
-def _execute(
-    recipe: recipes.Recipe,
-    job: Mapping[str, Any],
-    seconds: float,
-    visible: list[str],
-    interpreter: str,
-    cancel: threading.Event,
-) -> RawRun:
-    whole = {
+def compile_agents(interpreter: str, visible: list[str], agents: Agents) -> RawRun:
+    """Have our own code compiled: one record a module. Raises `OSError` as `execute`."""
+    return _execute({"compile": sandbox.ROOT}, COMMAND_SECONDS, visible, interpreter, threading.Event(), agents)
+
+
+def _process(recipe: recipes.Recipe) -> dict[str, Any]:
+    """How the supervisor starts it."""
+    return {
         "argv": list(recipe.argv),
         "env": dict(recipe.env),
         "cwd": recipe.cwd,
         "folders": [recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home()],
         "rlimits": RLIMITS | {"NPROC": sandbox.PROCESSES if _own_process_count() else _PROCESSES_SHARED},
-        **job,
     }
+
+
+def _execute(
+    job: Mapping[str, Any],
+    seconds: float,
+    visible: list[str],
+    interpreter: str,
+    cancel: threading.Event,
+    agents: Agents,
+) -> RawRun:
+    whole = dict(job)
     start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
     argv = [interpreter, "-I", "-S", "-c", start]
-    with sandbox.prepared(argv, visible) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
+    with sandbox.prepared(argv, visible, agents) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
         whole["most_processes"] = sandbox.PROCESSES if prepared.counting else None
         whole["most_memory"] = sandbox.most_memory()
         handed.write(json.dumps(whole).encode())

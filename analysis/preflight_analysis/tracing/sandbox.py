@@ -23,9 +23,11 @@ import aspectlib  # type: ignore[import-untyped]
 
 from preflight_analysis.tracing import cgroup, seccomp, sockets
 
-LIBRARY = "/run/preflight/lib"
+ROOT = "/run/preflight"
+"""All that is ours, inside."""
+LIBRARY = f"{ROOT}/lib"
 """Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
-SITE = "/run/preflight/site"
+SITE = f"{ROOT}/site"
 """The folder with `sitecustomize.py`, inside."""
 TEMPORARY_BYTES = 64 << 20
 """Size of each writable file system inside: /tmp, /dev/shm, the home folder."""
@@ -35,7 +37,6 @@ PROCESSES = 512
 MEMORY_BYTES = 4 << 30
 """How much memory all processes of a run may have together; half of the machine's, if that is less."""
 
-_AGENTS = Path(__file__).parent / "agents"
 _SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-", "/etc/sudoers")
 _USERNS_SWITCHES = (
     ("/proc/sys/kernel/unprivileged_userns_clone", "0", "sysctl kernel.unprivileged_userns_clone=1"),
@@ -47,6 +48,23 @@ _USERNS_SWITCHES = (
         "or sysctl kernel.apparmor_restrict_unprivileged_userns=0",
     ),
 )
+
+
+@dataclass(frozen=True, slots=True)
+class Agents:
+    """Where our own code for the inside is: the package of agents, aspectlib, and the folder with `sitecustomize.py`.
+
+    They are bound to `LIBRARY` and `SITE`.
+    """
+
+    library: Path
+    aspectlib: Path
+    site: Path
+
+
+_AGENTS = Path(__file__).parent / "agents"
+AGENTS = Agents(_AGENTS, Path(aspectlib.__file__).parent, _AGENTS)
+"""The sources, as installed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,14 +125,14 @@ class Start:
 
 
 @contextlib.contextmanager
-def prepared(argv: Sequence[str], visible: Iterable[str]) -> Iterator[Start]:
+def prepared(argv: Sequence[str], visible: Iterable[str], agents: Agents = AGENTS) -> Iterator[Start]:
     """The way to run `argv` isolated, once, until the end of the block. `visible` are paths below the masked folders to
     show, read-only. Raises `OSError` if there is none."""
     program = shutil.which("bwrap")
     if program is None:
         raise FileNotFoundError("bwrap")
     with contextlib.ExitStack() as at_end:
-        options = _isolation(visible)
+        options = _isolation(visible, agents)
         descriptors: tuple[int, ...] = ()
         calls = seccomp.open_program()
         if calls is not None:
@@ -201,7 +219,7 @@ def _within(path: str, folder: str) -> bool:
     return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
-def _isolation(visible: Iterable[str]) -> list[str]:
+def _isolation(visible: Iterable[str], agents: Agents) -> list[str]:
     size = str(TEMPORARY_BYTES)
     options = ["--unshare-user", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts"]
     options += ["--unshare-cgroup-try", "--hostname", "localhost", "--clearenv", "--die-with-parent", "--new-session"]
@@ -222,7 +240,9 @@ def _isolation(visible: Iterable[str]) -> list[str]:
         options += ["--ro-bind", path, path]
     for path in sockets.reachable(bound, _masks()):
         options += ["--ro-bind", "/dev/null", path]
-    options += ["--ro-bind", str(_AGENTS), LIBRARY + "/preflight_agents"]
-    options += ["--ro-bind", str(Path(aspectlib.__file__).parent), LIBRARY + "/aspectlib"]
-    options += ["--ro-bind", str(_AGENTS / "sitecustomize.py"), SITE + "/sitecustomize.py"]
+    options += ["--ro-bind", str(agents.library), LIBRARY + "/preflight_agents"]
+    options += ["--ro-bind", str(agents.aspectlib), LIBRARY + "/aspectlib"]
+    # Not the folder: as a source it has other modules, which would hide those of the same name.
+    for name in ("sitecustomize.py", "__pycache__") if agents is not AGENTS else ("sitecustomize.py",):
+        options += ["--ro-bind", str(agents.site / name), f"{SITE}/{name}"]
     return options

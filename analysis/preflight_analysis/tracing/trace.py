@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing import nodelets, preload, run, sandbox
+from preflight_analysis.tracing import compiled, nodelets, preload, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
@@ -78,7 +78,9 @@ class Tracer:
         built = self._library.build() if preload.applies(request.executable) else _NO_PRELOAD
         recipe = recipes.make(self.environment, request, built.path)
         visible = sorted({*self._visible, *recipes.request_paths(request, recipe)})
-        raw = run.execute(recipe, request.params, visible, self.environment.python or sys.executable, cancel)
+        interpreter = self.environment.python or sys.executable
+        agents = compiled.copies().of(interpreter, visible)
+        raw = run.execute(recipe, request.params, visible, interpreter, cancel, agents)
         observed = observe(raw, recipe, request)
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))

@@ -11,9 +11,9 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any, Optional, Sequence
 
-from . import channel
+from . import channel, genpy_weave
 
-WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer")
+WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer", genpy_weave.NAME)
 _BATCH = 200
 _MAX_FILES = 5_000
 _MAX_WRITES = 20
@@ -99,6 +99,8 @@ class _WeavingLoader(Loader):
                 from . import rospy_weave  # noqa: PLC0415
 
                 rospy_weave.weave(module, self._files.flush)
+            elif module.__name__ == genpy_weave.NAME:
+                genpy_weave.weave(module)
             else:
                 from . import peers  # noqa: PLC0415
 
@@ -140,6 +142,7 @@ def install(library: str) -> None:
     """Watch this process. `library` is the folder that holds aspectlib."""
     files = Files()
     sys.addaudithook(files.hook)
+    sys.meta_path.insert(0, genpy_weave.WithoutNumpy())
     for name in WOVEN:
         sys.meta_path.insert(0, _Finder(name, library, files))
     atexit.register(files.flush)

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import os
 import socket
-import socketserver
 import threading
-from http.server import BaseHTTPRequestHandler
-from typing import Any, Callable
-from xmlrpc.client import Fault, ServerProxy, dumps, loads
+import time
+from typing import Any, BinaryIO, Callable, Optional
 
+from . import xml_rpc
 from .params import ParamTree
 
 MAX_REQUEST = 16 << 20
 """Bytes of one call; nodes do upload robot descriptions and calibration tables."""
+_MAX_HEADER = 65_536
 
 Report = Callable[..., None]
 
@@ -187,6 +187,8 @@ def _in_background(api: str, method: str, *arguments: Any) -> None:
 
     def run() -> None:
         try:
+            from xmlrpc.client import ServerProxy  # noqa: PLC0415
+
             getattr(ServerProxy(api, allow_none=True), method)(*arguments)
         except Exception:
             pass
@@ -194,54 +196,73 @@ def _in_background(api: str, method: str, *arguments: Any) -> None:
     threading.Thread(target=run, daemon=True).start()
 
 
-class _Handler(BaseHTTPRequestHandler):
-    """XML-RPC over HTTP/1.1, with connections kept open as roscpp and rospy expect."""
-
-    protocol_version = "HTTP/1.1"
-    wbufsize = -1
-    disable_nagle_algorithm = True
-    server: Server
-
-    def do_POST(self) -> None:
-        length = int(self.headers.get("Content-Length", "-1"))
-        if not 0 <= length <= MAX_REQUEST:
-            self.send_error(413)
-            self.close_connection = True
-            return
-        try:
-            arguments, method = loads(self.rfile.read(length), use_builtin_types=False)
-            body = dumps((self.server.master.call(str(method), arguments),), methodresponse=True, allow_none=True)
-        except Exception as error:
-            body = dumps(Fault(1, str(error)), methodresponse=True)
-        answer = body.encode("utf-8", "xmlcharrefreplace")
-        self.send_response(200)
-        self.send_header("Content-Type", "text/xml")
-        self.send_header("Content-Length", str(len(answer)))
-        self.end_headers()
-        self.wfile.write(answer)
-        self.wfile.flush()
-
-    def log_message(self, format: str, *args: Any) -> None:
-        """Not on the node's standard error."""
+def _answer(master: Master, body: bytes) -> bytes:
+    try:
+        method, arguments = xml_rpc.read_call(body)
+        answer = xml_rpc.answer(master.call(method, arguments))
+    except Exception as error:
+        answer = xml_rpc.fault(1, str(error))
+    return answer.encode("utf-8", "xmlcharrefreplace")
 
 
-class Server(socketserver.ThreadingMixIn, socketserver.TCPServer):
-    """Serves a `Master` on a socket that listens already."""
+def _headers(stream: BinaryIO) -> Optional[tuple[int, bool]]:
+    """The length of the request's body and whether the connection stays open after it; None at the end of the stream.
 
-    daemon_threads = True
+    Raises `ValueError` for what is no request to be answered.
+    """
+    line = stream.readline(_MAX_HEADER)
+    if not line:
+        return None
+    method, _, version = line.decode("latin-1").strip().partition(" ")
+    if method != "POST":
+        raise ValueError("not a call")
+    length, lasting, total = -1, not version.endswith("HTTP/1.0"), 0
+    while line not in (b"\r\n", b"\n", b""):
+        line = stream.readline(_MAX_HEADER)
+        total += len(line)
+        if total > _MAX_HEADER:
+            raise ValueError("too long a header")
+        name, _, value = line.decode("latin-1").partition(":")
+        if name.lower() == "content-length":
+            length = int(value)
+        elif name.lower() == "connection":
+            lasting = value.strip().lower() != "close" and (lasting or value.strip().lower() == "keep-alive")
+    if not 0 <= length <= MAX_REQUEST:
+        raise ValueError("too long a call")
+    return length, lasting
 
-    def __init__(self, listening: socket.socket, master: Master) -> None:
-        super().__init__(listening.getsockname(), _Handler, bind_and_activate=False)
-        self.socket.close()
-        self.socket = listening
-        self.master = master
 
-    def handle_error(self, request: Any, client_address: Any) -> None:
-        """A connection that a node broke off is of no interest."""
+def _converse(connection: socket.socket, master: Master) -> None:
+    """Answer the calls of one connection, which is kept open as roscpp and rospy expect."""
+    try:
+        with connection, connection.makefile("rb") as stream:
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            lasting = True
+            while lasting:
+                headers = _headers(stream)
+                if headers is None:
+                    return
+                length, lasting = headers
+                body = _answer(master, stream.read(length))
+                head = f"HTTP/1.1 200 OK\r\nContent-Type: text/xml\r\nContent-Length: {len(body)}\r\n"
+                head += "\r\n" if lasting else "Connection: close\r\n\r\n"
+                connection.sendall(head.encode() + body)
+    except (OSError, ValueError):
+        pass  # a connection that a node broke off, or on which it says something else, is of no interest
 
 
 def serve(listening: socket.socket, params: ParamTree, report: Report) -> None:
     """Answer calls in the background for as long as this process lives."""
     host, port = listening.getsockname()[:2]
-    server = Server(listening, Master(f"http://{host}:{port}/", params, report))
-    threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 60}, daemon=True).start()
+    master = Master(f"http://{host}:{port}/", params, report)
+
+    def accept() -> None:
+        while True:
+            try:
+                connection = listening.accept()[0]
+            except OSError:
+                time.sleep(0.01)  # too many are open, or it was broken off already
+                continue
+            threading.Thread(target=_converse, args=(connection, master), daemon=True).start()
+
+    threading.Thread(target=accept, daemon=True).start()

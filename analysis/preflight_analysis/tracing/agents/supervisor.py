@@ -7,7 +7,7 @@ process of the sandbox's pid namespace with it.
 
 from __future__ import annotations
 
-import base64
+import binascii
 import json
 import os
 import resource
@@ -188,9 +188,9 @@ def _load(params: ParamTree, pairs: list[list[Any]]) -> None:
     def decode(value: Any) -> Any:
         if isinstance(value, dict):
             if list(value) == ["$binary"]:
-                from xmlrpc.client import Binary  # noqa: PLC0415
+                from .xml_rpc import Binary  # noqa: PLC0415
 
-                return Binary(base64.b64decode(value["$binary"]))
+                return Binary(binascii.a2b_base64(value["$binary"]))
             return {key: decode(below) for key, below in value.items()}
         return [decode(item) for item in value] if isinstance(value, list) else value
 
@@ -252,6 +252,11 @@ def main() -> None:
 def _main() -> None:
     job = json.load(sys.stdin)
     if host_is_gone():
+        return
+    if "compile" in job:
+        from . import compiling  # noqa: PLC0415
+
+        compiling.tell(job["compile"], Run(job).emit)
         return
     for folder in job["folders"]:
         os.makedirs(folder, exist_ok=True)

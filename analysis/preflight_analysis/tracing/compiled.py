@@ -1,0 +1,120 @@
+"""Our own code as the sandbox gets to see it: a copy in the user's cache folder, with compiled modules beside it.
+
+Inside nothing can be written beside the sources, so each run would compile them anew. They are compiled in the sandbox
+by the interpreter that is going to read them, which may be a workspace's own; so each has a copy for itself. Where none
+can be made the sources are used as they are.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import functools
+import hashlib
+import logging
+import os
+import shutil
+import tempfile
+import threading
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from preflight_analysis.tracing import run, sandbox
+from preflight_analysis.tracing.agents.compiling import FOLDERS
+from preflight_analysis.tracing.sandbox import Agents
+
+_log = logging.getLogger(__name__)
+
+KEPT_SECONDS = 7 * 86_400
+"""How long a copy that nobody uses any more stays."""
+
+
+class Copies:
+    """The copies in one cache folder, one an interpreter. Usable from several threads at once."""
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self._folder = folder or Path(platformdirs.user_cache_dir("ros-preflight")) / "agents"
+        self._lock = threading.Lock()
+        self._found: dict[str, Agents] = {}
+
+    def of(self, interpreter: str, visible: list[str]) -> Agents:
+        """The copy for an interpreter, made if there is none yet. What fails is not tried again by this process."""
+        with self._lock:
+            found = self._found.get(interpreter)
+            if found is None:
+                try:
+                    found = self._copy(interpreter, visible)
+                except (OSError, ValueError) as error:
+                    _log.warning("our code in the sandbox is not kept compiled: %s", error)
+                    found = sandbox.AGENTS
+                self._found[interpreter] = found
+            return found
+
+    def _copy(self, interpreter: str, visible: list[str]) -> Agents:
+        place = self._folder / _digest(interpreter)
+        if not place.is_dir():
+            self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            with tempfile.TemporaryDirectory(dir=self._folder, prefix=".") as folder:
+                made = Path(folder, "made")
+                for name, path in _sources():
+                    (made / name / "__pycache__").mkdir(parents=True, exist_ok=True)
+                    shutil.copy(path, made / name)
+                raw = run.compile_agents(interpreter, visible, _within(made))
+                kept = sum(_keep(told.get("own"), made) for told in raw.records)
+                if kept != len(_sources()):
+                    raise ValueError(raw.stderr.decode(errors="replace")[-500:] or "not all of it was compiled")
+                with contextlib.suppress(OSError):  # another process was first
+                    made.rename(place)
+            self._sweep()
+        os.utime(place)
+        return _within(place)
+
+    def _sweep(self) -> None:
+        for left in self._folder.iterdir():
+            with contextlib.suppress(OSError):
+                if left.stat().st_mtime < time.time() - KEPT_SECONDS:
+                    shutil.rmtree(left)
+
+
+@functools.lru_cache(maxsize=1)
+def copies() -> Copies:
+    """Those of the user's cache folder."""
+    return Copies()
+
+
+def _keep(told: object, made: Path) -> bool:
+    """Write one compiled module into a copy. Raises `ValueError` if it is none of ours."""
+    if not isinstance(told, Mapping) or told.get("ev") != "compiled":
+        return False
+    path: Any = told.get("path")
+    folder, _, name = str(path).rpartition("/__pycache__/")
+    source = name.partition(".")[0] + ".py"
+    if folder not in FOLDERS or "/" in name or not name.endswith(".pyc") or not (made / folder / source).is_file():
+        raise ValueError(f"{str(path)[:100]!r} is none of our modules")
+    (made / folder / "__pycache__" / name).write_bytes(base64.b64decode(str(told.get("data")), validate=True))
+    return True
+
+
+def _within(place: Path) -> Agents:
+    return Agents(*(place / name for name in FOLDERS))
+
+
+def _sources() -> list[tuple[str, Path]]:
+    """Our modules, each with the folder of the copy that it goes to."""
+    ours, woven = sandbox.AGENTS.library, sandbox.AGENTS.aspectlib
+    paths = (sorted(ours.glob("*.py")), sorted(woven.glob("*.py")), [sandbox.AGENTS.site / "sitecustomize.py"])
+    return [(name, path) for name, found in zip(FOLDERS, paths, strict=True) for path in found]
+
+
+def _digest(interpreter: str) -> str:
+    """Of our sources and of which interpreter it is."""
+    where = os.path.realpath(interpreter)
+    info = os.stat(where)
+    digest = hashlib.sha256(f"{where}\0{info.st_size}\0{info.st_mtime_ns}".encode(errors="surrogatepass"))
+    for name, path in _sources():
+        digest.update(f"{name}/{path.name}".encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:32]
