@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -469,4 +470,105 @@ def test_a_private_parameter_around_a_node_that_is_named_in_full_as_well() -> No
                        ^^^^^^ warning[PRM006] a <param> of a ~name before it is for the node, which comes later
           <node pkg="p" type="t" name="n"/>
         </launch>
+    """)
+
+
+def test_a_parameter_beside_its_node_instead_of_in_it() -> None:
+    text = """
+        <launch>
+          <param name="max_speed" value="0.3"/>
+                       ^^^^^^^^^ warning[PRM001] /limiter reads '/limiter/max_speed', which is not set (default 1.0)
+          <node pkg="p" type="t" name="limiter"/>
+        </launch>
+        //- interfaces
+        {"/limiter": {"params": {"~max_speed": 1.0, "~ramp": 0.5}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "likely"
+    assert 'name="limiter/max_speed"' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_parameter_beside_several_nodes_that_might_have_been_meant_is_an_info() -> None:
+    (finding,) = check("""
+        <launch>
+          <param name="rate" value="5"/>
+                       ^^^^ info[PRM001] no node reads parameter '/rate'
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+        </launch>
+        //- interfaces
+        {"/a": {"params": {"~rate": 1.0}}, "/b": {"params": {"~rate": 1.0}}}
+    """)
+    assert finding.confidence == "possible"
+    assert finding.fixes == ()
+
+
+def test_a_parameter_outside_the_group_of_its_node_or_in_a_group_too_many() -> None:
+    check("""
+        <launch>
+          <rosparam>
+            base: {radius: 0.2}
+                   ^^^^^^ warning[PRM001] /robot/base reads '/robot/base/radius', which is not set (default 0.1)
+          </rosparam>
+          <group ns="robot">
+            <node pkg="p" type="t" name="base"/>
+            <rosparam>
+              arm: {limits: {speed: 2.0}}
+                             ^^^^^ warning[PRM001] /arm reads '/arm/limits/speed', which is not set (default 1.0)
+            </rosparam>
+          </group>
+          <node pkg="p" type="t" name="arm"/>
+        </launch>
+        //- interfaces
+        {"/robot/base": {"params": {"~radius": 0.1}}, "/arm": {"params": {"~limits/speed": 1.0}}}
+    """)
+
+
+def test_a_private_parameter_that_its_node_reads_as_a_global_one() -> None:
+    check("""
+        <launch>
+          <group ns="cob">
+            <node pkg="p" type="t" name="sound"><param name="mode" value="festival"/></node>
+                                                             ^^^^ warning[PRM001] did you mean '/sound/mode', which it
+            <node pkg="p" type="t" name="site"><param name="robot" value="wall-e"/></node>
+                                                            ^^^^^ warning[PRM001] did you mean '/cob/robot', which it
+          </group>
+        </launch>
+        //- interfaces
+        {"/cob/sound": {"params": {"/sound/mode": "espeak"}}, "/cob/site": {"params": {"robot": "robot"}}}
+    """)
+
+
+@pytest.mark.parametrize(
+    ("value", "reads"),
+    [
+        ("10", '{"~rate": 10}'),  # it would change nothing
+        ("many", '{"~rate": 10}'),
+        ("20", '{"~rate": 10, "/rate": 10}'),
+        ("20", '{"~rate": 10, "rate": {"access": "search"}}'),
+        ("20", '{"~rate": 10, "": {"access": "list"}}'),
+    ],
+)
+def test_a_parameter_beside_its_node_that_says_nothing(value: str, reads: str) -> None:
+    text = f"""
+        <launch>
+          <param name="rate" value="{value}"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {{"/n": {{"params": {reads}}}}}
+    """
+    assert findings_of(text) == []
+
+
+def test_where_a_node_is_not_known_a_global_parameter_may_be_its() -> None:
+    check("""
+        <launch>
+          <param name="rate" value="20"/>
+          <node pkg="p" type="t" name="n"/>
+          <node pkg="p" type="t" name="m"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~rate": 10}}, "/m": {"status": "crashed", "exit_code": 1}}
     """)

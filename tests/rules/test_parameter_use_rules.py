@@ -99,14 +99,13 @@ def test_the_right_name_in_the_wrong_namespace() -> None:
     text = """
         <launch>
           <param name="rate" value="10"/>
+                       ^^^^ warning[PRM001] /talker reads '/talker/rate', which is not set and has no default
           <node pkg="p" type="t" name="talker"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] '/rate' is set, which no node reads
         </launch>
         //- interfaces
         {"/talker": {"params": {"~rate": null}}}
     """
     (finding,) = check(text)
-    assert "did you mean '/talker/rate' there?" in finding.message
     mended = apply(text, finding.fixes[0].edits)["/main.launch"]
     assert '<param name="talker/rate" value="10"/>' in mended
     assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
@@ -160,3 +159,31 @@ def test_a_node_that_ends_with_its_own_words_on_a_parameter(access: str) -> None
     assert finding.message.endswith("and nothing sets it; it ended with: param rate is not set")
     others = [f for f in findings_of(text.replace("LINE", "no device at 9600 baud, rates vary")) if f.rule == "PRM010"]
     assert {f.severity for f in others} <= {"hint"}
+
+
+def test_a_misspelt_mandatory_parameter_is_told_once_where_it_is_written() -> None:
+    (finding,) = check("""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="sampel_rate" value="3"/></node>
+                                                       ^^^^^^^^^^^ warning[PRM001] did you mean '/n/sample_rate'
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~sample_rate": null}}}
+    """)
+    assert "which is not set and has no default?" in finding.message
+    assert [related.message for related in finding.related] == ["/n reads /n/sample_rate"]
+
+
+def test_a_node_that_died_of_a_misspelt_parameter_is_told_where_it_is_written() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="sampel_rate" value="3"/></node>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+                                                       ^^^^^^^^^^^ warning[PRM010] did you mean '/n/sample_rate' there?
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~sample_rate": null}, "status": "crashed", "exit_code": 1,
+                "stderr": ["KeyError: '~sample_rate'"]}}
+    """
+    finding = next(f for f in check(text) if f.rule == "PRM010")
+    assert '<param name="sample_rate"' in apply(text, finding.fixes[0].edits)["/main.launch"]

@@ -6,12 +6,14 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.parameters import by_namespace, name_place, renamed
 from preflight_analysis.rules.places import node_location, related_param_read
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.unread_params import unread_params
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
 
@@ -25,20 +27,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     missing = _missing(context, graph)
     if not missing:
         return
+    # A parameter that was meant for it and that nobody reads is where to mend it: there PRM001 says it.
+    explained = {unread.meant.name for unread in context.once(unread_params) if unread.meant is not None}
     read = {each.name for each in graph.param_reads}
     unread: dict[str, list[Param]] = {}
+    private: dict[str, list[Param]] = {}
     for param in graph.tree.params.values():
         if param.name not in read:
             unread.setdefault(param.name.rpartition("/")[2], []).append(param)
+            private.setdefault(_namespace(param), []).append(param)
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
         optional: list[str] = []
         for lacking in missing.get(id(node), ()):
             died = _last_words(interface, lacking)
-            if died is None and not lacking.use.mandatory:
+            if lacking.name in explained or (died is None and not lacking.use.mandatory):
                 continue
-            leaf = lacking.name.rpartition("/")[2]
-            meant = _elsewhere(lacking, unread.get(leaf, ())) if died or graph.complete else None
-            if died is not None or meant is not None:
+            if died is not None:
+                leaf = lacking.name.rpartition("/")[2]
+                meant = _elsewhere(lacking, unread.get(leaf, ())) or _misspelt(lacking, private.get(node.name, ()))
                 yield _finding(rule, context, lacking, meant, died)
             else:
                 optional.append(lacking.name)
@@ -103,26 +109,33 @@ def _elsewhere(read: ParamRead, unread: list[Param] | tuple[Param, ...]) -> Para
     return near[0] if len(near) == 1 else None
 
 
+def _misspelt(read: ParamRead, private: list[Param] | tuple[Param, ...]) -> Param | None:
+    """The only private parameter of the node that it has not read and that is a typo away."""
+    found = [p for p in private if (alike := likeness(p.name, read.name)) is not None and alike[0] == "typo"]
+    return found[0] if len(found) == 1 else None
+
+
 def _namespace(param: Param) -> str:
     return param.name.rpartition("/")[0]
 
 
-def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, died: str | None) -> Finding:
+def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, died: str) -> Finding:
     node: LaunchNode = read.node
     reads = "reads parameter '{}' without a default" if read.use.mandatory else "asks for parameter '{}'"
-    message = f"{node.name} {reads.format(read.name)}, and nothing sets it"
-    if died:
-        message += f"; it ended with: {died}"
-    related: tuple[Related, ...] = (related_param_read(read),)
-    if meant is not None:
-        message += f". '{meant.name}' is set, which no node reads: did you mean '{read.name}' there?"
-        related = (Related(f"'{meant.name}' is set here", name_place(meant)),)
+    message = f"{node.name} {reads.format(read.name)}, and nothing sets it; it ended with: {died}"
+    if meant is None:
+        return rule.finding(
+            message,
+            node_location(node),
+            confidence="likely",
+            related=(related_param_read(read), *include_chain(node.origin)),
+        )
     return rule.finding(
-        message,
-        node_location(node),
-        confidence="likely" if died else "possible",
-        related=(*related, *include_chain(node.origin)),
-        fixes=renamed(context, meant, read.name) if meant is not None else (),
+        f"{message}. '{meant.name}' is set, which no node reads: did you mean '{read.name}' there?",
+        name_place(meant),
+        confidence="likely",
+        related=(related_param_read(read), *include_chain(meant.origin)),
+        fixes=renamed(context, meant, read.name),
     )
 
 
@@ -131,8 +144,9 @@ RULE = Rule(
     name="mandatory-parameter-missing",
     severity="warning",
     what="Reports a parameter that a node reads without giving a default and that the launch does not set. It is a "
-    "warning where the node ended because of it, or where a parameter of this name that nobody reads is set in a "
-    "namespace around the one that is read, or as a private one; otherwise a hint, as the node may cope.",
+    "warning where the node ended because of it, shown at the parameter that was meant if one is set under a like name "
+    "or in a namespace around; otherwise a hint, as the node may cope. Where the node goes on, and a parameter that "
+    "nobody reads was meant, PRM001 says so.",
     why="rospy raises a KeyError; in C++ the variable keeps whatever it had.",
     example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'
     '<node pkg="p" type="talker" name="talker"/>',
