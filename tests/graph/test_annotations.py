@@ -3,7 +3,13 @@
 import pytest
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit
-from preflight_analysis.graph.annotations import annotated, annotation_edit, annotation_text, read_annotation
+from preflight_analysis.graph.annotations import (
+    annotated,
+    annotation_edit,
+    annotation_template,
+    annotation_text,
+    read_annotation,
+)
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, ParamUse
@@ -146,7 +152,8 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     assert root is not None
     node = context.tree.nodes[0]
     node = node._replace(action=root.children[0])
-    edit = annotation_edit(node, interface_from_json({"publishers": {"a": "x/Y"}}), document)
+    text = annotation_text(interface_from_json({"publishers": {"a": "x/Y"}}))
+    edit = annotation_edit(node, text, document)
     assert edit is not None
     result = edited(before, edit)
     start, end = result.index("<!--"), result.index("-->") + 3
@@ -155,4 +162,25 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     newlines = {line[-2:] for line in result.splitlines(keepends=True)}
     assert newlines == {"\r\n"} if "\r\n" in before else "\r\n" not in newlines
     again = node._replace(action=node_action(result))
-    assert annotation_edit(again, interface_from_json({"publishers": {"a": "x/Y"}}), document) is None
+    assert annotation_edit(again, text, document) is None
+    assert annotation_edit(node, "", document) is None
+
+
+def test_a_tag_that_is_still_being_typed_is_left_alone() -> None:
+    context = analyse(read_fixture('<launch><node pkg="p" type="t" name="n"/></launch>'))
+    document = parse_xml("/main.launch", '<launch>\n  <node pkg="p" type="t" name="n"')
+    root = read_ros1(document).root
+    assert root is not None
+    node = context.tree.nodes[0]._replace(action=root.children[0])
+    assert annotation_edit(node, annotation_template(), document) is None
+
+
+def test_the_template_has_one_of_each_to_fill_in() -> None:
+    text = annotation_template()
+    assert text.count("<topic ") == 2
+    assert text.count("<service ") == 2
+    assert "<param " in text
+    read, problems = read_annotation(node_action(f'<launch><node pkg="p" type="t" name="n">{text}</node></launch>'))
+    assert read is not None
+    assert read.endpoints == ()
+    assert "needs a name" in problems[0].message

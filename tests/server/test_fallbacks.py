@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from editor_desk import Desk
-from lsp_desk import editing
+from lsp_desk import Editor, editing
 from lsprotocol import types
 
 pytestmark = pytest.mark.ros
@@ -37,3 +39,74 @@ async def test_what_an_executable_did_elsewhere_is_shown_where_it_cannot_be_run(
             assert f"{desk.launch_file.name}`; not run: the workspace is not trusted" in shown
             assert "- `/chatter` `std_msgs/String`, seen elsewhere" in shown
         assert desk.sandbox_starts() == starts, "nothing was run to know it"
+
+
+ANNOTATED = """\ufeff<launch>\r
+\t<node pkg="preflight_demo" type="talker.py" name="talker">\r
+\t\t<!-- <topics>\r
+\t\t\t<topic name="chatter" type="std_msgs/Int32" class="pub"/>\r
+\t\t</topics>\r
+\t\t<params/> -->\r
+\t</node>\r
+</launch>\r
+"""
+
+
+async def titles(editor: Editor, path: Path, needle: str) -> dict[str, types.CodeAction]:
+    where = editor.at(path, needle)
+    return {action.title: action for action in await editor.actions(path, types.Range(where, where))}
+
+
+async def test_an_outdated_annotation_is_told_and_brought_up_to_date(desk: Desk) -> None:
+    path = desk.launch_file.with_name("annotated.launch")
+    path.write_bytes(ANNOTATED.encode())
+    async with editing(desk, trusted=True) as editor:
+        editor.open(path, ANNOTATED)
+        await editor.having(path, "TRC006")
+        told = {editor.covered(path, d.range): d for d in editor.diagnostics(path) or () if d.code == "TRC006"}
+        assert set(told) == {"std_msgs/Int32", "<topics>"}
+        found = told["std_msgs/Int32"]
+        assert "had the type std_msgs/String" in found.message
+        assert found.severity == types.DiagnosticSeverity.Warning
+        assert "reads the parameter '~rate'" in told["<topics>"].message
+        actions = await editor.actions(path, found.range)
+        (action,) = [a for a in actions if a.title == "Bring the annotation of '/talker' up to date"]
+        assert action.kind == types.CodeActionKind.QuickFix
+        same = (await titles(editor, path, "<node"))["Bring the annotation of '/talker' up to date"]
+        assert same.edit == action.edit
+        editor.apply(action.edit)
+        await editor.without(path, "TRC006")
+        assert editor.texts[path] == ANNOTATED.replace("Int32", "String").replace(
+            "<params/>", '<params>\r\n\t\t\t<param name="~rate"/>\r\n\t\t</params>'
+        )
+
+
+async def test_annotations_can_be_made_of_whatever_is_known(desk: Desk) -> None:
+    other = desk.launch_file.with_name("other.launch")
+    other.write_text(OTHER)
+    template = "Annotate '/lone' with an empty template"
+    from_source = "Annotate '/lone' with what its source says"
+    from_elsewhere = "Annotate '/lone' with what its executable did elsewhere"
+    async with editing(desk) as editor:
+        editor.open(other)
+        await editor.having(other, "TRC004")
+        assert set(await titles(editor, other, "<node")) == {from_source, template}
+        # in a file that does not parse, too
+        editor.change(other, OTHER.replace("</launch>", "  <group>\n</launch>"))
+        await editor.having(other, "LCH001")
+        actions = await titles(editor, other, "<node")
+        assert set(actions) == {from_source, template}
+        editor.apply(actions[template].edit)
+        assert '<topic name="" type="" class="pub"/>' in editor.texts[other]
+        assert "  </node>" in editor.texts[other]
+        editor.trust()
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        editor.trust(False)
+        editor.change(other, OTHER)
+        await editor.having(other, "TRC004")
+        actions = await titles(editor, other, "<node")
+        assert set(actions) == {from_elsewhere, template}
+        editor.apply(actions[from_elsewhere].edit)
+        assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[other]
+        assert '<param name="~rate"/>' in editor.texts[other]

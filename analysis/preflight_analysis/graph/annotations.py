@@ -12,11 +12,11 @@ An annotation is the user's word for all that a node does. It is used where no r
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from xml.sax.saxutils import quoteattr
 
-from preflight_analysis.documents.document import Document, Element
+from preflight_analysis.documents.document import Document, Element, SpannedText
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.evaluation import names
@@ -64,16 +64,59 @@ class _Tag:
     attributes: tuple[tuple[str, str, Span], ...]
     """Name, value and the span of the value."""
     head: Span
+    span: Span
     children: tuple[_Tag, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AnnotatedItem:
+    """One endpoint or parameter of an annotation, with the spans of its element and of the values of its attributes."""
+
+    what: Endpoint | ParamUse
+    span: Span
+    values: Mapping[str, Span]
+
+
+@dataclass(frozen=True, slots=True)
+class AnnotatedGroup:
+    """A `<topics>` or the like: its tag, its element, the elements in it, and what of these is well formed."""
+
+    name: str
+    head: Span
+    span: Span
+    elements: tuple[Span, ...]
+    items: tuple[AnnotatedItem, ...]
+
+
+def annotated_groups(action: Action) -> tuple[tuple[AnnotatedGroup, ...], bool]:
+    """The groups of a node's annotation in the order of the file, and whether all in them is well formed."""
+    problems: list[AnnotationProblem] = []
+    groups = [group for group in _groups(action, problems) if group.name in GROUPS]
+    found = []
+    for group in groups:
+        items = []
+        for item in group.children:
+            read = _read_item(group.name, item, problems) if item.name == _ITEMS[group.name] else None
+            if read is not None:
+                items.append(AnnotatedItem(read, item.span, {name: span for name, _, span in item.attributes}))
+        elements = tuple(item.span for item in group.children)
+        found.append(AnnotatedGroup(group.name, group.head, group.span, elements, tuple(items)))
+    return tuple(sorted(found, key=lambda group: group.span)), not problems
+
+
+def _groups(action: Action, problems: list[AnnotationProblem]) -> list[_Tag]:
+    """The tags of an annotation, those in comments last."""
+    groups = [_from_action(child) for child in action.children if child.kind in GROUPS]
+    for content in action.comments:
+        if _STARTS_ANNOTATION.match(content.text):
+            groups.extend(_from_comment(content, problems))
+    return groups
 
 
 def read_annotation(action: Action) -> tuple[Interface | None, tuple[AnnotationProblem, ...]]:
     """The interface that is annotated in a node's tag, None if there is no annotation, and what is malformed in it."""
     problems: list[AnnotationProblem] = []
-    groups = [_from_action(child) for child in action.children if child.kind in GROUPS]
-    for text, span in action.comments:
-        if _STARTS_ANNOTATION.match(text):
-            groups.extend(_from_comment(text, span.start, problems))
+    groups = _groups(action, problems)
     if not groups and not problems:
         return None, ()
     endpoints: list[Endpoint] = []
@@ -100,16 +143,12 @@ def read_item(
     group: str, head: Span, attributes: Sequence[tuple[str, str, Span]], problems: list[AnnotationProblem]
 ) -> Endpoint | ParamUse | None:
     """One item of a group (`topics`), written elsewhere than in a tag; None after saying what is wrong with it."""
-    return _read_item(group, _Tag(_ITEMS[group], head, tuple(attributes), head, ()), problems)
+    return _read_item(group, _Tag(_ITEMS[group], head, tuple(attributes), head, head, ()), problems)
 
 
 def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
     """What the annotation of a node's tag names, and where: the tag of the item (`topic`), the name, its place."""
-    groups = [_from_action(child) for child in action.children if child.kind in GROUPS]
-    for text, span in action.comments:
-        if _STARTS_ANNOTATION.match(text):
-            groups.extend(_from_comment(text, span.start, []))
-    for group in groups:
+    for group in _groups(action, []):
         for item in group.children:
             for name, value, span in item.attributes:
                 if name == "name" and item.name == _ITEMS.get(group.name):
@@ -126,50 +165,71 @@ def annotated(traced: Interface, action: Action) -> Interface:
     return traced.with_more("annotation", annotation.endpoints, annotation.params)
 
 
+def worth_writing(interface: Interface) -> Iterator[Endpoint | ParamUse]:
+    """What of an interface belongs into an annotation, actions as such. What every node has by its client library, and
+    what was found after a made-up answer, is left out; so are parameters that it does not read."""
+    actions = actions_of(interface.endpoints)
+    parts = {id(topic) for action in actions for topic in action.topics}
+    alone = (e for e in interface.endpoints if id(e) not in parts and not e.role.startswith("action_"))
+    for endpoint in (*alone, *(action.endpoint for action in actions)):
+        if not endpoint.builtin and not endpoint.speculative:
+            yield endpoint
+    yield from (p for p in interface.params if p.access in ("get", "has") and not p.builtin)
+
+
+def written(what: Endpoint | ParamUse) -> tuple[str, str]:
+    """The group that an endpoint or a parameter belongs into, and its element there."""
+    if isinstance(what, ParamUse):
+        return "params", f"<param name={_quoted(what.name)}/>"
+    group, word = next((g, w) for g, classes in _CLASSES.items() for w, role in classes.items() if role == what.role)
+    attributes = f"name={_quoted(what.name)} type={_quoted(what.type or '*')} class={_quoted(word)}"
+    return group, f"<{_ITEMS[group]} {attributes}/>"
+
+
 def annotation_text(interface: Interface, indent: str = "") -> str:
     """A comment that annotates `interface`, its lines after the first indented by `indent`; without a final newline.
 
-    What every node has by its client library, and what was found after a made-up answer, is left out. Names are as
-    the node gave them. Empty when there is nothing to write.
+    Names are as the node gave them. Empty when there is nothing to write.
     """
-    actions = actions_of(interface.endpoints)
-    parts = {id(topic) for action in actions for topic in action.topics}
-    endpoints = [e for e in interface.endpoints if id(e) not in parts and not e.role.startswith("action_")]
-    endpoints += [action.endpoint for action in actions]
-    blocks: list[tuple[str, list[str]]] = []
-    for group, classes in _CLASSES.items():
-        words = {role: word for word, role in classes.items()}
-        items = sorted(
-            {
-                (word, e.name, e.type or "*")
-                for e in endpoints
-                if (word := words.get(e.role)) is not None and not e.builtin and not e.speculative
-            }
-        )
-        tag = _ITEMS[group]
-        blocks.append(
-            (group, [f"<{tag} name={_quoted(n)} type={_quoted(t)} class={_quoted(w)}/>" for w, n, t in items])
-        )
-    reads = sorted({p.name for p in interface.params if p.access in ("get", "has") and not p.builtin})
-    blocks.append(("params", [f"<param name={_quoted(name)}/>" for name in reads]))
+    blocks: dict[str, dict[str, tuple[str, str]]] = {group: {} for group in (*_CLASSES, "params")}
+    for what in worth_writing(interface):
+        group, text = written(what)
+        order = list(_CLASSES.get(group, {}).values())
+        place = str(order.index(what.role)) if isinstance(what, Endpoint) else ""
+        blocks[group].setdefault(text, (place, what.name))
+    return _comment({group: sorted(items, key=items.__getitem__) for group, items in blocks.items()}, indent)
+
+
+def annotation_template(indent: str = "") -> str:
+    """A comment with one of each kind, for the user to fill in."""
+    blocks = {
+        group: [f'<{_ITEMS[group]} name="" type="" class="{word}"/>' for word in classes]
+        for group, classes in _CLASSES.items()
+        if group != "actions"
+    }
+    return _comment({**blocks, "params": ['<param name=""/>']}, indent)
+
+
+def _comment(blocks: Mapping[str, Sequence[str]], indent: str) -> str:
     lines: list[str] = []
-    for group, items_text in blocks:
-        if items_text:
-            lines += [f"<{group}>", *(f"  {item}" for item in items_text), f"</{group}>"]
+    for group, items in blocks.items():
+        if items:
+            lines += [f"<{group}>", *(f"  {item}" for item in items), f"</{group}>"]
     if not lines:
         return ""
     return f"\n{indent}".join(["<!--", *(f"  {line}" for line in lines), "-->"])
 
 
-def annotation_edit(node: LaunchNode, interface: Interface, document: Document) -> Edit | None:
-    """The edit that writes `interface` into the tag of `node`, opening `<node .../>` if need be.
+def annotation_edit(node: LaunchNode, text: str, document: Document) -> Edit | None:
+    """The edit that writes an annotation into the tag of `node`, opening `<node .../>` if need be.
 
-    `document` is the file of the node's tag. None if there is nothing to write or an annotation stands there already.
+    `document` is the file of the node's tag. None if there is nothing to write, an annotation stands there already, or
+    the tag is still being typed.
     """
-    if read_annotation(node.action)[0] is not None:
+    head = node.action.head_span
+    if not text or read_annotation(node.action)[0] is not None or not document.text[: head.end].endswith(">"):
         return None
-    text = annotation_text(interface)
-    return insert_child(node.action, document, text) if text else None
+    return insert_child(node.action, document, text)
 
 
 def _from_action(action: Action) -> _Tag:
@@ -178,34 +238,32 @@ def _from_action(action: Action) -> _Tag:
         action.kind_span,
         tuple((a.name, a.value.text, a.value.span) for a in action.attributes),
         action.head_span,
+        action.span,
         tuple(_from_action(child) for child in action.children),
     )
 
 
-def _from_comment(text: str, offset: int, problems: list[AnnotationProblem]) -> Iterator[_Tag]:
-    wrapped = parse_xml("", f"{_WRAPPER}{text}</_>")
-    offset -= len(_WRAPPER)
-    end = offset + len(_WRAPPER) + len(text)
-    for problem in wrapped.problems:
-        span = _moved(problem.span, offset)
-        problems.append(AnnotationProblem(problem.message, Span(min(span.start, end), min(span.end, end))))
+def _from_comment(content: SpannedText, problems: list[AnnotationProblem]) -> Iterator[_Tag]:
+    def moved(span: Span) -> Span:
+        ends = (min(max(0, end - len(_WRAPPER)), len(content.text)) for end in span)
+        return Span(*map(content.to_document, ends))
+
+    wrapped = parse_xml("", f"{_WRAPPER}{content.text}</_>")
+    problems += (AnnotationProblem(problem.message, moved(problem.span)) for problem in wrapped.problems)
     if wrapped.root is not None:
         for child in wrapped.root.elements:
-            yield _from_element(child, offset)
+            yield _from_element(child, moved)
 
 
-def _from_element(element: Element, offset: int) -> _Tag:
+def _from_element(element: Element, moved: Callable[[Span], Span]) -> _Tag:
     return _Tag(
         element.tag,
-        _moved(element.tag_span, offset),
-        tuple((a.name, a.value.text, _moved(a.value.span, offset)) for a in element.attributes),
-        _moved(element.open_span, offset),
-        tuple(_from_element(child, offset) for child in element.elements),
+        moved(element.tag_span),
+        tuple((a.name, a.value.text, moved(a.value.span)) for a in element.attributes),
+        moved(element.open_span),
+        moved(element.span),
+        tuple(_from_element(child, moved) for child in element.elements),
     )
-
-
-def _moved(span: Span, offset: int) -> Span:
-    return Span(span.start + offset, span.end + offset)
 
 
 def _read_item(group: str, item: _Tag, problems: list[AnnotationProblem]) -> Endpoint | ParamUse | None:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.span import Span
 
 
@@ -72,7 +72,7 @@ class Action:
     kind_span: Span
     attributes: tuple[ActionAttribute, ...]
     children: tuple[Action, ...]
-    comments: tuple[tuple[str, Span], ...]
+    comments: tuple[SpannedText, ...]
     body: Value
     head_span: Span
     span: Span

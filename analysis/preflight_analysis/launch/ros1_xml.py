@@ -33,7 +33,7 @@ def _find_launch(document: Document) -> Iterator[Element]:
 
 
 def _action(element: Element, depth: int) -> Action:
-    comments: list[tuple[str, Span]] = []
+    comments: list[SpannedText] = []
     children: list[Action] = []
     texts: list[SpannedText] = []
     for child in element.children:
@@ -41,7 +41,7 @@ def _action(element: Element, depth: int) -> Action:
             if depth < MAX_DEPTH:
                 children.append(_action(child, depth + 1))
         elif isinstance(child, Comment):
-            comments.append((child.content.text, child.content.span))
+            comments.append(child.content)
         elif isinstance(child, Text):
             texts.append(child.content)
     return Action(

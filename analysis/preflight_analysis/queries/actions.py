@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix
-from preflight_analysis.graph.annotations import annotation_edit
+from preflight_analysis.graph.annotations import annotation_edit, annotation_template, annotation_text
+from preflight_analysis.graph.outdated import bring_up_to_date, compare
 from preflight_analysis.queries.places import action_at, nodes_of
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -37,15 +38,38 @@ def fixes(findings: Iterable[Finding], file: str, span: Span) -> Iterator[FixOf]
                 yield FixOf(finding, fix)
 
 
-def annotation(analysis: Analysis, file: str, offset: int) -> Rewrite | None:
-    """Write what a run of the node at `offset` showed into its tag; None where there is no run to write down."""
+_FROM = {
+    "trace": "its traced interface",
+    "similar": "what its executable did elsewhere",
+    "source": "what its source says",
+    "settings": "what the settings say",
+}
+
+
+def annotating(analysis: Analysis, file: str, offset: int) -> Iterator[Rewrite]:
+    """Write what is known of the node at `offset` into its tag, or a template to fill in; where there is an annotation
+    already, bring it up to date."""
     launch_file, document = analysis.launch_files.get(file), analysis.documents.get(file)
     action = action_at(launch_file, offset) if launch_file else None
-    if action is None or document is None or analysis.graph is None:
-        return None
-    for index, node in nodes_of(analysis, file, action):
-        interface = analysis.graph.interfaces[index]
-        if interface.source == "trace" and interface.outcome.status == "spinning":
-            edit = annotation_edit(node, interface, document)
-            return Rewrite(f"Annotate '{node.name}' with its traced interface", (edit,)) if edit else None
-    return None
+    if action is None or document is None:
+        return
+    nodes = list(nodes_of(analysis, file, action))
+    if not nodes:
+        return
+    node = nodes[0][1]
+    interfaces = analysis.graph.interfaces if analysis.graph is not None else None
+    if interfaces is not None:
+        for index, each in nodes:
+            known = interfaces[index]
+            edit = annotation_edit(each, annotation_text(known), document) if known.source in _FROM else None
+            if edit is not None:
+                yield Rewrite(f"Annotate '{each.name}' with {_FROM[known.source]}", (edit,))
+                break
+        outdated = compare([(each, interfaces[index]) for index, each in nodes])
+        edits = bring_up_to_date(outdated, document) if outdated is not None else ()
+        if edits:
+            yield Rewrite(f"Bring the annotation of '{node.name}' up to date", edits)
+    if interfaces is None or not any(interfaces[index].complete for index, _ in nodes):
+        edit = annotation_edit(node, annotation_template(), document)
+        if edit is not None:
+            yield Rewrite(f"Annotate '{node.name}' with an empty template", (edit,))

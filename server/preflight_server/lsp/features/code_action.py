@@ -1,11 +1,11 @@
-"""`textDocument/codeAction`: quick fixes of findings, and the traced interface as an annotation."""
+"""`textDocument/codeAction`: quick fixes of findings, and what is known of a node as an annotation."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
-from preflight_analysis.queries.actions import annotation, fixes
+from preflight_analysis.queries.actions import annotating, fixes
 
 from preflight_server.lsp.session import View
 
@@ -36,8 +36,10 @@ def _actions(view: View, params: types.CodeActionParams) -> list[types.CodeActio
                 )
             )
     if _wanted(types.CodeActionKind.RefactorRewrite, only):
-        rewrite = annotation(view.analysis, view.path, span.start)
-        if rewrite is not None:
+        offered = {action.title for action in actions}
+        for rewrite in annotating(view.analysis, view.path, span.start):
+            if rewrite.title in offered:
+                continue  # as the quick fix of a finding
             edit = view.converter.workspace_edit(rewrite.edits)
             actions.append(types.CodeAction(rewrite.title, kind=types.CodeActionKind.RefactorRewrite, edit=edit))
     return actions

@@ -1,0 +1,189 @@
+"""An annotation against the runs of the nodes that its tag makes, and the edits that bring it up to date.
+
+The annotation may say more than a run shows on purpose: what the node does later. It may say less, too, of what nobody
+cares about. So only another type is a contradiction.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Edit
+from preflight_analysis.graph.actions import actions_of
+from preflight_analysis.graph.annotations import (
+    AnnotatedGroup,
+    AnnotatedItem,
+    annotated_groups,
+    worth_writing,
+    written,
+)
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+
+_BLANKS = re.compile(r"[ \t]*")
+
+_Key = tuple[str, str]
+"""Role, or `param`, and full name before remapping."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outdated:
+    """What differs. `conflicts` has the type that the run showed; `unmade` stands in the annotation alone, `missing`
+    was seen in every run alone."""
+
+    groups: tuple[AnnotatedGroup, ...]
+    conflicts: tuple[tuple[AnnotatedItem, str], ...]
+    unmade: tuple[AnnotatedItem, ...]
+    missing: tuple[Endpoint | ParamUse, ...]
+
+
+def compare(seen: Sequence[tuple[LaunchNode, Interface]]) -> Outdated | None:
+    """`seen` are the nodes that one tag makes, with what their runs showed. None where there is no annotation, or no
+    run to compare it with."""
+    groups, sound = annotated_groups(seen[0][0].action)
+    if not groups or any(interface.outcome.status == "not-run" for _, interface in seen):
+        return None
+    items = [item for group in groups for item in group.items]
+    conflicts = tuple((item, type_) for item in items if (type_ := _other_type(item, seen)) is not None)
+    unmade: tuple[AnnotatedItem, ...] = ()
+    missing: tuple[Endpoint | ParamUse, ...] = ()
+    # What is malformed may be meant for what seems to be missing.
+    if sound and all(interface.source == "trace" and interface.complete for _, interface in seen):
+        told = [_told(interface.endpoints, interface.params, node) for node, interface in seen]
+        unmade = tuple(
+            item
+            for item in items
+            if not any(_key(item.what, node) in t for (node, _), t in zip(seen, told, strict=True))
+        )
+        missing = tuple(_missing(groups, seen))
+    return Outdated(groups, conflicts, unmade, missing)
+
+
+def _key(what: Endpoint | ParamUse, node: LaunchNode) -> _Key:
+    return what.role if isinstance(what, Endpoint) else "param", names.resolve(what.name, node.name)
+
+
+def _told(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: LaunchNode) -> set[_Key]:
+    """All that is said by these, an action both as such and by its topics."""
+    endpoints = tuple(endpoints)
+    actions = actions_of(endpoints)
+    ends = (*endpoints, *(a.endpoint for a in actions), *(t for a in actions for t in a.topics))
+    return {_key(end, node) for end in ends} | {_key(use, node) for use in params}
+
+
+def _other_type(item: AnnotatedItem, seen: Sequence[tuple[LaunchNode, Interface]]) -> str | None:
+    """The type that all runs which showed the endpoint gave it, if it is another one than the annotation's."""
+    what = item.what
+    if not isinstance(what, Endpoint) or what.type in (None, "*"):
+        return None
+    found: set[str] = set()
+    for node, interface in seen:
+        ends = (*interface.endpoints, *(action.endpoint for action in actions_of(interface.endpoints)))
+        types = {e.type for e in ends if _key(e, node) == _key(what, node) and not e.assumed}
+        found |= {type_ for type_ in types if type_ is not None}
+    plain = {type_.removesuffix("Action") for type_ in found} if what.role.startswith("action") else found
+    known = str(what.type).removesuffix("Action") if what.role.startswith("action") else what.type
+    return found.pop() if len(found) == 1 and "*" not in found and known not in plain else None
+
+
+def _missing(
+    groups: Sequence[AnnotatedGroup], seen: Sequence[tuple[LaunchNode, Interface]]
+) -> Iterator[Endpoint | ParamUse]:
+    said = [item.what for group in groups for item in group.items]
+    endpoints = [what for what in said if isinstance(what, Endpoint)]
+    params = [what for what in said if isinstance(what, ParamUse)]
+    with_params = any(group.name == "params" for group in groups)
+    told = _told(endpoints, params, seen[0][0])
+    others = [{written(what) for what in worth_writing(interface)} for _, interface in seen[1:]]
+    node, interface = seen[0]
+    by_topics = {
+        (a.endpoint.role, a.endpoint.name)
+        for a in actions_of(interface.endpoints)
+        if all(_key(topic, node) in told for topic in a.topics)
+    }
+    given: set[_Key] = set()
+    for what in worth_writing(interface):
+        if isinstance(what, ParamUse) and not with_params:
+            continue
+        key = _key(what, node)
+        if isinstance(what, Endpoint) and (what.role, what.name) in by_topics:
+            continue
+        if key not in told and key not in given and all(written(what) in other for other in others):
+            given.add(key)
+            yield what
+
+
+def bring_up_to_date(outdated: Outdated, document: Document) -> tuple[Edit, ...]:
+    """The edits that correct the types and add what is missing. What only the annotation has stays: it may come later.
+    So do order, layout and comments."""
+    edits = [Edit(Location(document.path, item.values["type"]), type_) for item, type_ in outdated.conflicts]
+    more: dict[str, list[str]] = {}
+    for what in outdated.missing:
+        name, text = written(what)
+        more.setdefault(name, []).append(text)
+    new: list[str] = []
+    for name, items in more.items():
+        group = next((g for g in reversed(outdated.groups) if g.name == name), None)
+        if group is not None:
+            edits.append(_extended(group, sorted(items), document))
+        else:
+            new += [f"<{name}>", *(f"\t{item}" for item in sorted(items)), f"</{name}>"]
+    if new:
+        edits.append(_new_groups(outdated.groups[-1], new, document))
+    return tuple(edits)
+
+
+def _extended(group: AnnotatedGroup, items: Sequence[str], document: Document) -> Edit:
+    """More items behind those of a group."""
+    newline = _newline(document)
+    if group.elements:
+        at = group.elements[-1].end
+        indent = _indent(group.elements[-1].start, document)
+        before = newline + indent if indent is not None else ""
+        return Edit(Location(document.path, Span(at, at)), "".join(before + item for item in items))
+    indent = _indent(group.head.start, document)
+    if indent is None:
+        body = "".join(items)
+    else:
+        deeper = indent + _unit(document, indent)
+        body = "".join(newline + deeper + item for item in items) + newline + indent
+    start, end = group.head
+    if document.text[start:end].endswith("/>"):
+        opened = document.text[start : end - 2].rstrip() + ">"
+        return Edit(Location(document.path, Span(start, end)), f"{opened}{body}</{group.name}>")
+    # What stands between the tags are blanks or a comment, which stays.
+    between = document.text[end : group.span.end].rpartition("</")[0]
+    stop = end if between.strip() else end + len(between)
+    return Edit(Location(document.path, Span(end, stop)), body)
+
+
+def _new_groups(last: AnnotatedGroup, lines: Sequence[str], document: Document) -> Edit:
+    """More groups behind the last one; a tab in `lines` stands for one step of indentation."""
+    at = last.span.end
+    indent = _indent(last.head.start, document)
+    if indent is None:
+        text = "".join(line.strip("\t") for line in lines)
+    else:
+        unit = _unit(document, indent)
+        text = "".join(_newline(document) + indent + line.replace("\t", unit) for line in lines)
+    return Edit(Location(document.path, Span(at, at)), text)
+
+
+def _indent(offset: int, document: Document) -> str | None:
+    """The blanks before `offset`, if nothing else stands before it on its line."""
+    line, _ = document.lines.position(offset)
+    before = document.text[document.lines.line_start(line) : offset]
+    return before if not before.strip(" \t") else None
+
+
+def _unit(document: Document, indent: str) -> str:
+    return "\t" if "\t" in indent else "  "
+
+
+def _newline(document: Document) -> str:
+    return "\r\n" if "\r\n" in document.text else "\n"

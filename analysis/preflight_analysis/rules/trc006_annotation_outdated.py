@@ -1,0 +1,96 @@
+"""TRC006: an annotation says something else than the run of its node showed."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+
+_MOST = 5
+"""How many names a message has."""
+_DOES = {
+    "publisher": "publishes",
+    "subscriber": "subscribes to",
+    "service": "offers the service",
+    "client": "calls the service",
+    "action_server": "offers the action",
+    "action_client": "calls the action",
+}
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.graph is None:
+        return
+    tags: dict[tuple[str, Span], list[tuple[LaunchNode, Interface]]] = {}
+    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+        if interface.outcome.status != "not-run" and read_annotation(node.action)[0] is not None:
+            tags.setdefault((node.location.file, node.action.span), []).append((node, interface))
+    for (file, _), seen in tags.items():
+        outdated = compare(seen)
+        if outdated is not None:
+            yield from _findings(rule, context, file, seen[0][0], outdated)
+
+
+def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdated: Outdated) -> Iterator[Finding]:
+    document = context.documents[file]
+    edits = bring_up_to_date(outdated, document)
+    fixes = (Fix(f"Bring the annotation of '{node.name}' up to date", edits, preferred=True),) if edits else ()
+    chain = include_chain(node.origin)
+    for item, type_ in outdated.conflicts:
+        message = f"when {node.name} was run, '{item.what.name}' had the type {type_}"
+        yield rule.finding(
+            message, Location(file, item.values["type"]), confidence="likely", related=chain, fixes=fixes
+        )
+    for item in outdated.unmade:
+        name, place = item.what.name, Location(file, item.values["name"])
+        meant = nearest(name, [what.name for what in outdated.missing if _does(what) == _does(item.what)])
+        mends = [Fix(f"Remove '{name}' from the annotation", (remove_tag(document, item.span),))]
+        if meant is not None:
+            mends.insert(0, Fix(f"Replace '{name}' by '{meant}'", (Edit(place, meant),), preferred=True))
+        yield rule.finding(
+            f"when {node.name} was run, it was not seen that it {_does(item.what)} '{name}'{did_you_mean(meant)}",
+            place,
+            severity="info" if meant is not None else "hint",
+            confidence="likely" if meant is not None else "possible",
+            related=chain,
+            fixes=mends,
+        )
+    if outdated.missing:
+        shown = [f"{_does(what)} '{what.name}'" for what in outdated.missing[:_MOST]]
+        more = f" and {len(outdated.missing) - _MOST} more" if len(outdated.missing) > _MOST else ""
+        yield rule.finding(
+            f"when {node.name} was run, it was seen that it {', '.join(shown)}{more}: the annotation lacks that",
+            Location(file, outdated.groups[0].head),
+            severity="hint",
+            confidence="likely",
+            related=chain,
+            fixes=fixes,
+        )
+
+
+def _does(what: Endpoint | ParamUse) -> str:
+    return _DOES[what.role] if isinstance(what, Endpoint) else "reads the parameter"
+
+
+RULE = Rule(
+    id="TRC006",
+    name="annotation-outdated",
+    severity="warning",
+    what="Compares the `<topics>`, `<services>`, `<actions>` and `<params>` that annotate a node with its run: another "
+    "type is a warning; what was not seen until the event loop, and what the annotation lacks, are hints. Parameters "
+    "are only missed where some are annotated.",
+    why="The annotation counts where the node cannot be run: on another machine, in a workspace that is not trusted, "
+    "without its hardware. What is wrong in it then leads to wrong findings. It may say more than the run on purpose.",
+    example='<!-- <topics><topic name="scan" type="sensor_msgs/PointCloud" class="pub"/></topics> -->',
+    instead='<!-- <topics><topic name="scan" type="sensor_msgs/LaserScan" class="pub"/></topics> -->',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
