@@ -123,6 +123,30 @@ def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
     assert finding.severity == "info"
 
 
+def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
+    (launch.parent / "CMakeLists.txt").write_text(
+        """
+        project(demo)
+        set(NAME driver)
+        add_executable(${NAME}_target src/driver.cpp)
+        set_target_properties(${NAME}_target PROPERTIES OUTPUT_NAME ${NAME})
+        catkin_install_python(PROGRAMS plain.py)
+        install(PROGRAMS tools/calibrate.py RENAME calibrate DESTINATION bin)
+        """
+    )
+    for name, meant in (
+        ("driver", "'driver' is not built yet: CMakeLists.txt of package 'demo' makes it of src/driver.cpp"),
+        ("plain.py", "'plain.py' is not built yet: CMakeLists.txt of package 'demo' makes it of plain.py"),
+        ("calibrate", "'calibrate' is not installed yet: CMakeLists.txt of package 'demo' installs tools/calibrate.py"),
+    ):
+        (finding,) = judge(launch, name)
+        assert (finding.severity, finding.stops_launch) == ("info", False)
+        assert meant in finding.message
+    (finding,) = judge(launch, "drivr")
+    assert finding.severity == "error"
+    assert finding.message.endswith("did you mean 'driver'?")
+
+
 def test_without_ros_a_package_that_is_not_there_is_no_error(launch: Path) -> None:
     launch.write_text('<launch><node pkg="tf2_ros" type="x" name="n"/><node pkg="demmo" type="x" name="m"/></launch>')
     share = str(launch.parent)

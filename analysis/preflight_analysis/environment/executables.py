@@ -14,6 +14,7 @@ import stat
 from collections.abc import Iterator
 
 from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.environment.cmake import Build, Made, read_build
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import crawl
 from preflight_analysis.environment.walk import walk
@@ -32,6 +33,7 @@ class ExecutableIndex:
         self._sources: dict[str, dict[str, str]] = {}
         self._targets: dict[str, frozenset[str]] = {}
         self._names: dict[str, tuple[str, ...]] = {}
+        self._builds: dict[str, Build] = {}
 
     def find(self, package: str, name: str) -> Executable:
         """What a node of this `pkg` and `type` runs.
@@ -60,11 +62,13 @@ class ExecutableIndex:
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the executable: it is there once the workspace is built.
 
-        A word of the file is taken for its word; `${PROJECT_NAME}` is the package, any other variable unknown.
+        Where the file is not understood a word of it is taken for its word; `${PROJECT_NAME}` is the package.
         """
         found = self._environment.packages.get(package)
         if found is None:
             return False
+        if self.made_of(package, name) is not None:
+            return True
         if package not in self._targets:
             words: set[str] = set()
             for path in self._walked(found.share).get("CMakeLists.txt", ()):
@@ -75,13 +79,28 @@ class ExecutableIndex:
             self._targets[package] = frozenset(words)
         return name in self._targets[package]
 
+    def made_of(self, package: str, name: str) -> Made | None:
+        """The file in the source of the package that the executable is made of, once it is built or installed."""
+        return self._build(package).made_of(name)
+
+    def _build(self, package: str) -> Build:
+        if package not in self._builds:
+            found = self._environment.packages.get(package)
+            self._builds[package] = read_build(found.share, _text) if found is not None else Build()
+        return self._builds[package]
+
     def names(self, package: str) -> tuple[str, ...]:
-        """All that a node of this package could name as its type, sorted. Empty for an unknown package."""
+        """All that a node of this package could name as its type, what is not built yet as well, sorted.
+
+        Empty for an unknown package.
+        """
         found = self._environment.packages.get(package)
         if found is None:
             return ()
         if package not in self._names:
-            names: set[str] = set()
+            build = self._build(package)
+            names = {target.output for target in build.targets.values() if target.kind == "executable"}
+            names |= set(build.programs)
             for folder in self._folders(package, found.share):
                 for name, paths in self._walked(folder).items():
                     if name not in names and any(_is_runnable(path) for path in paths):
@@ -130,6 +149,11 @@ def source_spaces(space: str) -> list[str]:
         os.path.realpath(folder): folder for folder in reversed(listed.split(";")) if folder and "\0" not in folder
     }
     return list(reversed(by_place.values()))
+
+
+def _text(path: str) -> str | None:
+    found = read_text(path)
+    return found.text if isinstance(found, Text) else None
 
 
 def _mode(path: str) -> int | None:

@@ -1,8 +1,10 @@
 """PKG002: an executable that its package does not have."""
 
 from collections.abc import Iterator
+from os.path import relpath
 from pathlib import PurePath
 
+from preflight_analysis.environment.cmake import Made
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -21,12 +23,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         location = attribute_location(node, "type")
         chain = include_chain(node.origin)
-        if found.not_executable:
+        made_of = executables.made_of(node.package, node.executable)
+        if found.not_executable and (made_of is None or not made_of.by_build):
             path = found.not_executable[0]
             yield rule.finding(f"'{path}' is not executable; chmod +x {path}", location, related=chain)
             continue
         if executables.is_build_target(node.package, node.executable):
-            message = f"'{node.executable}' is not built yet: CMakeLists.txt of package '{node.package}' names it"
+            message = _unbuilt(node.executable, node.package, made_of, found.package_path)
             yield rule.finding(message, location, severity="info", confidence="likely", related=chain)
             continue
         names = executables.names(node.package)
@@ -56,6 +59,16 @@ def _other_package(context: Context, executables: ExecutableNames, node: LaunchN
     wanted = {other.package for other in context.tree.nodes} | packages[node.package].dependencies
     own = {name for name in wanted - {node.package} if name in packages and _is_own(context, packages[name])}
     return next((name for name in sorted(own) if node.executable in executables.names(name)), None)
+
+
+def _unbuilt(name: str, package: str, made_of: Made | None, folder: str) -> str:
+    lists = f"CMakeLists.txt of package '{package}'"
+    if made_of is None:
+        return f"'{name}' is not built yet: {lists} names it"
+    source = relpath(made_of.source, folder)
+    if made_of.by_build:
+        return f"'{name}' is not built yet: {lists} makes it of {source}"
+    return f"'{name}' is not installed yet: {lists} installs {source} as this"
 
 
 def _is_own(context: Context, package: Package) -> bool:

@@ -8,6 +8,7 @@ from typing import Any, Protocol, TypeVar
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.cmake import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
@@ -27,6 +28,9 @@ class ExecutableNames(Protocol):
 
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether building the package will make the executable."""
+
+    def made_of(self, package: str, name: str) -> Made | None:
+        """The file in the source of the package that the executable is made of, once it is built or installed."""
 
 
 @dataclass(frozen=True, slots=True)

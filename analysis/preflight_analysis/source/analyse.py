@@ -7,14 +7,16 @@ import os
 import re
 import shlex
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
 
 import yaml
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -24,6 +26,9 @@ from preflight_analysis.source.python_values import UNKNOWN
 from preflight_analysis.source.python_walk import walk
 from preflight_analysis.source.rospy_calls import RospyCalls
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
+
+if TYPE_CHECKING:
+    from preflight_analysis.source.cpp_analysis import CppAnalysis
 
 MAX_MODULES = 30
 """How many modules of one program are followed."""
@@ -73,10 +78,8 @@ class SourceAnalysis:
     def read(self, node: LaunchNode, params: LaunchParams) -> SourceInterface | None:
         """What the source of the node says, None if there is none that can be read."""
         path = node.resolved.path or next(iter(node.resolved.not_executable), None)
-        if path is None:
-            return None
         remaps = tuple((remap.source, remap.target) for remap in node.remaps)
-        key = (path, node.name, node.args, remaps)
+        key = (path, node.package, node.executable, node.name, node.args, remaps)
         known = self._remembered.get(key)
         if known is None or not self._is_valid(known, params):
             known = self._analyse(path, node, remaps, params)
@@ -92,22 +95,47 @@ class SourceAnalysis:
         )
 
     def _analyse(
-        self, path: str, node: LaunchNode, remaps: tuple[tuple[str, str], ...], params: LaunchParams
+        self, path: str | None, node: LaunchNode, remaps: tuple[tuple[str, str], ...], params: LaunchParams
     ) -> _Remembered:
-        program = _Program(self, path, node)
         try:
             args = shlex.split(node.args)
         except ValueError:
             args = node.args.split()
         asked = KnownParams(params, _private_params(args, node.name))
-        found = SourceInterface()
+        resolved = names.resolve_remaps(remaps, node.name)
+        files: dict[str, str] = {}
+
+        def text(name: str) -> tuple[str, str] | None:
+            found = self.text(name)
+            files[name] = found[1] if found is not None else self._texts.digest(name)
+            return found
+
+        script = self._installed_script(node, text) if path is None else None
+        program = _Program(self, script or path, node, files)
         main = program.main()
         if main is not None:
             file, tree = main
-            calls = RospyCalls(node.name, names.resolve_remaps(remaps, node.name), (file, *args), asked, self._has_type)
+            calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type)
             walk(file, tree, program.load, calls)
-            found = SourceInterface(calls.endpoints, calls.params)
-        return _Remembered(program.files, asked.asked, found)
+            found = calls.found
+        else:
+            found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text)
+        return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params))
+
+    def _installed_script(self, node: LaunchNode, text: Callable[[str], tuple[str, str] | None]) -> str | None:
+        """The script that an installation of its package gives the node's name."""
+        package = self._environment.packages.get(node.package)
+        if package is None:
+            return None
+        made = read_build(package.share, lambda path: (text(path) or (None, ""))[0]).programs.get(node.executable)
+        return made.path if made is not None else None
+
+    @cached_property
+    def _cpp(self) -> CppAnalysis:
+        # Loads the parser, which who has no C++ nodes does without.
+        from preflight_analysis.source.cpp_analysis import CppAnalysis  # noqa: PLC0415
+
+        return CppAnalysis(self._environment.packages)
 
     def text(self, path: str) -> tuple[str, str] | None:
         """What a file holds, with its digest."""
@@ -156,19 +184,19 @@ def _private_params(args: Sequence[str], node: str) -> dict[str, Any]:
 
 
 class _Program:
-    """The files of one program. `files` has the digest of each that was looked at."""
+    """The files of one program in Python. `files` gets the digest of each that was looked at."""
 
-    def __init__(self, analysis: SourceAnalysis, path: str, node: LaunchNode) -> None:
+    def __init__(self, analysis: SourceAnalysis, path: str | None, node: LaunchNode, files: dict[str, str]) -> None:
         self._analysis = analysis
-        self._path = path
+        self._path = path or ""
         self._package = node.package
         self._loaded = 0
-        self.files: dict[str, str] = {}
+        self.files = files
 
     def main(self) -> tuple[str, ast.Module] | None:
         """The main file with its tree, None if it is not in Python."""
         path = self._path
-        found = self._analysis.text(path)
+        found = self._analysis.text(path) if path else None
         if found is None:
             return None
         text, self.files[path] = found

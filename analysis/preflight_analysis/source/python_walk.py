@@ -9,7 +9,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 from preflight_analysis.source.python_values import (
@@ -24,6 +23,7 @@ from preflight_analysis.source.python_values import (
     Super,
     is_plain,
 )
+from preflight_analysis.source.ways import ExitError, Ways, same
 
 MAX_STEPS = 60_000
 _MAX_DEPTH = 30
@@ -35,7 +35,6 @@ _TEXT_METHODS = frozenset(
     "format strip lstrip rstrip lower upper title capitalize replace split rsplit join startswith endswith".split()  # noqa: SIM905
 )
 _OBJECT_METHODS = frozenset({"keys", "values", "items", "get", "copy", "index", "count"})
-_ABSENT = object()
 
 
 class Calls(Protocol):
@@ -52,25 +51,8 @@ Load = Callable[[str, int, str], "tuple[str, ast.Module] | None"]
 """A module by its dotted name, the number of leading dots and the file that imports it: its path and tree."""
 
 
-_Key = tuple[int, str]
-
-
-@dataclass(frozen=True, slots=True)
-class _Change:
-    """What one way of a condition did to a name in a dictionary."""
-
-    names: dict[str, Any]
-    name: str
-    old: Any
-    new: Any
-
-
 class _TooLargeError(Exception):
     """The program is larger than what is looked at."""
-
-
-class _ExitError(Exception):
-    """The program ends here."""
 
 
 def walk(path: str, tree: ast.Module, load: Load, calls: Calls) -> None:
@@ -89,7 +71,7 @@ class _Walk:
         self._visits: dict[int, int] = {}
         self._waiting: list[Function] = []
         self._returns: list[list[Any]] = []
-        self._trails: list[list[tuple[dict[str, Any], str, Any]]] = []
+        self._ways = Ways()
 
     def main(self, path: str, tree: ast.Module) -> None:
         try:
@@ -97,14 +79,14 @@ class _Walk:
             for function in self._waiting:  # grows while it is gone through
                 if not self._visits.get(id(function.node)):
                     self._call_function(function, [], {}, unknown=True)
-        except (_TooLargeError, _ExitError, RecursionError):
+        except (_TooLargeError, ExitError, RecursionError):
             return
 
     def _module(self, path: str, tree: ast.Module, name: str) -> Module:
         module = self._modules[path] = Module(path, {"__name__": name, "__file__": path})
         try:
             self._block(tree.body, Scope(module.names, module))
-        except _ExitError:
+        except ExitError:
             if name != "__main__":
                 raise
         return module
@@ -185,50 +167,11 @@ class _Walk:
         truth = _truth(self._value(node.test, scope))
         if truth is not None:
             return self._block(node.body if truth else node.orelse, scope)
-        ended, first = self._try_out(node.body, scope)
-        other_ended, second = self._try_out(node.orelse, scope)
-        if ended and other_ended:
-            return True
-        for key, change in {**first, **second}.items():
-            ours = first[key].new if key in first else change.old
-            theirs = second[key].new if key in second else change.old
-            if ended or ours is _ABSENT:
-                value = theirs
-            elif other_ended or theirs is _ABSENT:
-                value = ours
-            else:
-                value = _same(ours, theirs)
-            if value is not _ABSENT:
-                self._store(change.names, change.name, value)
-        return False
+        return self._ways.either(lambda: self._block(node.body, scope), lambda: self._block(node.orelse, scope))
 
     def _aside(self, statements: Sequence[ast.stmt], scope: Scope) -> None:
         """Go through what is seldom reached; the values that it sets do not count."""
-        try:
-            self._try_out(statements, scope)
-        except _ExitError:
-            return
-
-    def _try_out(self, statements: Sequence[ast.stmt], scope: Scope) -> tuple[bool, dict[_Key, _Change]]:
-        """Go through one way of a condition and take back what it set: whether it ends, and what it set."""
-        trail: list[tuple[dict[str, Any], str, Any]] = []
-        self._trails.append(trail)
-        try:
-            ended = self._block(statements, scope)
-        except _ExitError:
-            ended = True
-        finally:
-            self._trails.pop()
-        new = {(id(names), name): names.get(name, _ABSENT) for names, name, _ in trail}
-        found: dict[_Key, _Change] = {}
-        for names, name, old in reversed(trail):
-            if old is _ABSENT:
-                names.pop(name, None)
-            else:
-                names[name] = old
-            key = id(names), name
-            found[key] = _Change(names, name, old, new[key])
-        return ended, found
+        self._ways.try_out(lambda: self._block(statements, scope))
 
     def _for(self, node: ast.For | ast.AsyncFor, scope: Scope) -> None:
         items = _items(self._value(node.iter, scope))
@@ -298,9 +241,7 @@ class _Walk:
     # Names and values.
 
     def _store(self, names: dict[str, Any], name: str, value: Any) -> None:
-        for trail in self._trails[-1:]:
-            trail.append((names, name, names.get(name, _ABSENT)))
-        names[name] = value
+        self._ways.store(names, name, value)
 
     def _assign(self, target: ast.expr, value: Any, scope: Scope) -> None:
         match target:
@@ -371,7 +312,7 @@ class _Walk:
                 truth = _truth(self._value(node.test, scope))
                 if truth is not None:
                     return self._value(node.body if truth else node.orelse, scope)
-                return _same(self._value(node.body, scope), self._value(node.orelse, scope))
+                return same(self._value(node.body, scope), self._value(node.orelse, scope))
             case ast.BoolOp():
                 return self._bool_op(node, scope)
             case ast.UnaryOp():
@@ -552,7 +493,7 @@ class _Walk:
 
     def _imported(self, path: str, args: list[Any], kwargs: dict[str, Any], node: ast.Call, scope: Scope) -> Any:
         if path in ("sys.exit", "os._exit", "builtins.exit", "builtins.quit"):
-            raise _ExitError
+            raise ExitError
         if path == "builtins.super":
             if len(args) == 2 and isinstance(args[0], Class):
                 return Super(args[0], args[1])
@@ -603,7 +544,7 @@ class _Walk:
             self._active.discard(key)
         result = returned[0] if returned else None
         for other in returned[1:]:
-            result = _same(result, other)
+            result = same(result, other)
         return result
 
     def _parameters(
@@ -632,7 +573,7 @@ class _Walk:
         if isinstance(owner, str):
             return _text_method(owner, method, args)
         if method in ("append", "add") and isinstance(owner, list) and args:
-            if len(owner) < _MAX_ITEMS and not self._trails:
+            if len(owner) < _MAX_ITEMS and not self._ways.inside:
                 owner.append(args[0])
             return None
         if isinstance(owner, dict) and method in _OBJECT_METHODS:
@@ -772,12 +713,6 @@ def _truth(value: Any) -> bool | None:
     if isinstance(value, (list, tuple, dict)):
         return bool(value) or None  # what a branch that is not taken adds to it is not known
     return bool(value) if is_plain(value) else None
-
-
-def _same(value: Any, other: Any) -> Any:
-    if value is other:
-        return value
-    return value if is_plain(value) and type(value) is type(other) and value == other else UNKNOWN
 
 
 def _is_class(scope: Scope) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.found import Found, is_name
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, Imported, StarImported, is_plain
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
@@ -52,7 +53,6 @@ _ACCESS = {
     "rospy.set_param": "set",
     "rospy.delete_param": "delete",
 }
-_MAX_FOUND = 500
 
 HasType = Callable[[str, str, str], bool]
 """Whether a package has a message or service of a name: package, `msg` or `srv`, name."""
@@ -69,20 +69,7 @@ class RospyCalls:
         self._argv = list(argv)
         self._params = params
         self._has_type = has_type
-        self._awaited: list[Endpoint] = []
-        self._endpoints: dict[tuple[str, str, str | None], Endpoint] = {}
-        self._uses: dict[tuple[str, str, bool], ParamUse] = {}
-
-    @property
-    def endpoints(self) -> tuple[Endpoint, ...]:
-        """The ends found, in order; a service that is only waited for is one that is called."""
-        called = {e.name for e in self._endpoints.values() if e.role == "client"}
-        return (*self._endpoints.values(), *(e for e in self._awaited if e.name not in called))
-
-    @property
-    def params(self) -> tuple[ParamUse, ...]:
-        """The uses of parameters found, in order."""
-        return tuple(self._uses.values())
+        self.found = Found()
 
     def value(self, path: str) -> Any:
         """`sys.argv` is known; everything else is what its name says."""
@@ -99,22 +86,21 @@ class RospyCalls:
             role, (first, second), kinds = end
             type_ = self._type(given(1, second), kinds)
             qos = {"latch": True} if role == "publisher" and kwargs.get("latch") is True else {}
-            self._found(Endpoint(role, given(0, first), type_, None, qos, file, line))
+            self.found.end(Endpoint(role, given(0, first), type_, None, qos, file, line))
             return Imported(f"{name}()")
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
-                self._found(Endpoint(role, topic, type_, None, {}, file, line))
+                self.found.end(Endpoint(role, topic, type_, None, {}, file, line))
             return Imported(f"{name}()")
         if name == "rospy.wait_for_service":
             service = given(0, "service")
-            if _is_name(service):
-                self._awaited.append(Endpoint("client", service, None, None, {}, file, line))
+            self.found.await_service(Endpoint("client", service, None, None, {}, file, line))
             return None
         if name in _ACCESS:
             has_default = name.startswith("rospy.get_param") and (len(args) > 1 or "default" in kwargs)
             return self._param(_ACCESS[name], given(0, "param_name"), given(1, "default"), has_default, file, line)
         if name == "rospy.get_param_names":
-            self._use(ParamUse("/", "list", source_file=file, source_line=line))
+            self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
         return self._other(name, args, given)
 
     def _other(self, name: str, args: Sequence[Any], given: Callable[[int, str], Any]) -> Any:
@@ -126,7 +112,7 @@ class RospyCalls:
             return names.parent(self._node)
         if name in ("rospy.resolve_name", "rospy.remap_name"):
             asked = given(0, "name")
-            return names.resolve(asked, self._node, self._remaps) if _is_name(asked) else UNKNOWN
+            return names.resolve(asked, self._node, self._remaps) if is_name(asked) else UNKNOWN
         if name in ("os.path.join", "rospy.names.ns_join", "rospy.ns_join") and all(isinstance(a, str) for a in args):
             return os.path.join(*args) if args else UNKNOWN
         if name == "rospy.numpy_msg":
@@ -135,24 +121,16 @@ class RospyCalls:
 
     def _param(self, access: str, name: Any, default: Any, has_default: bool, file: str, line: int) -> Any:
         default = default if has_default else UNKNOWN
-        if not _is_name(name):
+        if not is_name(name):
             return default
         known = default if is_plain(default) else None
-        self._use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))
+        self.found.use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))
         if access not in ("get", "has"):
             return UNKNOWN
         found = self._params.look(names.resolve(name, self._node, self._remaps))
         if access == "has":
             return UNKNOWN if found is UNKNOWN else True
         return default if found is UNKNOWN else found
-
-    def _use(self, use: ParamUse) -> None:
-        if len(self._uses) < _MAX_FOUND:
-            self._uses.setdefault((use.name, use.access, use.has_default), use)
-
-    def _found(self, endpoint: Endpoint) -> None:
-        if _is_name(endpoint.name) and len(self._endpoints) < _MAX_FOUND:
-            self._endpoints.setdefault((endpoint.role, endpoint.name, endpoint.type), endpoint)
 
     def _type(self, value: Any, kinds: Sequence[str]) -> str | None:
         if isinstance(value, Imported):
@@ -171,7 +149,3 @@ def _plain(path: str) -> str:
     """`rospy.topics.Publisher` is `rospy.Publisher`."""
     top, _, rest = path.partition(".")
     return f"{top}.{rest.rpartition('.')[2]}" if top in _LIBRARIES else path
-
-
-def _is_name(value: Any) -> bool:
-    return isinstance(value, str) and bool(value) and len(value) < 500 and names.is_legal(value)

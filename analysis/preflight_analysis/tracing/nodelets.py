@@ -8,7 +8,8 @@ is what is run, and what the loader asks of the manager is added.
 from __future__ import annotations
 
 import os
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.request import TraceRequest
@@ -37,7 +38,23 @@ def with_manager(interface: Interface, request: TraceRequest) -> Interface:
     return replace(interface, endpoints=(*interface.endpoints, call))
 
 
-def _manager(request: TraceRequest) -> str | None:
-    if request.package != "nodelet" or os.path.basename(request.executable) != "nodelet":
+@dataclass(frozen=True, slots=True)
+class Nodelet:
+    """What the program of package nodelet is to run: `plugin` is `package/Type`; None for no manager."""
+
+    plugin: str
+    manager: str | None
+
+
+def nodelet_of(package: str, executable: str, args: Sequence[str]) -> Nodelet | None:
+    """The nodelet that a node loads or is, None if it is no such node."""
+    if package != "nodelet" or os.path.basename(executable) != "nodelet" or len(args) < 2:
         return None
-    return request.args[2] if len(request.args) > 2 and request.args[0] == "load" else None
+    if args[0] == "standalone":
+        return Nodelet(args[1], None)
+    return Nodelet(args[1], args[2]) if args[0] == "load" and len(args) > 2 else None
+
+
+def _manager(request: TraceRequest) -> str | None:
+    found = nodelet_of(request.package, request.executable, request.args)
+    return found.manager if found is not None else None

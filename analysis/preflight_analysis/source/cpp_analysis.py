@@ -1,0 +1,78 @@
+"""The C++ source of a node to what it may do: its program is put together, gone through, and asked what it makes."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+
+from preflight_analysis.environment.model import Package
+from preflight_analysis.evaluation import names
+from preflight_analysis.source.cpp_files import CppFiles
+from preflight_analysis.source.cpp_text import FileText, parse
+from preflight_analysis.source.cpp_walk import walk_class, walk_main
+from preflight_analysis.source.found import Found
+from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.roscpp_calls import RoscppCalls
+from preflight_analysis.tracing.interface import Endpoint
+from preflight_analysis.tracing.nodelets import nodelet_of
+
+_MAX_FILES = 256
+_NODELET = "nodelet::Nodelet"
+
+
+class CppAnalysis:
+    """Reads the C++ sources of nodes; what a file declares is remembered by its digest. Thread-safe."""
+
+    def __init__(self, packages: Mapping[str, Package]) -> None:
+        self._packages = packages
+        self._lock = threading.Lock()
+        self._files: dict[tuple[str, str], FileText | None] = {}
+
+    def read(
+        self,
+        node: tuple[str, str, str],
+        args: Sequence[str],
+        remaps: Mapping[str, str],
+        params: KnownParams,
+        text: Callable[[str], tuple[str, str] | None],
+    ) -> Found:
+        """What a node (its name, package and executable) makes. `text` gives the text of a file with its digest."""
+        name, package, executable = node
+        files = CppFiles(
+            self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text)
+        )
+        calls = RoscppCalls(name, remaps, params)
+        if (nodelet := nodelet_of(package, executable, args)) is not None:
+            self._nodelet(files, nodelet.plugin, calls)
+            if nodelet.manager is not None and (calls.found.endpoints or calls.found.params):
+                calls.found.end(Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad"))
+        elif (program := files.executable(package, executable)) is not None:
+            calls.includes = program.includes
+            walk_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
+            for loaded, plugin in calls.nodelets:
+                full = names.resolve(loaded, name)
+                calls.private = "~" if full == name else full
+                self._nodelet(files, plugin, calls)
+        return calls.found
+
+    def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:
+        found = files.plugin(plugin, _NODELET)
+        if found is not None:
+            program, cls = found
+            calls.includes = program.includes
+            walk_class(program, cls, "onInit", calls)
+
+    def _file(self, path: str, text: Callable[[str], tuple[str, str] | None]) -> FileText | None:
+        found = text(path)
+        if found is None:
+            return None
+        key = (path, found[1])
+        with self._lock:
+            if key in self._files:
+                return self._files[key]
+        declared = parse(path, found[0])
+        with self._lock:
+            self._files[key] = declared
+            if len(self._files) > _MAX_FILES:
+                del self._files[next(iter(self._files))]
+        return declared

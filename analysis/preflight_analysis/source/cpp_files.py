@@ -1,0 +1,143 @@
+"""The files of a C++ program: which there are says the package's `CMakeLists.txt`, which they include they themselves.
+
+Headers of packages in source form are followed, and with a header of another package the source that goes with it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import PurePath
+
+from lxml import etree
+
+from preflight_analysis.environment.cmake import Build, Target, read_build
+from preflight_analysis.environment.model import Package
+from preflight_analysis.source.cpp_program import CppProgram
+from preflight_analysis.source.cpp_text import FileText
+
+MAX_FILES = 200
+"""How many files of one program are looked at."""
+
+_PLUGIN_FILES = 10
+
+
+class CppFiles:
+    """Puts one program together. `read` gives the text of a file, `parse` what a file declares; both note that the
+    file was looked at."""
+
+    def __init__(
+        self,
+        packages: Mapping[str, Package],
+        read: Callable[[str], str | None],
+        parse: Callable[[str], FileText | None],
+    ) -> None:
+        self._packages = packages
+        self._read = read
+        self._parse = parse
+        self._builds: dict[str, Build] = {}
+
+    def build(self, package: str) -> Build:
+        """What a package builds; nothing for one that is not there in source form."""
+        if package not in self._builds:
+            found = self._packages.get(package)
+            self._builds[package] = read_build(found.share, self._read) if found is not None else Build()
+        return self._builds[package]
+
+    def executable(self, package: str, name: str) -> CppProgram | None:
+        """The program that an executable of a package is built from."""
+        target = self.build(package).executable(name)
+        return self._program(package, target) if target is not None else None
+
+    def plugin(self, name: str, base: str) -> tuple[CppProgram, str] | None:
+        """The program with the class that a plugin `package/Name` is, and the name of the class."""
+        package, _, _ = name.partition("/")
+        for library, type_, plugin in self._plugins(package, base):
+            if plugin == name or type_ == name.replace("/", "::"):
+                build = self.build(package)
+                target = build.library(PurePath(library).name)
+                return (self._program(package, target), type_) if target is not None else None
+        return None
+
+    def _plugins(self, package: str, base: str) -> Iterator[tuple[str, str, str]]:
+        """Library, class and name of each plugin that a package exports."""
+        found = self._packages.get(package)
+        if found is None:
+            return
+        manifest = _xml(self._read(found.manifest))
+        exported = manifest.find(".//export") if manifest is not None else None
+        paths = [
+            value.replace("${prefix}", found.share)
+            for element in (exported if exported is not None else ())
+            for value in (element.get("plugin"),)
+            if value and isinstance(element.tag, str)
+        ]
+        for path in paths[:_PLUGIN_FILES]:
+            described = _xml(self._read(os.path.normpath(os.path.join(found.share, path))))
+            for library in described.iter("library") if described is not None else ():
+                for cls in library.iter("class"):
+                    if cls.get("base_class_type") == base and (type_ := cls.get("type")):
+                        yield library.get("path") or "", type_, cls.get("name") or type_.replace("::", "/")
+
+    def _program(self, package: str, target: Target) -> CppProgram:
+        found: dict[str, FileText] = {}
+        pending = list(self.build(package).sources(target))
+        known = set(pending)
+        while pending and len(found) < MAX_FILES:
+            path = pending.pop(0)
+            text = self._parse(path)
+            if text is None:
+                continue
+            found[path] = text
+            for more in self._included(text, package):
+                if more not in known:
+                    known.add(more)
+                    pending.append(more)
+        return CppProgram(list(found.values()))
+
+    def _included(self, file: FileText, package: str) -> Iterator[str]:
+        for include in file.includes:
+            folders = [os.path.dirname(file.path), *self._folders(package)]
+            other = include.partition("/")[0]
+            if other != package:
+                folders += self._folders(other)
+            path = _first(os.path.normpath(os.path.join(folder, include)) for folder in folders)
+            if path is None:
+                continue
+            yield path
+            if other in self._packages and other != package:
+                yield from self._implementing(path, other)
+
+    def _folders(self, package: str) -> list[str]:
+        found = self._packages.get(package)
+        if found is None:
+            return []
+        share = found.share
+        return [
+            os.path.join(share, "include"),
+            os.path.join(share, "src"),
+            share,
+            os.path.join(share, "include", package),
+        ]
+
+    def _implementing(self, header: str, package: str) -> Iterator[str]:
+        stem = PurePath(header).stem
+        for target in self.build(package).targets.values():
+            if target.kind == "library":
+                yield from (source for source in target.sources if PurePath(source).stem == stem)
+
+
+def _first(paths: Iterable[str]) -> str | None:
+    return next((path for path in paths if os.path.isfile(path)), None)
+
+
+def _xml(text: str | None) -> etree._Element | None:
+    if text is None:
+        return None
+    parser = etree.XMLParser(encoding="utf-8", recover=True, resolve_entities=False, no_network=True, load_dtd=False)
+    try:
+        # Descriptions of plugins often have several elements at the top.
+        body = text[text.find("?>") + 2 :] if text.lstrip().startswith("<?xml") else text
+        return etree.fromstring(f"<all>{body}</all>".encode("utf-8", "surrogatepass"), parser)
+    except etree.XMLSyntaxError:
+        return None

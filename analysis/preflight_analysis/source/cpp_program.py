@@ -1,0 +1,153 @@
+"""The declarations of all files of a C++ program together, and how a name in one of them is looked up."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+from tree_sitter import Node
+
+from preflight_analysis.source.cpp_text import (
+    ClassText,
+    FieldText,
+    FileText,
+    FunctionText,
+    Path,
+    first_child,
+    path_of,
+)
+from preflight_analysis.source.cpp_values import CppType, Scope
+
+_T = TypeVar("_T")
+_MAX_DEPTH = 12
+_MAX_ARGUMENTS = 16
+
+
+class CppProgram:
+    """The files of one program, the one that counts for a name first."""
+
+    def __init__(self, files: Sequence[FileText]) -> None:
+        self.files = tuple(files)
+        self.defines: dict[str, str] = {}
+        self.classes: dict[Path, ClassText] = {}
+        self.functions: dict[Path, list[FunctionText]] = {}
+        self.variables: dict[Path, FieldText] = {}
+        self._aliases: dict[Path, tuple[Node, Path, FileText]] = {}
+        namespaces: dict[Path, None] = {}
+        for file in self.files:
+            self.defines = {**file.defines, **self.defines}
+            self.classes = {**file.classes, **self.classes}
+            namespaces.update(dict.fromkeys(file.namespaces))
+            for path, (node, scope) in file.aliases.items():
+                self._aliases.setdefault(path, (node, scope, file))
+        self._namespaces = tuple(namespaces)
+        self.includes = tuple(include for file in self.files for include in file.includes)
+        for file in self.files:
+            for path, functions in file.functions.items():
+                whole = self._whole(path)
+                found = functions if whole == path else [replace(each, scope=whole[:-1]) for each in functions]
+                self.functions.setdefault(whole, []).extend(found)
+            for path, variable in file.variables.items():
+                whole = self._whole(path)
+                known = self.variables.get(whole)
+                if known is None or known.value is None:
+                    self.variables[whole] = replace(variable, scope=whole[:-1])
+
+    def _whole(self, path: Path) -> Path:
+        """The name of a member that is defined outside of its class, where namespaces that are used are left out."""
+        cls = path[:-1]
+        if not cls or cls in self.classes:
+            return path
+        for space in self._namespaces:
+            if (*space, *cls) in self.classes:
+                return (*space, *path)
+        return path
+
+    def lookup(self, table: Mapping[Path, _T], path: Path, where: Path) -> _T | None:
+        """What `path` means at a place within the names `where`."""
+        found = self.find(table, path, where)
+        return table[found] if found is not None else None
+
+    def find(self, table: Mapping[Path, object], path: Path, where: Path) -> Path | None:
+        """The qualified name of what `path` means at a place within the names `where`."""
+        if path[:1] == ("",):
+            path, where = path[1:], ()
+        for length in range(len(where), -1, -1):
+            if (*where[:length], *path) in table:
+                return (*where[:length], *path)
+        return next(((*space, *path) for space in self._namespaces if (*space, *path) in table), None)
+
+    def type_of(self, node: Node | None, scope: Scope, depth: int = 0) -> CppType | None:
+        """The type that is written at `node`; None for `auto` and what is no type."""
+        if node is None or depth > _MAX_DEPTH:
+            return None
+        if node.type in ("type_descriptor", "dependent_type"):
+            inner = node.child_by_field_name("type") or first_child(node)
+            return self.type_of(inner, scope, depth + 1)
+        if node.type in ("placeholder_type_specifier", "auto", "decltype"):
+            return None
+        args = tuple(
+            found
+            for each in template_arguments(node)[:_MAX_ARGUMENTS]
+            if (found := self.type_of(each, scope, depth + 1)) is not None
+        )
+        return self.named_type(path_of(node), args, scope, depth)
+
+    def named_type(self, path: Path, args: tuple[CppType, ...], scope: Scope, depth: int = 0) -> CppType:
+        """The type of a name, what aliases mean put in its place."""
+        bound: Scope | None = scope
+        while bound is not None and path:
+            if path[0] in bound.types:
+                known = bound.types[path[0]]
+                return _inside(known, path[1:], args)
+            bound = bound.parent
+        places = [scope.where]
+        if scope.this is not None:
+            places += [cls.text.path for cls in scope.this.cls.order()]
+        for where in places:
+            for length in range(len(path), 0, -1):
+                if (found := self.find(self._aliases, path[:length], where)) is not None:
+                    node, around, file = self._aliases[found]
+                    if path_of(node) == path[:length] and around == where:
+                        continue  # `using X = X;`
+                    inner = Scope({}, around, file, scope.types, scope.this)
+                    meant = self.type_of(node, inner, depth + 1)
+                    if meant is not None:
+                        return _inside(meant, path[length:], args)
+        cls = next((c for where in places if (c := self.find(self.classes, path, where)) is not None), None)
+        return CppType("::".join(cls or tuple(part for part in path if part)), args, scope.file)
+
+    def class_of(self, type_: CppType) -> ClassText | None:
+        """The class of the program that a type is."""
+        return self.classes.get(tuple(type_.name.split("::")))
+
+    def main(self) -> FunctionText | None:
+        """Where the program starts."""
+        found = self.functions.get(("main",), ())
+        return next((each for each in found if each.body is not None), None)
+
+
+def _inside(type_: CppType, rest: Path, args: tuple[CppType, ...]) -> CppType:
+    return CppType("::".join((type_.name, *rest)), args or type_.args, type_.file)
+
+
+def template_arguments(node: Node | None) -> list[Node]:
+    """The arguments of the last template in a qualified name."""
+    for _ in range(_MAX_DEPTH):
+        if node is None:
+            return []
+        if node.type in ("template_type", "template_function", "template_method"):
+            listed = node.child_by_field_name("arguments")
+            return listed.named_children if listed is not None else []
+        if node.type == "qualified_identifier":
+            name = node.child_by_field_name("name")
+            found = template_arguments(name)
+            if found:
+                return found
+            node = node.child_by_field_name("scope")
+        elif node.type == "dependent_name":
+            node = first_child(node)
+        else:
+            return []
+    return []

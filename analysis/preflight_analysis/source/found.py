@@ -1,0 +1,50 @@
+"""What the calls of one node were found to make, each once, in order."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.tracing.interface import Endpoint, ParamUse
+
+_MAX_FOUND = 500
+
+
+class Found:
+    """Collects endpoints and uses of parameters; those whose name is not known are left out."""
+
+    def __init__(self) -> None:
+        self._awaited: list[Endpoint] = []
+        self._endpoints: dict[tuple[str, str, str | None], Endpoint] = {}
+        self._uses: dict[tuple[str, str, bool], ParamUse] = {}
+
+    @property
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """The ends found, in order; a service that is only waited for is one that is called."""
+        called = {e.name for e in self._endpoints.values() if e.role == "client"}
+        return (*self._endpoints.values(), *(e for e in self._awaited if e.name not in called))
+
+    @property
+    def params(self) -> tuple[ParamUse, ...]:
+        """The uses of parameters found, in order."""
+        return tuple(self._uses.values())
+
+    def end(self, endpoint: Endpoint) -> None:
+        """One end that is made."""
+        if is_name(endpoint.name) and len(self._endpoints) < _MAX_FOUND:
+            self._endpoints.setdefault((endpoint.role, endpoint.name, endpoint.type), endpoint)
+
+    def await_service(self, endpoint: Endpoint) -> None:
+        """A service that is waited for."""
+        if is_name(endpoint.name):
+            self._awaited.append(endpoint)
+
+    def use(self, use: ParamUse) -> None:
+        """One use of a parameter."""
+        if len(self._uses) < _MAX_FOUND:
+            self._uses.setdefault((use.name, use.access, use.has_default), use)
+
+
+def is_name(value: Any) -> bool:
+    """Whether it is a name that is known and could be one in ROS."""
+    return isinstance(value, str) and bool(value) and len(value) < 500 and names.is_legal(value)

@@ -1,0 +1,95 @@
+"""Both ways of a condition that is not known: what each sets is taken back, and what they agree on counts after it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from preflight_analysis.source.python_values import UNKNOWN, is_plain
+
+_ABSENT = object()
+_Key = tuple[int, str]
+
+
+class ExitError(Exception):
+    """The program that is gone through ends here."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What one way of a condition did to a name in a dictionary."""
+
+    names: dict[str, Any]
+    name: str
+    old: Any
+    new: Any
+
+
+Changes = dict[_Key, Change]
+
+
+class Ways:
+    """Keeps a trail of what is stored while a way is tried out."""
+
+    def __init__(self) -> None:
+        self._trails: list[list[tuple[dict[str, Any], str, Any]]] = []
+
+    @property
+    def inside(self) -> bool:
+        """Whether a way is being tried out: what is done then may well not be done."""
+        return bool(self._trails)
+
+    def store(self, names: dict[str, Any], name: str, value: Any) -> None:
+        """Set a name in a dictionary. Whatever is set without this is not taken back."""
+        for trail in self._trails[-1:]:
+            trail.append((names, name, names.get(name, _ABSENT)))
+        names[name] = value
+
+    def try_out(self, way: Callable[[], bool]) -> tuple[bool, Changes]:
+        """Go one way and take back what it set: whether it ends (what follows is not reached), and what it set."""
+        trail: list[tuple[dict[str, Any], str, Any]] = []
+        self._trails.append(trail)
+        try:
+            ended = way()
+        except ExitError:
+            ended = True
+        finally:
+            self._trails.pop()
+        new = {(id(names), name): names.get(name, _ABSENT) for names, name, _ in trail}
+        found: Changes = {}
+        for names, name, old in reversed(trail):
+            if old is _ABSENT:
+                names.pop(name, None)
+            else:
+                names[name] = old
+            key = id(names), name
+            found[key] = Change(names, name, old, new[key])
+        return ended, found
+
+    def either(self, first_way: Callable[[], bool], second_way: Callable[[], bool]) -> bool:
+        """Go both ways, one of which is taken: whether both end."""
+        ended, first = self.try_out(first_way)
+        other_ended, second = self.try_out(second_way)
+        if ended and other_ended:
+            return True
+        for key, change in {**first, **second}.items():
+            ours = first[key].new if key in first else change.old
+            theirs = second[key].new if key in second else change.old
+            if ended or ours is _ABSENT:
+                value = theirs
+            elif other_ended or theirs is _ABSENT:
+                value = ours
+            else:
+                value = same(ours, theirs)
+            if value is not _ABSENT:
+                self.store(change.names, change.name, value)
+        return False
+
+
+def same(value: Any, other: Any) -> Any:
+    """What two ways agree on."""
+    if value is other:
+        return value
+    known = is_plain(value) or not isinstance(value, (list, tuple, dict))
+    return value if known and type(value) is type(other) and value == other else UNKNOWN

@@ -1,0 +1,182 @@
+"""What a package builds, as its `CMakeLists.txt` says."""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from preflight_analysis.environment.cmake import Build, Made, read_build
+
+
+def read(path: str) -> str | None:
+    file = Path(path)
+    return file.read_text() if file.is_file() else None
+
+
+class Desk:
+    """A package folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def write(self, name: str, text: str = "") -> None:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+
+    def build(self, text: str) -> Build:
+        self.write("CMakeLists.txt", text)
+        return read_build(str(self.folder), read)
+
+    def sources(self, build: Build, name: str) -> list[str] | None:
+        target = build.executable(name)
+        return [str(Path(s).relative_to(self.folder)) for s in build.sources(target)] if target else None
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    return Desk(tmp_path)
+
+
+def test_executables_and_the_libraries_of_the_package_they_are_linked_with(desk: Desk) -> None:
+    build = desk.build(
+        """
+        cmake_minimum_required(VERSION 3.0.2)
+        project(demo)  # a comment (with parentheses)
+        find_package(catkin REQUIRED COMPONENTS roscpp)
+        add_library(${PROJECT_NAME}_core SHARED src/core.cpp)
+        add_library(base src/base.cc)
+        target_link_libraries(${PROJECT_NAME}_core PUBLIC base ${catkin_LIBRARIES})
+        add_executable(${PROJECT_NAME}_node src/node.cpp include/demo/node.h)
+        target_link_libraries(${PROJECT_NAME}_node ${PROJECT_NAME}_core ${catkin_LIBRARIES})
+        target_sources(demo_node PRIVATE src/more.cpp)
+        #[[ add_executable(none src/none.cpp) ]]
+        """
+    )
+    assert desk.sources(build, "demo_node") == ["src/node.cpp", "src/more.cpp", "src/core.cpp", "src/base.cc"]
+    assert build.executable("none") is None
+    library = build.library("libdemo_core")
+    assert library is not None and library.name == "demo_core"
+    assert build.library("demo_core.so") is library and build.library("other") is None
+
+
+def test_variables_lists_and_globs(desk: Desk) -> None:
+    for name in ("src/b.cpp", "src/a.cpp", "src/deep/c.cpp", "src/a.hpp", "gen/x.cpp"):
+        desk.write(name)
+    build = desk.build(
+        """
+        project(demo)
+        set(SRCS src/one.cpp
+                 "src/two.cpp")
+        list(APPEND SRCS src/three.cpp)
+        add_executable(listed ${SRCS} ${NOT_SET})
+        file(GLOB FOUND src/*.cpp)
+        add_executable(globbed ${FOUND})
+        file(GLOB_RECURSE ALL "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp")
+        add_executable(deep ${ALL})
+        aux_source_directory(gen GENERATED)
+        add_executable(aux ${GENERATED})
+        set(A ${B}) # goes round
+        set(B ${A})
+        add_executable(${A}named_${A} src/n.cpp)
+        """
+    )
+    assert desk.sources(build, "listed") == ["src/one.cpp", "src/two.cpp", "src/three.cpp"]
+    assert desk.sources(build, "globbed") == ["src/a.cpp", "src/b.cpp"]
+    assert desk.sources(build, "deep") == ["src/a.cpp", "src/b.cpp", "src/deep/c.cpp"]
+    assert desk.sources(build, "aux") == ["gen/x.cpp"]
+    assert desk.sources(build, "named_") == ["src/n.cpp"]
+
+
+def test_names_of_files(desk: Desk) -> None:
+    build = desk.build(
+        """
+        add_executable(demo_a a.cpp)
+        add_executable(demo_b b.cpp)
+        add_executable(demo_c c.cpp)
+        set_target_properties(demo_a PROPERTIES OUTPUT_NAME a PREFIX "")
+        set_target_properties(demo_b PROPERTIES PREFIX "" OUTPUT_NAME b)
+        set_property(TARGET demo_c PROPERTY OUTPUT_NAME c)
+        """
+    )
+    assert [t.output for t in build.targets.values()] == ["a", "b", "c"]
+
+
+def test_loops_macros_and_folders(desk: Desk) -> None:
+    desk.write("below/CMakeLists.txt", "add_executable(inner inner.cpp ../src/shared.cpp)\n")
+    desk.write("cmake/more.cmake", "add_executable(included src/included.cpp)\n")
+    build = desk.build(
+        """
+        project(demo)
+        macro(node name)
+          add_executable(${name} src/${name}.cpp ${ARGN})
+        endmacro()
+        function(quiet name)
+          set(HIDDEN yes)
+          add_executable(${name}${SUFFIX} src/${name}.cpp)
+        endfunction()
+        foreach(each first second)
+          node(${each} src/common.cpp)
+        endforeach()
+        set(KINDS x y)
+        foreach(kind IN LISTS KINDS)
+          quiet(${kind})
+        endforeach()
+        if(WIN32)
+          add_executable(windows src/w.cpp)
+        else()
+          add_executable(linux src/l.cpp)
+        endif()
+        add_subdirectory(below)
+        include(cmake/more.cmake)
+        add_executable(last${HIDDEN} last.cpp)
+        """
+    )
+    assert desk.sources(build, "first") == ["src/first.cpp", "src/common.cpp"]
+    assert desk.sources(build, "inner") == ["below/inner.cpp", "src/shared.cpp"]
+    assert {t.output for t in build.targets.values()} >= {"x", "y", "windows", "linux", "included", "last"}
+
+
+def test_scripts(desk: Desk) -> None:
+    build = desk.build(
+        """
+        catkin_install_python(PROGRAMS scripts/a.py scripts/b.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+        install(PROGRAMS scripts/c.py DESTINATION bin RENAME c)
+        install(TARGETS x RUNTIME DESTINATION bin)
+        """
+    )
+    assert set(build.programs) == {"a.py", "b.py", "c"}
+    assert build.made_of("b.py") == Made(str(desk.folder / "scripts/b.py"), True)
+    assert build.made_of("c") == Made(str(desk.folder / "scripts/c.py"), False)
+    assert build.made_of("x") is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "add_subdirectory(.)\nadd_executable(a a.cpp)",
+        "include(CMakeLists.txt)\nadd_executable(a a.cpp)",
+        "macro(m)\n m()\n m()\nendmacro()\nadd_executable(a a.cpp)\nm()",
+        "set(x aaaaaaaaaa)\n" + "set(x ${x}${x}${x}${x})\n" * 60 + "add_executable(a a.cpp)",
+        "add_executable(a a.cpp)\nadd_executable(b b.cpp",
+        "add_executable(a a.cpp)\n" + "foreach(x 1 2 3 4 5 6 7 8 9)\n" * 30 + "set(y 1)\n" + "endforeach()\n" * 30,
+        "add_executable(a a.cpp))))\nendmacro()",
+        'add_executable(a a.cpp)\nset(x "',
+        "add_executable()\nset()\nfile(GLOB)\nset_target_properties()\nforeach()\nendforeach()\n"
+        "add_executable(a a.cpp)",
+    ],
+)
+def test_odd_files_end_soon_and_raise_nothing(desk: Desk, text: str) -> None:
+    assert desk.sources(desk.build(text), "a") == ["a.cpp"]
+
+
+PIECES = [*'()"#[]=${};\\ \nab', "set", "foreach", "endforeach", "macro", "add_executable", "add_subdirectory"]
+
+
+@settings(deadline=None)
+@given(st.lists(st.sampled_from(PIECES)).map("".join))
+def test_any_text_is_read(text: str) -> None:
+    read_build("/nowhere", lambda path: text)

@@ -1,0 +1,592 @@
+"""What the text of a C++ node alone tells of it."""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.packages import find_packages
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
+from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+HEAD = "#include <ros/ros.h>\n#include <std_msgs/String.h>\n"
+NODE = '<node pkg="p" type="t" name="n" args="{args}">{inner}</node>'
+CMAKE = "project(p)\nadd_executable(t src/t.cpp)\n"
+
+
+class Desk:
+    """A package that was never built, with a node in it."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.write("package.xml", "<package><name>p</name></package>")
+        self.write("CMakeLists.txt", CMAKE)
+        package = Package("p", str(folder), str(folder / "package.xml"))
+        self.environment = Environment(1, "noetic", {}, (str(folder),), {"p": package}, {}, (), (), None)
+        self.sources = Sources()
+        self.analysis = SourceAnalysis(self.environment, self.sources)
+
+    def write(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+        return path
+
+    def add_package(self, name: str) -> Path:
+        self.write(f"{name}/package.xml", f"<package><name>{name}</name></package>")
+        package = Package(name, str(self.folder / name), str(self.folder / name / "package.xml"))
+        packages = {**self.environment.packages, name: package}
+        self.environment = Environment(1, "noetic", {}, (str(self.folder),), packages, {}, (), (), None)
+        self.analysis = SourceAnalysis(self.environment, self.sources)
+        return self.folder / name
+
+    def launch(self, inner: str = "", args: str = "", node: str = NODE) -> LaunchTree:
+        path = self.write("main.launch", f"<launch>{node.format(inner=inner, args=args)}</launch>")
+        return Workspace(self.environment, self.sources, str(self.folder)).static(str(path)).tree
+
+    def read(self, text: str, **more: str) -> SourceInterface | None:
+        self.write("src/t.cpp", HEAD + textwrap.dedent(text))
+        return self.again(**more)
+
+    def again(self, **more: str) -> SourceInterface | None:
+        tree = self.launch(**more)
+        params = LaunchParams({p.name: p.value for p in tree.params.values()})
+        return self.analysis.read(tree.nodes[0], params)
+
+    def main(self, body: str, before: str = "", **more: str) -> list[tuple[str, str, str | None]]:
+        start = 'int main(int argc, char** argv) {\nros::init(argc, argv, "t");\n'
+        return ends(self.read(f"{before}\n{start}{textwrap.dedent(body)}\nros::spin();\nreturn 0;\n}}\n", **more))
+
+    def topics(self, body: str, before: str = "", **more: str) -> list[str]:
+        return [name for _, name, _ in self.main(body, before, **more)]
+
+
+def ends(found: SourceInterface | None) -> list[tuple[str, str, str | None]]:
+    return [(e.role, e.name, e.type) for e in found.endpoints] if found else []
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    return Desk(tmp_path)
+
+
+def test_each_kind_of_end(desk: Desk) -> None:
+    assert desk.main(
+        """
+        ros::NodeHandle nh, pnh("~");
+        ros::Publisher a = nh.advertise<std_msgs::String>("a", 10, true);
+        ros::Subscriber b = pnh.subscribe("b", 1, heard);
+        ros::ServiceServer c = nh.advertiseService("c", serve);
+        ros::ServiceClient d = nh.serviceClient<std_srvs::Trigger>("d");
+        ros::service::waitForService("d"); ros::service::waitForService("e");
+        std_srvs::Empty empty;
+        ros::service::call("f", empty);
+        actionlib::SimpleActionServer<nav::GoAction> g(nh, "g", boost::bind(&execute, _1, &g), false);
+        actionlib::SimpleActionClient<nav::GoAction> h("/h", true);
+        message_filters::Subscriber<sensor_msgs::CameraInfo> i(nh, "i", 1);
+        message_filters::Subscriber<sensor_msgs::Imu> j;
+        j.subscribe(pnh, "j", 5);
+        ros::topic::waitForMessage<sensor_msgs::PointCloud2>("k", nh, ros::Duration(1));
+        tf2_ros::Buffer buffer;
+        tf2_ros::TransformListener listener(buffer);
+        static tf::TransformBroadcaster broadcaster;
+        ros::Subscriber l = nh.subscribe("l", 1, any);
+        """,
+        before="""
+        void heard(const sensor_msgs::ImageConstPtr& image) {}
+        bool serve(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) { return true; }
+        void execute(const nav::GoGoalConstPtr& goal, Server* server) {}
+        void any(const ros::MessageEvent<topic_tools::ShapeShifter const>& event) {}
+        """,
+    ) == [
+        ("publisher", "a", "std_msgs/String"),
+        ("subscriber", "~b", "sensor_msgs/Image"),
+        ("service", "c", "std_srvs/SetBool"),
+        ("client", "d", "std_srvs/Trigger"),
+        ("client", "f", "std_srvs/Empty"),
+        ("action_server", "g", "nav/GoAction"),
+        ("action_client", "/h", "nav/GoAction"),
+        ("subscriber", "i", "sensor_msgs/CameraInfo"),
+        ("subscriber", "~j", "sensor_msgs/Imu"),
+        ("subscriber", "k", "sensor_msgs/PointCloud2"),
+        ("subscriber", "/tf", "tf2_msgs/TFMessage"),
+        ("subscriber", "/tf_static", "tf2_msgs/TFMessage"),
+        ("publisher", "/tf", "tf2_msgs/TFMessage"),
+        ("subscriber", "l", "*"),
+        ("client", "e", None),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("parameter", "type_"),
+    [
+        ("const sensor_msgs::ImageConstPtr& m", "sensor_msgs/Image"),
+        ("const sensor_msgs::Image::ConstPtr& m", "sensor_msgs/Image"),
+        ("sensor_msgs::ImagePtr m", "sensor_msgs/Image"),
+        ("const sensor_msgs::Image& m", "sensor_msgs/Image"),
+        ("boost::shared_ptr<sensor_msgs::Image const> m", "sensor_msgs/Image"),
+        ("const boost::shared_ptr<const sensor_msgs::Image>& m", "sensor_msgs/Image"),
+        ("const String::ConstPtr& m", "std_msgs/String"),
+        ("const StringConstPtr m", "std_msgs/String"),
+        ("const Picture& m", "sensor_msgs/Image"),
+        ("const sm::Image& m", "sensor_msgs/Image"),
+        ("const ros::MessageEvent<sensor_msgs::Image>& m", "sensor_msgs/Image"),
+        ("double m", None),
+    ],
+)
+def test_types_of_callbacks(desk: Desk, parameter: str, type_: str | None) -> None:
+    before = f"""
+        using namespace std_msgs;
+        namespace sm = sensor_msgs;
+        typedef sensor_msgs::Image Picture;
+        void heard({parameter}) {{}}
+        class Box {{ public: void heard({parameter}) {{}} void more(int i, {parameter}) {{}} }};
+        """
+    assert desk.main(
+        f"""
+        ros::NodeHandle nh;
+        Box box;
+        nh.subscribe("a", 1, heard);
+        nh.subscribe("b", 1, &Box::heard, &box);
+        nh.subscribe("c", 1, boost::function<void(int)>(boost::bind(&Box::more, &box, 3, _1)));
+        auto d = [&box]({parameter}) {{ box.heard(m); }};
+        nh.subscribe("d", 1, d);
+        """,
+        before,
+    ) == [("subscriber", name, type_) for name in "abcd"]
+
+
+def test_computed_names(desk: Desk) -> None:
+    assert desk.topics(
+        """
+        ros::NodeHandle nh;
+        nh.advertise<std_msgs::String>(BASE "/state", 1);
+        nh.advertise<std_msgs::String>(std::string(BASE) + "/goal", 1);
+        nh.advertise<std_msgs::String>(Names::LASER, 1);
+        nh.advertise<std_msgs::String>(prefix + SUFFIX, 1);
+        for (int i = 0; i < 2; ++i) {
+          std::ostringstream name;
+          name << "wheel" << i;
+          nh.advertise<std_msgs::String>(name.str(), 1);
+          nh.advertise<std_msgs::String>("joint" + std::to_string(i), 1);
+        }
+        std::vector<std::string> sides = {"left", "right"};
+        for (const auto& side : sides) nh.advertise<std_msgs::String>(side.c_str(), 1);
+        nh.advertise<std_msgs::String>(ros::this_node::getName() + "/own", 1);
+        nh.advertise<std_msgs::String>(topic("y"), 1);
+        nh.advertise<std_msgs::String>(compute(), 1);
+        nh.advertise<std_msgs::String>("not a name", 1);
+        """,
+        before="""
+        #define BASE "arm"
+        const std::string SUFFIX = "_x";
+        static const char* prefix = "scan";
+        struct Names { static constexpr char LASER[] = "laser"; };
+        std::string topic(std::string name, const char* more = "_z") { return name + more; }
+        """,
+    ) == [
+        "arm/state",
+        "arm/goal",
+        "laser",
+        "scan_x",
+        "wheel0",
+        "joint0",
+        "wheel1",
+        "joint1",
+        "left",
+        "right",
+        "/n/own",
+        "y_z",
+    ]
+
+
+def test_namespaces_of_handles(desk: Desk) -> None:
+    assert desk.topics(
+        """
+        ros::NodeHandle nh, pnh("~"), sub("sub"), below(nh, "below"), deep(pnh, "deep"), root("/root"), own("~/own");
+        ros::NodeHandle copy(sub);
+        ros::NodeHandle unknown(compute());
+        ros::NodeHandlePtr pointer(new ros::NodeHandle("~"));
+        nh.advertise<std_msgs::String>("a", 1);
+        pnh.advertise<std_msgs::String>("b", 1);
+        sub.advertise<std_msgs::String>("c", 1);
+        below.advertise<std_msgs::String>("d", 1);
+        deep.advertise<std_msgs::String>("e", 1);
+        root.advertise<std_msgs::String>("f", 1);
+        own.advertise<std_msgs::String>("g", 1);
+        copy.advertise<std_msgs::String>("h", 1);
+        unknown.advertise<std_msgs::String>("i", 1);
+        unknown.advertise<std_msgs::String>("/j", 1);
+        pointer->advertise<std_msgs::String>("k", 1);
+        ros::NodeHandle("~").advertise<std_msgs::String>("l", 1);
+        """
+    ) == ["a", "~b", "sub/c", "below/d", "~deep/e", "/root/f", "~own/g", "sub/h", "/j", "~k", "~l"]
+
+
+def test_classes_are_followed_in_order(desk: Desk) -> None:
+    desk.write(
+        "include/p/base.h",
+        """
+        #include <sensor_msgs/LaserScan.h>
+        namespace p {
+        template <class T>
+        class Base {
+         protected:
+          ros::NodeHandle nh_;
+          ros::NodeHandle pnh_{"~"};
+          std::string topic_ = "base";
+          virtual void start() { pub_ = nh_.advertise<T>(topic_, 1); }
+          ros::Publisher pub_;
+        };
+        class Node : public Base<std_msgs::String> {
+         public:
+          Node(ros::NodeHandle& nh, const std::string& topic = "given");
+          void run();
+          void unused() { nh_.advertise<std_msgs::String>("never", 1); }
+         private:
+          void scan(const sensor_msgs::LaserScan::ConstPtr& scan);
+          ros::NodeHandle other_;
+          boost::shared_ptr<message_filters::Subscriber<sensor_msgs::LaserScan> > filter_;
+          std::unique_ptr<ros::Subscriber> sub_;
+        };
+        }
+        """,
+    )
+    desk.write(
+        "src/node.cpp",
+        """
+        #include "p/base.h"
+        namespace p {
+        Node::Node(ros::NodeHandle& nh, const std::string& topic) : other_(nh, topic) {
+          topic_ = "changed";
+          start();
+        }
+        void Node::run() {
+          filter_.reset(new message_filters::Subscriber<sensor_msgs::LaserScan>(other_, "filtered", 1));
+          ros::Subscriber sub = pnh_.subscribe("scan", 1, &Node::scan, this);
+        }
+        void Node::scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
+          other_.advertise<LaserScan>("late", 1);
+        }
+        }
+        """,
+    )
+    desk.write("CMakeLists.txt", CMAKE + "add_library(core src/node.cpp)\ntarget_link_libraries(t core)\n")
+    assert desk.main(
+        """
+        ros::NodeHandle nh("robot");
+        p::Node node(nh);
+        auto other = std::make_shared<p::Node>(nh, "second");
+        other->run();
+        """,
+        before='#include "p/base.h"',
+    ) == [
+        ("publisher", "changed", "std_msgs/String"),
+        ("subscriber", "robot/second/filtered", "sensor_msgs/LaserScan"),
+        ("subscriber", "~scan", "sensor_msgs/LaserScan"),
+        ("publisher", "robot/second/late", "sensor_msgs/LaserScan"),
+    ]
+
+
+def test_parameters_of_the_launch_and_defaults_give_names(desk: Desk) -> None:
+    body = """
+        ros::NodeHandle pnh("~");
+        std::string a, b = "own", c;
+        pnh.param<std::string>("a", a, "a_default");
+        pnh.getParam("b", b);
+        c = pnh.param<std::string>("c", "c_default");
+        std::string d = pnh.param("d", std::string("d_default"));
+        std::string e;
+        if (!pnh.getParam("e", e)) e = "e_default";
+        std::string f;
+        ros::param::param<std::string>("~f", f, "f_default");
+        for (const std::string& each : {a, b, c, d, e, f}) pnh.advertise<std_msgs::String>("/" + each, 1);
+        bool extra;
+        pnh.param("extra", extra, false);
+        if (extra) pnh.advertise<std_msgs::String>("/extra", 1);
+        """
+    assert desk.topics(body) == ["/a_default", "/own", "/c_default", "/d_default", "/f_default"]
+    inner = "".join(f'<param name="{name}" value="{name}_given"/>' for name in "abcdef")
+    inner += '<param name="extra" value="true"/>'
+    assert desk.topics(body, inner=inner) == [*(f"/{name}_given" for name in "abcdef"), "/extra"]
+
+
+def test_uses_of_parameters(desk: Desk) -> None:
+    found = desk.read(
+        """
+        int main(int argc, char** argv) {
+          ros::NodeHandle nh, pnh("~");
+          int rate; double speed = 0.5; std::string name;
+          nh.param("rate", rate, 10);
+          pnh.getParam("speed", speed);
+          pnh.hasParam("maybe");
+          pnh.setParam("made", 1);
+          ros::param::get("/global", name);
+          pnh.searchParam("robot_description", name);
+          pnh.param(name, rate, 1);
+          pnh.param<double>("angle", speed, M_PI / 2);
+          dynamic_reconfigure::Server<p::Config> server(ros::NodeHandle("~/inner"));
+        }
+        """
+    )
+    assert found is not None
+    assert [(u.name, u.access, u.default, u.has_default, u.mandatory) for u in found.params] == [
+        ("rate", "get", 10, True, False),
+        ("~speed", "get", None, False, False),
+        ("~maybe", "has", None, False, False),
+        ("~made", "set", None, False, False),
+        ("/global", "get", None, False, False),
+        ("~robot_description", "search", None, False, False),
+        ("~angle", "get", None, True, False),
+    ]
+    assert [e.name for e in found.endpoints] == [
+        "~inner/set_parameters",
+        "~inner/parameter_descriptions",
+        "~inner/parameter_updates",
+    ]
+
+
+def test_conditions_loops_and_exits(desk: Desk) -> None:
+    assert desk.topics(
+        """
+        ros::NodeHandle nh;
+        std::string name = "same", other = "first";
+        if (argc > 5) { nh.advertise<std_msgs::String>("never", 1); return 1; }
+        if (ros::isShuttingDown()) { nh.advertise<std_msgs::String>("one", 1); other = "changed"; }
+        else nh.advertise<std_msgs::String>("two", 1);
+        nh.advertise<std_msgs::String>(name, 1);
+        nh.advertise<std_msgs::String>(other, 1);
+        if (!nh.ok()) { exit(1); }
+        switch (compute()) {
+          case 1: nh.advertise<std_msgs::String>("case1", 1); break;
+          default: nh.advertise<std_msgs::String>("case2", 1);
+        }
+        try { nh.advertise<std_msgs::String>("tried", 1); } catch (const std::exception& e) { return 2; }
+        #ifdef SOMETHING
+        nh.advertise<std_msgs::String>("defined", 1);
+        #else
+        nh.advertise<std_msgs::String>("not_defined", 1);
+        #endif
+        #if 0
+        nh.advertise<std_msgs::String>("out", 1);
+        #endif
+        while (ros::ok()) { nh.advertise<std_msgs::String>("loop", 1); }
+        return 0;
+        nh.advertise<std_msgs::String>("behind", 1);
+        """
+    ) == ["one", "two", "same", "case1", "case2", "tried", "defined", "not_defined", "loop"]
+
+
+def test_images(desk: Desk) -> None:
+    body = """
+        ros::NodeHandle nh, pnh("~");
+        image_transport::ImageTransport it(nh), own(pnh);
+        image_transport::TransportHints hints("raw", ros::TransportHints(), pnh);
+        it.advertise("a", 1);
+        own.advertiseCamera("b", 1);
+        it.subscribe("left/c", 1, heard);
+        it.subscribeCamera("left/d", 1, both, hints);
+        image_transport::SubscriberFilter filter;
+        filter.subscribe(it, "e", 1);
+        camera_info_manager::CameraInfoManager manager(nh, "camera");
+        """
+    common: list[tuple[str, str, str | None]] = [
+        ("publisher", "a", "sensor_msgs/Image"),
+        ("publisher", "~b", "sensor_msgs/Image"),
+        ("publisher", "~camera_info", "sensor_msgs/CameraInfo"),
+        ("subscriber", "left/c", "sensor_msgs/Image"),
+    ]
+    rest = [
+        ("subscriber", "left/camera_info", "sensor_msgs/CameraInfo"),
+        ("subscriber", "e", "sensor_msgs/Image"),
+        ("service", "set_camera_info", "sensor_msgs/SetCameraInfo"),
+    ]
+    assert desk.main(body) == [*common, ("subscriber", "left/d", "sensor_msgs/Image"), *rest]
+    inner = '<param name="image_transport" value="compressed"/>'
+    compressed = ("subscriber", "left/d/compressed", "sensor_msgs/CompressedImage")
+    assert desk.main(body, inner=inner) == [*common, compressed, *rest]
+
+
+def test_places(desk: Desk) -> None:
+    found = desk.read('int main() {\n  ros::NodeHandle nh;\n  nh.advertise<std_msgs::String>("a", 1);\n}\n')
+    assert found is not None
+    (end,) = found.endpoints
+    assert (end.source_file, end.source_line) == (str(desk.folder / "src/t.cpp"), 5)
+    assert end.qos == {"queue_size": 1}
+
+
+NODELET = """
+    #include <nodelet/nodelet.h>
+    #include <pluginlib/class_list_macros.h>
+    namespace p {
+    class Filter : public nodelet::Nodelet {
+      virtual void onInit() {
+        ros::NodeHandle& nh = getNodeHandle();
+        ros::NodeHandle pnh = getMTPrivateNodeHandle();
+        pub_ = nh.advertise<std_msgs::String>("out", 1, boost::bind(&Filter::connect, this));
+        pnh.advertise<std_msgs::String>("own", 1);
+      }
+      void connect() { getNodeHandle().subscribe("in", 1, &Filter::heard, this); }
+      void heard(const std_msgs::StringConstPtr& text) {}
+      ros::Publisher pub_;
+    };
+    }
+    PLUGINLIB_EXPORT_CLASS(p::Filter, nodelet::Nodelet)
+    """
+
+
+def with_nodelet(desk: Desk) -> None:
+    desk.write(
+        "package.xml",
+        '<?xml version="1.0"?><package><name>p</name>'
+        '<export><nodelet plugin="${prefix}/plugins.xml"/></export></package>',
+    )
+    desk.write(
+        "plugins.xml",
+        '<library path="lib/libfilters"><class name="p/filter" type="p::Filter" '
+        'base_class_type="nodelet::Nodelet"/></library>',
+    )
+    desk.write("CMakeLists.txt", CMAKE + "add_library(filters src/filter.cpp)\n")
+    desk.write("src/filter.cpp", HEAD + textwrap.dedent(NODELET))
+
+
+def test_nodelets(desk: Desk) -> None:
+    with_nodelet(desk)
+    made = [
+        ("publisher", "out", "std_msgs/String"),
+        ("publisher", "~own", "std_msgs/String"),
+        ("subscriber", "in", "std_msgs/String"),
+    ]
+    node = '<node pkg="nodelet" type="nodelet" name="n" args="{args}">{inner}</node>'
+    assert ends(desk.again(node=node, args="standalone p/filter")) == made
+    load = ("client", "manager/load_nodelet", "nodelet/NodeletLoad")
+    assert ends(desk.again(node=node, args="load p/filter manager")) == [*made, load]
+    assert ends(desk.again(node=node, args="load p/other manager")) == []
+    assert ends(desk.again(node=node, args="manager")) == []
+
+
+def test_nodelets_in_a_program_of_their_own(desk: Desk) -> None:
+    with_nodelet(desk)
+    assert desk.topics(
+        """
+        nodelet::Loader loader(false);
+        nodelet::M_string remap(ros::names::getRemappings());
+        nodelet::V_string nargv;
+        loader.load(ros::this_node::getName(), "p/filter", remap, nargv);
+        loader.load("inner", "p/filter", remap, nargv);
+        """
+    ) == ["out", "~own", "in", "/inner/own"]
+
+
+def test_headers_of_another_package_bring_their_source(desk: Desk) -> None:
+    folder = desk.add_package("q")
+    desk.write("q/CMakeLists.txt", "add_library(q src/thing.cpp src/unrelated.cpp)\n")
+    desk.write("q/include/q/thing.h", "namespace q { class Thing { public: Thing(); }; }\n")
+    thing = '#include "q/thing.h"\nq::Thing::Thing() { ros::NodeHandle("~").advertise<std_msgs::String>("made", 1); }\n'
+    desk.write("q/src/thing.cpp", thing)
+    desk.write("q/src/unrelated.cpp", "")
+    found = desk.read("#include <q/thing.h>\nint main() { q::Thing thing; }\n")
+    assert found is not None
+    assert [(e.name, e.source_file) for e in found.endpoints] == [("~made", str(folder / "src/thing.cpp"))]
+
+
+def test_a_script_that_is_installed_under_another_name(desk: Desk) -> None:
+    desk.write("CMakeLists.txt", "install(PROGRAMS scripts/x.py DESTINATION bin RENAME t)\n")
+    desk.write("scripts/x.py", "import rospy\nfrom std_msgs.msg import String\nrospy.Publisher('a', String)\n")
+    assert ends(desk.again()) == [("publisher", "a", "std_msgs/String")]
+
+
+def test_remembered_until_a_file_or_a_parameter_changes(desk: Desk) -> None:
+    body = """
+        ros::NodeHandle nh;
+        nh.advertise<std_msgs::String>(NAME + ros::NodeHandle("~").param<std::string>("x", ""), 1);
+        """
+    desk.write("include/p/name.h", 'const std::string NAME = "a";\n')
+    assert desk.topics(body, '#include "p/name.h"') == ["a"]
+    first = desk.again()
+    assert desk.again(inner='<param name="unread" value="1"/>') is first
+    inner = '<param name="x" value="b"/>'
+    assert ends(desk.again(inner=inner)) == [("publisher", "ab", "std_msgs/String")]
+    desk.write("include/p/name.h", 'const std::string NAME = "longer";\n')
+    assert ends(desk.again(inner=inner)) == [("publisher", "longerb", "std_msgs/String")]
+    desk.write("CMakeLists.txt", "project(p)\nadd_executable(t src/other.cpp)\n")
+    assert desk.again(inner=inner) is None
+
+
+BEFORE = 'int main(int argc, char** argv) {\n  ros::NodeHandle nh;\n  nh.advertise<std_msgs::String>("before", 1);\n'
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "  nh.advertise<std_msgs::String>(\n",
+        "  if (x { nh. ;\n}\n",
+        "}\n}\n}\nclass {",
+        "  class A : A { A a; }; A a; A b = A(A(A()));\n}",
+        '  std::string s = "a"; for (;;) { s = s + s; }\n}',
+        "  x = " + "(" * 400 + ")" * 400 + ";\n}",
+        "  x = " + "1+" * 3000 + "1;\n}",
+        "  " + "f(" * 500 + ")" * 500 + ";\n}",
+        "  main(argc, argv);\n  auto f = [&](){ f(); }; f();\n}",
+        "  std::vector<X> v; v.push_back(v); v = {v, v}; for (auto x : v) for (auto y : v) f(x, y);\n}",
+        '  typedef T T; using U = V; using V = U; V v; T t; nh.advertise<V>("x", 1);\n}',
+        '  1 / 0; 1 % 0; -"a"; "a" * 3; 1 << 99999; "\\q\\x"; \'\\0\'; 0x; 1e999;\n}',
+        "  nh.advertise(); nh.subscribe(); nh.param(); nh.getParam(); boost::bind(); ros::NodeHandle x(1, 2);\n}",
+        "  template <class T struct X;\n#if\n#else\n#endif\n}",
+        "\0\x01\ufffd}",
+    ],
+)
+def test_hostile_programs_end_soon_and_raise_nothing(desk: Desk, text: str) -> None:
+    before = desk.read(BEFORE + text + "\n")
+    assert ends(before)[:1] == ([("publisher", "before", "std_msgs/String")] if "\0" not in text else [])
+
+
+def test_any_cut_of_a_program_is_read(desk: Desk) -> None:
+    whole = HEAD + textwrap.dedent(NODELET) + BEFORE + "  p::Filter f; f.onInit();\n}\n"
+    for end in range(0, len(whole), 23):
+        desk.read(whole[:end] + "\n" + whole[end + 11 :])
+
+
+def test_what_is_not_there_tells_nothing(desk: Desk) -> None:
+    assert desk.again() is None
+    desk.write("src/t.cpp", "void f() {}")
+    assert desk.again() is None
+    desk.write("CMakeLists.txt", "")
+    assert desk.again() is None
+
+
+def test_an_unbuilt_workspace_in_the_editor(desk: Desk) -> None:
+    """The node that talks is known from its source: the one that listens to something else is told what it meant."""
+    desk.write("CMakeLists.txt", CMAKE + "add_executable(l src/l.cpp)\n")
+    talk = HEAD + 'int main() { ros::NodeHandle nh; nh.advertise<std_msgs::String>("chatter", 1); }\n'
+    listen = talk.replace("advertise<std_msgs::String>", "subscribe<std_msgs::String>")
+    desk.write("src/t.cpp", talk)
+    desk.write("src/l.cpp", listen.replace("chatter", "chater"))
+    path = desk.write(
+        "main.launch",
+        '<launch><node pkg="p" type="t" name="t"/><node pkg="p" type="l" name="l"/></launch>',
+    )
+    workspace = Workspace(desk.environment, desk.sources, str(desk.folder))
+    analysis = workspace.static(str(path))
+    from preflight_analysis.workspace.not_run import not_run
+
+    whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
+    found: dict[str, Any] = {finding.rule: finding for finding in whole.findings}
+    assert found["PKG002"].severity == "info"
+    assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("info", True)
+    assert ExecutableIndex(desk.environment).names("p") == ("l", "t")
+
+
+def test_packages_are_found_as_in_a_workspace(tmp_path: Path) -> None:
+    desk = Desk(tmp_path / "src" / "p")
+    packages = find_packages([str(tmp_path / "src")]).packages
+    desk.environment = Environment(1, "noetic", {}, (str(tmp_path / "src"),), packages, {}, (), (), None)
+    desk.analysis = SourceAnalysis(desk.environment, desk.sources)
+    assert desk.topics('ros::NodeHandle nh; nh.advertise<std_msgs::String>("a", 1);') == ["a"]
