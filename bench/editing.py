@@ -3,9 +3,11 @@
   python bench/editing.py [-n ROUNDS]
 
 Through the real server process, over its standard input and output. Each round inserts or removes one line break near
-the start of the file, so that everything below it moves. The baselines are measured in the same rounds: a request that
-the server answers without looking at anything, and the time that `xml.dom.minidom` takes to parse the same text. The
-figures are the median and the 95th percentile in milliseconds, and the medians' ratio to each baseline.
+the start of the file, so that everything below it moves; in the last case a letter of a topic's name, in a launch where
+most topics have one end only and each is compared with the others of its type. The baselines are measured in the same
+rounds: a request that the server answers without looking at anything, and the time that `xml.dom.minidom` takes to
+parse the same text. The figures are the median and the 95th percentile in milliseconds, and the medians' ratio to each
+baseline.
 """
 
 from __future__ import annotations
@@ -16,7 +18,10 @@ import statistics
 import tempfile
 import time
 import xml.dom.minidom
+from collections.abc import Callable
+from itertools import islice, permutations
 from pathlib import Path
+from string import ascii_letters
 
 from client import Client
 
@@ -36,7 +41,44 @@ def large(nodes: int) -> str:
     return f'<launch>\n  <arg name="rate" default="5"/>\n{body}</launch>\n'
 
 
-def measure(name: str, path: Path, text: str, home: Path, rounds: int, *, trusted: bool = False) -> None:
+def dangling(nodes: int) -> str:
+    """A launch file of that many nodes, annotated: half of them publish what nobody wants, the others want what nobody
+    publishes, all of one type."""
+    node = (
+        '  <node pkg="preflight_demo" type="talker.py" name="node_{name}">\n'
+        '    <topics><topic name="chatter" type="sensor_msgs/Image" class="{side}"/></topics>\n'
+        '    <remap from="chatter" to="/{name}"/>\n'
+        "  </node>\n"
+    )
+    words = ("front", "rear", "left", "right", "camera", "depth", "raw", "points", "scan", "map", "goal", "arm")
+    names = islice(("_".join(chosen) for chosen in permutations(words, 3)), nodes)
+    body = "".join(node.format(name=name, side=("pub", "sub")[n % 2]) for n, name in enumerate(names))
+    return f"<launch>\n\n{body}</launch>\n"
+
+
+def line_break(version: int) -> dict[str, object]:
+    """Inserted in even versions, removed in odd ones."""
+    start = {"line": 1, "character": 0}
+    end = start if version % 2 == 0 else {"line": 2, "character": 0}
+    return {"range": {"start": start, "end": end}, "text": "\n" if version % 2 == 0 else ""}
+
+
+def first_name(version: int) -> dict[str, object]:
+    """The first letter of the first topic of `dangling` becomes another one, and none that it was lately."""
+    start, end = {"line": 4, "character": 31}, {"line": 4, "character": 32}
+    return {"range": {"start": start, "end": end}, "text": ascii_letters[version % len(ascii_letters)]}
+
+
+def measure(
+    name: str,
+    path: Path,
+    text: str,
+    home: Path,
+    rounds: int,
+    *,
+    trusted: bool = False,
+    edit: Callable[[int], dict[str, object]] = line_break,
+) -> None:
     client = Client(path.parents[1], home, trusted=trusted)
     uri = path.as_uri()
     item = {"uri": uri, "languageId": "roslaunch", "version": 1, "text": text}
@@ -47,11 +89,8 @@ def measure(name: str, path: Path, text: str, home: Path, rounds: int, *, truste
         client.diagnostics(lambda p: p["uri"] == uri)
 
     edits, trips, parses = [], [], []
-    start = {"line": 1, "character": 0}
     for version in range(2, rounds + 2):
-        broken = version % 2 == 0
-        end = start if broken else {"line": 2, "character": 0}
-        change = {"range": {"start": start, "end": end}, "text": "\n" if broken else ""}
+        change = edit(version)
         began = time.perf_counter()
         document = {"uri": uri, "version": version}
         client.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
@@ -88,6 +127,9 @@ def main() -> None:
         measure("demo, static", demo, demo.read_text(), home, rounds)
         measure("demo, with what its runs told", demo, demo.read_text(), home, rounds, trusted=True)
         measure(f"{NODES} nodes, static", demo.with_name("large.launch"), large(NODES), home, rounds)
+        lone = demo.with_name("dangling.launch")
+        measure(f"{NODES} nodes, most dangle: moved", lone, dangling(NODES), home, rounds)
+        measure(f"{NODES} nodes, most dangle: renamed", lone, dangling(NODES), home, rounds, edit=first_name)
 
 
 if __name__ == "__main__":

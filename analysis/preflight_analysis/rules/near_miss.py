@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.rules.nearest import likeness, numbers_in
+from preflight_analysis.rules.nearest_memory import Hit, Nearest
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS, may_dangle
@@ -65,105 +65,88 @@ class NearMiss:
 
 
 def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
-    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one.
-
-    All names of one type are compared with each other: where hundreds dangle that takes longer than a keystroke may, so
-    it is remembered which ends met as long as no end of the graph changes.
-    """
-    key = tuple(_ends(channel) for channel in channels.values())
-    with _lock:
-        places = _remembered.pop(key, None)
-    if places is None:
-        places = tuple(_place(near, channels) for near in _near_misses(channels))
-    with _lock:
-        _remembered[key] = places
-        while len(_remembered) > _MOST_REMEMBERED:
-            del _remembered[next(iter(_remembered))]
-    return tuple(
-        NearMiss(channels[to].wants[want], channels[of].offers[offer], how, same_type, dangles)
-        for to, want, of, offer, how, same_type, dangles in places
-    )
-
-
-_Place = tuple[str, int, str, int, Evidence, bool, bool]
-"""A near miss as channels and the numbers of their ends, for a graph of which only the places have changed."""
-
-_MOST_REMEMBERED = 16
-_lock = threading.Lock()
-_remembered: dict[Hashable, tuple[_Place, ...]] = {}
-
-
-def _ends(channel: Channel) -> Hashable:
-    """All that the search looks at."""
-    return channel.name, channel.external, *(map(_end, channel.offers)), None, *(map(_end, channel.wants))
-
-
-def _end(end: Connection) -> Hashable:
-    given = end.endpoint
-    return end.node.name, end.remap is None, end.action, given.role, given.name, given.type, given.builtin
-
-
-def _place(near: NearMiss, channels: Mapping[str, Channel]) -> _Place:
-    to, of = near.wanting.name, near.offering.name
-    want = next(i for i, end in enumerate(channels[to].wants) if end is near.wanting)
-    offer = next(i for i, end in enumerate(channels[of].offers) if end is near.offering)
-    return to, want, of, offer, near.likeness, near.same_type, near.offering_dangles
-
-
-def _near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
-    found: list[NearMiss] = []
+    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one."""
     wants = list(dangling_wants(channels))
     if not wants:
         return ()
-    index = _Index(channels)
+    index = _Index(channels, wants)
+    hits = _nearest.best(index.seekers, index.pools, index.rate)
+    found = []
     for wanting in wants:
-        best: tuple[tuple[object, ...], NearMiss] | None = None
-        for channel in index.candidates(wanting):
-            for candidate, distance in _candidates(wanting, channel):
-                how = _EVIDENCE.index(candidate.likeness)
-                rank = (how > 0, not candidate.offering_dangles, how, distance, channel.name)
-                if best is None or rank < best[0]:
-                    best = (rank, candidate)
-        if best is not None and not index.ambiguous(best[1]):
-            found.append(best[1])
+        hit = hits.get(index.seeker(wanting))
+        if hit is not None:
+            near = index.near_miss(wanting, hit)
+            if not index.ambiguous(near):
+                found.append(near)
     return tuple(found)
 
 
-class _Index:
-    """Channels by what a near miss has to share: the type, and the numbers in the name (`/robot3/scan`) or its last
-    segment. In a fleet of like robots that leaves few to compare."""
+_nearest = Nearest()
 
-    def __init__(self, channels: Mapping[str, Channel]) -> None:
-        self._channels = channels
-        self._by_type: dict[str | None, list[Channel]] = {}
-        self._by_numbers: dict[tuple[str | None, tuple[str, ...]], list[Channel]] = {}
-        self._by_leaf: dict[tuple[str | None, str], list[Channel]] = {}
+
+class _Index:
+    """The ends of a graph as `Nearest` wants them: as all that a comparison looks at, which is not where they stand.
+
+    Channels are put together by what a near miss has to share: the type, and the numbers in the name (`/robot3/scan`)
+    or its last segment. In a fleet of like robots that leaves few to compare.
+    """
+
+    def __init__(self, channels: Mapping[str, Channel], wants: Iterable[Connection]) -> None:
+        self._nodes: dict[int, tuple[str, int]] = {}
+        self._names: Counter[str] = Counter()
+        self._wants = {self.seeker(wanting): wanting for wanting in wants}
+        self.seekers = {seeker: _pools(wanting) for seeker, wanting in self._wants.items()}
+        """The wanting ends, with the pools of the channels that each may have been meant for."""
+        self.pools: dict[Hashable, list[Hashable]] = {pool: [] for pools in self.seekers.values() for pool in pools}
+        self._channels: dict[Hashable, Channel] = {}
         self._lone: Counter[tuple[str, str | None, str]] = Counter()
         for channel in channels.values():
             leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
-            for type_ in {_known_type(end) for end in channel.offers}:
-                self._by_type.setdefault(type_, []).append(channel)
-                self._by_numbers.setdefault((type_, numbers), []).append(channel)
-                self._by_leaf.setdefault((type_, leaf), []).append(channel)
             if not channel.offers or not channel.wants:
                 side = "offers" if channel.offers else "wants"
                 ends = channel.offers or channel.wants
                 self._lone.update((side, end.endpoint.type, leaf) for end in ends)
+            if channel.offers:
+                key = channel.name, _dangles(channel), *(map(self._end, channel.offers))
+                self._channels[key] = channel
+                for type_ in {_known_type(end) for end in channel.offers}:
+                    for pool in ((), (type_,), (type_, numbers), (type_, leaf)):
+                        if pool in self.pools:
+                            self.pools[pool].append(key)
 
-    def candidates(self, wanting: Connection) -> Iterable[Channel]:
-        """The channels that the end may have been meant for, each once."""
-        type_, numbers = _known_type(wanting), numbers_in(wanting.name)
-        if type_ is None:
-            return self._channels.values()
-        found: list[Channel] = []
-        for key in (type_, None):
-            if numbers:
-                found += self._by_numbers.get((key, numbers), ())
-                found += self._by_numbers.get((key, ()), ())
-                found += self._by_leaf.get((key, _leaf(wanting.name)), ())
-            else:
-                found += self._by_type.get(key, ())
-        return {channel.name: channel for channel in found}.values()
+    def _end(self, end: Connection) -> Hashable:
+        given = end.endpoint
+        return self._node(end), end.remap is None, given.name, given.type, given.builtin
+
+    def _node(self, end: Connection) -> tuple[str, int]:
+        """The node's name, and a number where several have it."""
+        found = self._nodes.get(id(end.node))
+        if found is None:
+            name = end.node.name
+            found = self._nodes[id(end.node)] = name, self._names[name]
+            self._names[name] += 1
+        return found
+
+    def seeker(self, wanting: Connection) -> Hashable:
+        """The end as `Nearest` knows it."""
+        return wanting.name, self._end(wanting)
+
+    def rate(self, seeker: Hashable, candidate: Hashable) -> Hit | None:
+        """How well a channel fits an end."""
+        return min(self._hits(self._wants[seeker], candidate), key=lambda hit: hit.rank, default=None)
+
+    def _hits(self, wanting: Connection, candidate: Hashable) -> Iterator[Hit]:
+        channel = self._channels[candidate]
+        for number, kind, distance in _candidates(wanting, channel):
+            how = _EVIDENCE.index(kind)
+            yield Hit((how > 0, not _dangles(channel), how, distance, channel.name, number), candidate)
+
+    def near_miss(self, wanting: Connection, hit: Hit) -> NearMiss:
+        """What a hit says, with the ends as they are now."""
+        channel = self._channels[hit.candidate]
+        offering = channel.offers[hit.rank[-1]]
+        known = _known_type(wanting) is not None and _known_type(offering) is not None
+        return NearMiss(wanting, offering, _EVIDENCE[hit.rank[2]], known, _dangles(channel))
 
     def ambiguous(self, near: NearMiss) -> bool:
         """Whether a namespace alone speaks for it, and others of the type have this last name: which was meant?"""
@@ -176,6 +159,19 @@ class _Index:
 
 def _leaf(name: str) -> str:
     return name.rpartition("/")[2]
+
+
+def _dangles(channel: Channel) -> bool:
+    return not channel.wants and not channel.external
+
+
+def _pools(wanting: Connection) -> tuple[Hashable, ...]:
+    type_, numbers = _known_type(wanting), numbers_in(wanting.name)
+    if type_ is None:
+        return ((),)
+    if not numbers:
+        return ((type_,), (None,))
+    return tuple((t, more) for t in (type_, None) for more in (numbers, (), _leaf(wanting.name)))
 
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
@@ -259,10 +255,12 @@ def _partner(near: NearMiss, end: Connection) -> Connection:
     return near.offering if end is near.wanting else near.wanting
 
 
-def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMiss, int]]:
-    dangles = not channel.wants and not channel.external
+def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[int, Evidence, int]]:
+    """Which of the channel's offering ends the wanting one may have been meant for, how they are alike and how far they
+    are apart."""
+    dangles = _dangles(channel)
     alike: tuple[Literal["typo", "words"], int] | None = None
-    for offering in channel.offers:
+    for number, offering in enumerate(channel.offers):
         if offering.endpoint.builtin or offering.node is wanting.node:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
             continue
@@ -274,10 +272,10 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMis
             short, long = sorted((wanting, offering), key=lambda end: len(end.name))
             how_far = len(long.name) - len(short.name)
             if _is_slash(short, long):
-                yield NearMiss(wanting, offering, "slash", known, dangles), how_far
+                yield number, "slash", how_far
                 continue
             if _extra_level(short.name, long.name) is not None:
-                yield NearMiss(wanting, offering, "level", known, dangles), how_far
+                yield number, "level", how_far
                 continue
         alike = alike or likeness(wanting.name, channel.name)
         if alike is None:
@@ -287,7 +285,7 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[NearMis
             continue
         if not known and not dangles:
             continue
-        yield NearMiss(wanting, offering, how, known, dangles), distance
+        yield number, how, distance
 
 
 def _extra_level(short: str, long: str) -> str | None:

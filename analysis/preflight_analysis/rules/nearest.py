@@ -63,16 +63,15 @@ def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
     mine, theirs = numbers_in(name), numbers_in(other)
     if mine != theirs and mine and theirs:
         return None
-    distance = int(OSA.distance(name, other))
     if mine == theirs and _is_typo(name, other):
-        return "typo", distance
-    return ("words", distance) if _same_words(name, other) else None
+        return "typo", int(OSA.distance(name, other))
+    return ("words", int(OSA.distance(name, other))) if _same_words(name, other) else None
 
 
 def _is_typo(name: str, other: str) -> bool:
     if _squeezed(name) == _squeezed(other):
         return True
-    parts, others = name.strip("/").split("/"), other.strip("/").split("/")
+    parts, others = _segments(name), _segments(other)
     if len(parts) != len(others):
         return False
     pairs = [(a, b) for a, b in zip(parts, others, strict=True) if a != b]
@@ -107,6 +106,11 @@ def _same_words(name: str, other: str) -> bool:
 @lru_cache(maxsize=_NAMES)
 def _words(name: str) -> tuple[str, ...]:
     return tuple([w.lower() for w in _WORD.findall(name)])
+
+
+@lru_cache(maxsize=_NAMES)
+def _segments(name: str) -> list[str]:
+    return name.strip("/").split("/")
 
 
 @lru_cache(maxsize=_NAMES)

@@ -1,0 +1,66 @@
+"""Near misses in a graph that changes bit by bit are those of the same graph looked at for the first time."""
+
+from __future__ import annotations
+
+import random
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules import near_miss
+from preflight_analysis.rules.near_miss import NearMiss, near_misses
+from preflight_analysis.rules.nearest_memory import Nearest
+from preflight_analysis.tracing.interface import Endpoint
+
+WORDS = ("camera", "front", "image", "raw", "points", "cmd", "vel", "cmdvel", "odom", "c_am", "came", "scan", "scan1")
+TYPES = ("sensor_msgs/Image", "sensor_msgs/Image", "geometry_msgs/Twist", "std_msgs/String", None, "*")
+
+End = tuple[bool, str, Any, Endpoint, bool]
+
+
+def _name(made: random.Random) -> str:
+    segments = ("_".join(made.choices(WORDS, k=made.randint(1, 2))) for _ in range(made.randint(1, 3)))
+    return "/" + "/".join(segments)
+
+
+def _end(made: random.Random, nodes: list[Any]) -> End:
+    node, name = made.choice(nodes), _name(made)
+    given = made.choice((name, name[1:], name.rpartition("/")[2], "~" + name[1:]))
+    if made.random() < 0.3:
+        name = node.name.rpartition("/")[0] + name
+    offers = made.random() < 0.5
+    endpoint = Endpoint("publisher" if offers else "subscriber", given, made.choice(TYPES), builtin=made.random() < 0.1)
+    return offers, name, node, endpoint, made.random() < 0.2
+
+
+def _channels(ends: list[End]) -> dict[str, Channel]:
+    sides: dict[str, tuple[list[Connection], list[Connection]]] = {}
+    for offers, name, node, endpoint, remapped in ends:
+        remap: Any = SimpleNamespace() if remapped else None
+        sides.setdefault(name, ([], []))[not offers].append(Connection(name, node, endpoint, remap))
+    return {name: Channel(name, tuple(o), tuple(w), name.startswith("/x")) for name, (o, w) in sorted(sides.items())}
+
+
+def _told(found: tuple[NearMiss, ...]) -> list[tuple[Any, ...]]:
+    return [(id(n.wanting), id(n.offering), n.likeness, n.same_type, n.offering_dangles) for n in found]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_edits_one_by_one(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = random.Random(seed)
+    nodes = [SimpleNamespace(name=_name(made)) for _ in range(made.randint(2, 25))]
+    ends = [_end(made, nodes) for _ in range(made.choice((10, 60, 150)))]
+    remembering = Nearest()
+    found = 0
+    for _ in range(20):
+        for _ in range(made.choice((0, 1, 1, 2, 8))):
+            at = made.randrange(len(ends))
+            ends[at : at + made.randint(0, 1)] = [_end(made, nodes)]
+        channels = _channels(ends)
+        monkeypatch.setattr(near_miss, "_nearest", remembering)
+        again = near_misses(channels)
+        monkeypatch.setattr(near_miss, "_nearest", Nearest())
+        assert _told(again) == _told(near_misses(channels))
+        found += len(again)
+    assert found
