@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
 
-.PHONY: help setup apt demo test lint bench corpus fuzz wheel vsix test-editors docs clean
+.PHONY: help setup apt demo test lint bench corpus nodes fuzz wheel vsix test-editors docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -48,6 +48,10 @@ corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslau
 	@mkdir -p out
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
 	$(BIN)/python tests/against_roslaunch.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
+
+nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
+	.ci/apt-install fixtures/ros1/real_nodes/apt-packages
+	$(BIN)/python tests/real_nodes.py --write
 
 fuzz: CORPUS = $(realpath ../shared/corpus/ros1)
 fuzz: $(READY) ## 50,000 random edits of files of ../shared/corpus/ros1, each compared with a fresh analysis

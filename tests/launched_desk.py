@@ -20,8 +20,8 @@ def free_port() -> int:
         return int(listening.getsockname()[1])
 
 
-def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES) -> dict[str, Any]:
-    """What the real roslaunch starts, and what the real master then shows."""
+def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, display: str = "") -> dict[str, Any]:
+    """What the real roslaunch starts, and what the real master then shows. `display` is an X server for its windows."""
     env = {
         "PATH": "/usr/bin:/bin",
         "HOME": str(folder),
@@ -29,6 +29,7 @@ def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES) ->
         "ROS_LOG_DIR": str(folder / "log"),
         "ROS_IP": "127.0.0.1",
         "ROS_PACKAGE_PATH": str(packages),
+        **({"DISPLAY": display} if display else {}),
     }
     script = Path(__file__).parent / "tracing" / "observe_launch.py"
     done = subprocess.run(
@@ -36,7 +37,7 @@ def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES) ->
         env=env,
         capture_output=True,
         text=True,
-        timeout=90,
+        timeout=120,
         check=False,
     )
     assert done.returncode == 0, done.stderr

@@ -1,6 +1,7 @@
 """Launches a file with the real roslaunch and prints what the real master shows of it, as JSON.
 
-Run by the system's Python, which has ROS: `observe_launch.py FILE PORT`. Not a test module.
+Run by the system's Python, which has ROS: `observe_launch.py FILE PORT`. Not a test module. Nodes that never come, or
+leave again, are named in `absent`.
 """
 
 import json
@@ -17,7 +18,9 @@ from roslaunch.config import load_config_default
 from roslaunch.node_args import create_local_process_args
 
 STABLE_SECONDS = 1.5
-LIMIT_SECONDS = 40
+ABSENT_SECONDS = 12
+"""How long the graph has to be stable for nodes that lack in it to be given up."""
+LIMIT_SECONDS = 60
 
 
 def described(path, port):
@@ -50,17 +53,18 @@ def shown(master, wanted):
     """For each node what `rosnode info` would print, once the graph has stopped changing and all nodes are in it."""
     began = since = time.time()
     last = None
-    while time.time() - since < STABLE_SECONDS:
+    absent = wanted
+    while time.time() - since < (ABSENT_SECONDS if absent else STABLE_SECONDS):
         if time.time() - began > LIMIT_SECONDS:
-            raise SystemExit("the graph did not become stable, or lacks a node: %s" % last)
+            raise SystemExit("the graph did not become stable: %s" % last)
         time.sleep(0.1)
         try:
             now = state(master)
         except (OSError, rosgraph.MasterException):
             now = None
-        present = {node for side in now or () for _, nodes in side for node in nodes}
-        if now is None or now != last or not wanted <= present:
+        if now is None or now != last:
             last, since = now, time.time()
+            absent = wanted - {node for side in now or () for _, nodes in side for node in nodes}
     types = dict(master.getTopicTypes())
     publishers, subscribers, services = last
     return {
@@ -69,7 +73,7 @@ def shown(master, wanted):
             "subscribers": sorted([name, types.get(name)] for name, nodes in subscribers if node in nodes),
             "services": sorted([name, rosservice.get_service_type(name)] for name, nodes in services if node in nodes),
         }
-        for node in wanted
+        for node in wanted - absent
     }
 
 
@@ -84,7 +88,9 @@ def main():
     )
     try:
         master = rosgraph.Master("/observer")
-        result["shown"] = shown(master, {node["name"] for node in result["nodes"]})
+        names = {node["name"] for node in result["nodes"]}
+        result["shown"] = shown(master, names)
+        result["absent"] = sorted(names - set(result["shown"]))
     finally:
         launch.send_signal(signal.SIGINT)
         try:
