@@ -94,12 +94,11 @@ class Run:
         if not isinstance(event, dict) or event.get("ev") not in EVENTS:
             self.dropped += 1
             return
-        if event["ev"] in ("endpoint", "param"):
-            self.active = time.monotonic()
         if event["ev"] == "state":
             self._state(event)
-        else:
-            self.emit({"node": event})
+        elif self.emit({"node": event}) and event["ev"] in ("endpoint", "param"):
+            # Only what is new: a parameter that a loop reads in each turn would keep the node from ever being quiet.
+            self.active = time.monotonic()
 
     def _state(self, event: dict[str, Any]) -> None:
         state, now = event.get("state"), time.monotonic()
