@@ -25,7 +25,7 @@ from __future__ import annotations
 import json
 import re
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 from typing import Any
@@ -128,7 +128,12 @@ def read_fixture(text: str) -> Fixture:
     return Fixture(texts, next(iter(texts)), given, json.loads(commands), tuple(expected))
 
 
-def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run: str | None = None) -> Context:
+def analyse(
+    fixture: Fixture,
+    args: Mapping[str, str] | None = None,
+    why_not_run: str | None = None,
+    external: Sequence[str] = (),
+) -> Context:
     """What the rules get to see of a fixture."""
     sources = Sources()
     for path, text in fixture.files.items():
@@ -155,7 +160,7 @@ def analyse(fixture: Fixture, args: Mapping[str, str] | None = None, why_not_run
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:
         return context
-    graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}))
+    graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}), external)
     return replace(context, graph=graph)
 
 

@@ -1,7 +1,7 @@
 """LCH030: simulated time that nobody tells."""
 
 import pytest
-from preflight_check import check
+from preflight_check import check, findings_of
 
 _INTERFACES = """
         //- interfaces
@@ -54,3 +54,24 @@ def test_silent_where_a_node_publishes_clock_or_is_not_known() -> None:
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1}}
     """)
+
+
+_TRUE = """
+        <launch>
+          <param name="/use_sim_time" value="true"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>"""
+
+
+def test_silent_where_the_settings_say_that_something_else_tells_the_time() -> None:
+    check(_TRUE + _INTERFACES, external=["/clock"])
+    assert [f.rule for f in findings_of(_TRUE + _INTERFACES, external=["/scan"])] == ["LCH030"]
+
+
+def test_a_node_that_waits_for_the_time_does_not_hide_that_nobody_tells_it() -> None:
+    waits = """
+        //- interfaces
+        {"/n": {"params": {"/use_sim_time": false}, "answers": ["it waits for simulated time"]}}
+"""
+    found = [f for f in findings_of(_TRUE + waits) if f.rule == "LCH030"]
+    assert [(f.severity, f.confidence) for f in found] == [("warning", "possible")]

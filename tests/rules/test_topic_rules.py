@@ -66,6 +66,23 @@ def test_a_relative_remap_stays_relative_and_works_in_an_included_file() -> None
     assert finding.related[-1].message == "included here"
 
 
+def test_a_node_that_ended_well_or_waited_leaves_the_evidence_as_it_is() -> None:
+    for said in ('"status": "exited", "exit_code": 0', '"answers": ["the service of which it waits was made up"]'):
+        found = findings_of(
+            """
+            <launch>
+              <group ns="arm"><node pkg="p" type="t" name="driver"/></group>
+              <node pkg="p" type="t" name="watch"/>
+              <node pkg="p" type="t" name="third"/>
+            </launch>
+            //- interfaces
+            {"/arm/driver": {"publishers": {"joints": "sensor_msgs/JointState"}},
+             "/watch": {"subscribers": {"joints": "sensor_msgs/JointState"}}, "/third": {SAID}}
+            """.replace("SAID", said)
+        )
+        assert [(f.severity, f.confidence) for f in found if f.rule == "TOP001"] == [("warning", "possible")]
+
+
 def test_names_from_source_code_get_a_remap() -> None:
     text = """
         <launch>

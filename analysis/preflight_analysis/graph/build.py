@@ -52,7 +52,13 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topi
         targets = {source: remap[1] for source, remap in remaps.items()}
         reads.extend(ParamRead(names.resolve(use.name, node.name, targets), node, use) for use in interface.params)
     return Graph(
-        tree, merged, _channels(topics, external_topics), _channels(_named(services)), _channels(actions), tuple(reads)
+        tree,
+        merged,
+        _channels(topics, external_topics),
+        _channels(_named(services)),
+        _channels(actions),
+        tuple(reads),
+        tuple(external_topics),
     )
 
 

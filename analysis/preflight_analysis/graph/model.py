@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fnmatch
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -59,6 +60,12 @@ class Graph:
     services: Mapping[str, Channel]
     actions: Mapping[str, Channel]
     param_reads: tuple[ParamRead, ...]
+    external_topics: tuple[str, ...] = ()
+    """Patterns of the topics that something outside of the launch offers or wants."""
+
+    def is_external(self, topic: str) -> bool:
+        """Whether the settings say so of a topic."""
+        return any(fnmatch.fnmatchcase(topic, pattern) for pattern in self.external_topics)
 
     @cached_property
     def incomplete(self) -> int:
@@ -69,3 +76,8 @@ class Graph:
     def complete(self) -> bool:
         """Whether every node's interface is known to its end: only then does absence mean absence."""
         return self.tree.complete and not self.incomplete
+
+    @cached_property
+    def seen_through(self) -> bool:
+        """Whether no node is likely to have ends that are not known: absence is not sure, but to be reckoned with."""
+        return self.tree.complete and all(interface.seen_through for interface in self.interfaces)

@@ -28,18 +28,18 @@ _SIMULATORS = (
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     param = context.tree.params.get("/use_sim_time")
-    if graph is None or param is None or not graph.complete or not graph.tree.nodes:
+    if graph is None or param is None or not graph.seen_through or not graph.tree.nodes:
         return
     if param.value is not True and param.value != 1:
         return
     clock = graph.topics.get("/clock")
-    if (clock is not None and clock.offers) or any(map(_tells_time, graph.tree.nodes)):
+    if (clock is not None and clock.offers) or graph.is_external("/clock") or any(map(_tells_time, graph.tree.nodes)):
         return
     yield rule.finding(
         "/use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
         "`rosbag play --clock` beside it, time stands still",
         name_place(param),
-        confidence="likely",
+        confidence="likely" if graph.complete else "possible",
         related=include_chain(param.origin),
     )
 
@@ -55,7 +55,8 @@ RULE = Rule(
     name="use-sim-time-without-clock",
     severity="warning",
     what="Reports `/use_sim_time` being true in a launch of which all nodes are known and none publishes `/clock`. "
-    "Simulators and `rosbag play --clock` count as publishers.",
+    "Simulators and `rosbag play --clock` count as publishers, and `/clock` among the external topics of the settings "
+    "as one.",
     why="Timers, rates and timeouts wait for the first message on `/clock`: the nodes start and do nothing, without a "
     "word.",
     example='<param name="/use_sim_time" value="true"/>\n<node pkg="amcl" type="amcl" name="amcl"/>',

@@ -221,7 +221,7 @@ def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
     ends = (near.wanting.endpoint, near.offering.endpoint)
     speculative = any(end.uncertain for end in ends)
     sure = graph.complete and near.same_type and not speculative
-    evidence = near.same_type and (near.likeness == "typo" or (near.offering_dangles and graph.complete))
+    evidence = near.same_type and (near.likeness == "typo" or (near.offering_dangles and graph.seen_through))
     severity: Severity = "info" if any(end.assumed for end in ends) else "warning"
     return severity if evidence else "hint", "likely" if sure else "possible"
 

@@ -136,6 +136,14 @@ class Interface:
         return self.source in ("annotation", "settings") or spins
 
     @property
+    def seen_through(self) -> bool:
+        """Whether nothing speaks for more ends than are known: it is complete, came to its event loop with the help of
+        made-up answers, or ended by itself without an error."""
+        outcome = self.outcome
+        done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
+        return self.complete or (self.known and done)
+
+    @property
     def pending(self) -> bool:
         """Whether its run has yet to end."""
         return self.outcome.reason == PENDING
