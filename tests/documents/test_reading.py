@@ -35,6 +35,8 @@ def test_encoding_is_that_of_the_declaration(tmp_path: Path) -> None:
     latin = b'<?xml version="1.0" encoding="iso-8859-1"?>\n<a b="\xe4"/>'
     assert text_of(tmp_path / "a.launch", latin).endswith('<a b="ä"/>')
     utf16 = '<?xml version="1.0" encoding="utf-16"?><a b="ä"/>'
+    for codec in ("utf-16-le", "utf-16-be"):
+        assert text_of(tmp_path / "a.launch", utf16.encode(codec)) == utf16
     assert text_of(tmp_path / "a.launch", utf16.encode("utf-16")) == utf16
 
 

@@ -32,6 +32,8 @@ class Text:
     digest: str
     plain: bool = True
     """Whether it is UTF-8 without a mark and says nothing else: what a program that knows nothing of XML reads."""
+    encoding: str | None = "utf-8"
+    """Of the file; None where an editor has decoded it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +104,9 @@ def _decode(path: str, data: bytes) -> Text | Unreadable:
             encoding, data, marked = name, data[len(mark) :], True
             break
     else:
-        if found := _DECLARED_ENCODING.match(data):
+        if data.startswith((b"<\0", b"\0<")):  # UTF-16 without a mark: XML parsers know it by its first letter
+            encoding, marked = "utf-16-le" if data[0] else "utf-16-be", True
+        elif (found := _DECLARED_ENCODING.match(data)) and not found[1].lower().startswith((b"utf-16", b"utf-32")):
             encoding, declared = found[1].decode("ascii"), True
     if encoding.lower().replace("_", "-") in {"utf-8", "utf8"} and b"\0" in data:
         return Unreadable(path, "is not a text file", "not-text")
@@ -120,4 +124,4 @@ def _decode(path: str, data: bytes) -> Text | Unreadable:
         return Unreadable(path, f"declares the encoding {encoding!r} and is not written in it", "not-text")
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
-    return Text(path, text, digest(text), not marked and not declared)
+    return Text(path, text, digest(text), not marked and not declared, encoding)

@@ -20,17 +20,17 @@ _CONTINUATION_BYTES = bytes(range(0x80, 0xC0))
 _PARAMETER_REFERENCE = re.compile(f"%{NAME};")
 
 
-def parse_xml(path: str, text: str) -> Document:
+def parse_xml(path: str, text: str, encoding: str | None = "utf-8") -> Document:
     """Parse the text of an XML file, whatever it looks like, in time linear in its length. Never raises.
 
-    `problems` is empty exactly when expat, the parser that roslaunch uses through minidom, takes the text and the
-    encoding that it declares (an empty text aside: it has no root and no problem). Values are decoded and normalised
-    as XML says. The entities of a DOCTYPE are not expanded, so what is wrong inside of their replacement text is not
-    seen.
+    `encoding` is that of the file, None if it is not known. `problems` is empty exactly when expat, the parser that
+    roslaunch uses through minidom, takes the text and the encoding that it declares (an empty text aside: it has no
+    root and no problem). Values are decoded and normalised as XML says. The entities of a DOCTYPE are not expanded, so
+    what is wrong inside of their replacement text is not seen.
     """
     lines = LineIndex(text)
     scanned = scan(text, lines)
-    complaint = _expat_complaint(text, scanned) or _encoding_complaint(text)
+    complaint = _expat_complaint(text, scanned) or _encoding_complaint(text, (encoding or "").lower())
     if complaint is None:
         problems: tuple[SyntaxProblem, ...] = ()
     elif scanned.problems:
@@ -67,17 +67,25 @@ def _declaration(text: str) -> Span | None:
     return Span(found.start() + (text[0] == "\ufeff"), found.end()) if found else None
 
 
-def _encoding_complaint(text: str) -> SyntaxProblem | None:
-    """What expat has against the encoding that the XML declaration names, of a file that is UTF-8."""
+def _encoding_complaint(text: str, encoding: str) -> SyntaxProblem | None:
+    """What expat has against the encoding of the file, or against the one that the XML declaration names."""
+    if encoding.startswith("utf-32"):
+        return SyntaxProblem("the file is in UTF-32, which the XML parser does not know; write it in UTF-8", Span(0, 1))
     if "encoding" not in text[:300]:
         return None
     declaration = _declaration(text)
     found = _ENCODING.search(text, declaration.start, declaration.end) if declaration else None
     if found is None:
         return None
-    if found[1] in ("utf-8", "UTF-8"):
-        return None
     name, span = found[1] or found[2] or "", Span(*found.span(1 if found[1] is not None else 2))
+    wide = name.lower().startswith("utf-16")
+    if encoding.startswith("utf-16"):
+        fits = name.lower() in ("utf-16", encoding.replace("16-", "16"))
+        return (
+            None if fits else SyntaxProblem(f"the file is in {encoding.upper()} and not, as it says, in '{name}'", span)
+        )
+    if name in ("utf-8", "UTF-8") or (wide and not encoding):
+        return None
     try:
         expat.ParserCreate().Parse(f'<?xml version="1.0" encoding="{name}"?><a/>'.encode(), True)
     except (expat.ExpatError, LookupError, ValueError):

@@ -64,7 +64,7 @@ class Sources:
         with entry.parsing:
             found = entry.parsed.get("launch")
             if not isinstance(found, LaunchFile):
-                found = read_ros1(parse_xml(path, entry.text.text))
+                found = read_ros1(parse_xml(path, entry.text.text, entry.text.encoding))
                 entry.parsed["launch"] = found
         return found
 
@@ -128,7 +128,7 @@ def _limited(path: str, text: str) -> Text | Unreadable:
         return Unreadable(path, reason, "not-text")
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
-    return Text(path, text, digest(text))
+    return Text(path, text, digest(text), encoding=None)
 
 
 def _signature(path: str) -> object:
