@@ -66,6 +66,7 @@ def test_executables_and_the_libraries_of_the_package_they_are_linked_with(desk:
 def test_variables_lists_and_globs(desk: Desk) -> None:
     for name in ("src/b.cpp", "src/a.cpp", "src/deep/c.cpp", "src/a.hpp", "gen/x.cpp"):
         desk.write(name)
+    desk.write("src/short.cc")
     build = desk.build(
         """
         project(demo)
@@ -77,6 +78,7 @@ def test_variables_lists_and_globs(desk: Desk) -> None:
         add_executable(globbed ${FOUND})
         file(GLOB_RECURSE ALL "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp")
         add_executable(deep ${ALL})
+        add_executable(without src/short none)
         aux_source_directory(gen GENERATED)
         add_executable(aux ${GENERATED})
         set(A ${B}) # goes round
@@ -87,6 +89,7 @@ def test_variables_lists_and_globs(desk: Desk) -> None:
     assert desk.sources(build, "listed") == ["src/one.cpp", "src/two.cpp", "src/three.cpp"]
     assert desk.sources(build, "globbed") == ["src/a.cpp", "src/b.cpp"]
     assert desk.sources(build, "deep") == ["src/a.cpp", "src/b.cpp", "src/deep/c.cpp"]
+    assert desk.sources(build, "without") == ["src/short.cc"]
     assert desk.sources(build, "aux") == ["gen/x.cpp"]
     assert desk.sources(build, "named_") == ["src/n.cpp"]
 

@@ -397,21 +397,18 @@ def test_images(desk: Desk) -> None:
         filter.subscribe(it, "e", 1);
         camera_info_manager::CameraInfoManager manager(nh, "camera");
         """
-    common: list[tuple[str, str, str | None]] = [
+    published: list[tuple[str, str, str | None]] = [
         ("publisher", "a", "sensor_msgs/Image"),
         ("publisher", "~b", "sensor_msgs/Image"),
         ("publisher", "~camera_info", "sensor_msgs/CameraInfo"),
-        ("subscriber", "left/c", "sensor_msgs/Image"),
     ]
-    rest = [
-        ("subscriber", "left/camera_info", "sensor_msgs/CameraInfo"),
-        ("subscriber", "e", "sensor_msgs/Image"),
-        ("service", "set_camera_info", "sensor_msgs/SetCameraInfo"),
-    ]
-    assert desk.main(body) == [*common, ("subscriber", "left/d", "sensor_msgs/Image"), *rest]
-    inner = '<param name="image_transport" value="compressed"/>'
-    compressed = ("subscriber", "left/d/compressed", "sensor_msgs/CompressedImage")
-    assert desk.main(body, inner=inner) == [*common, compressed, *rest]
+    info = ("subscriber", "left/camera_info", "sensor_msgs/CameraInfo")
+    service = ("service", "set_camera_info", "sensor_msgs/SetCameraInfo")
+    for transport, below, type_ in (("raw", "", "Image"), ("compressed", "/compressed", "CompressedImage")):
+        c, d, e = (("subscriber", f"{name}{below}", f"sensor_msgs/{type_}") for name in ("left/c", "left/d", "e"))
+        inner = f'<param name="image_transport" value="{transport}"/>'
+        assert desk.main(body, inner=inner) == [*published, c, d, info, e, service]
+    assert ("subscriber", "e", "sensor_msgs/Image") in desk.main(body)
 
 
 def test_places(desk: Desk) -> None:
@@ -483,6 +480,66 @@ def test_nodelets_in_a_program_of_their_own(desk: Desk) -> None:
         loader.load("inner", "p/filter", remap, nargv);
         """
     ) == ["out", "~own", "in", "/inner/own"]
+
+
+def test_remaps_of_nodelets_in_a_program(desk: Desk) -> None:
+    assert (
+        desk.topics(
+            """
+        nodelet::Loader loader(false);
+        nodelet::M_string remap;
+        remap["out"] = ros::names::resolve("left/out");
+        loader.load("left", "p/filter", remap, nodelet::V_string());
+        remap.clear();
+        loader.load("right", "p/filter", remap, nodelet::V_string());
+        """
+        )
+        == []
+    )
+    with_nodelet(desk)
+    assert [e.name for e in getattr(desk.again(), "endpoints", ())] == [
+        "/left/out",
+        "/left/own",
+        "in",
+        "out",
+        "/right/own",
+    ]
+
+
+def test_arguments(desk: Desk) -> None:
+    body = """
+        std::vector<std::string> args;
+        ros::removeROSArgs(argc, argv, args);
+        ros::NodeHandle nh;
+        if (args.size() < 3) return 1;
+        nh.advertise<std_msgs::String>(argv[1], 1);
+        for (size_t i = 2; i < args.size(); i++) nh.advertise<std_msgs::String>(args[i], 1);
+        """
+    assert desk.topics(body, args="a b c _x:=1") == ["a", "b", "c"]
+    assert desk.topics(body, args="a") == []
+
+
+def test_parameters_that_are_searched_and_counted(desk: Desk) -> None:
+    body = """
+        ros::NodeHandle pnh("~");
+        std::string key, topic;
+        if (pnh.searchParam("base", key)) pnh.getParam(key, topic);
+        pnh.advertise<std_msgs::String>(topic, 1);
+        int i = 0;
+        bool more = true;
+        do {
+          std::stringstream name;
+          name << "input" << i++;
+          more = pnh.hasParam(name.str());
+          if (more) {
+            pnh.getParam(name.str(), topic);
+            pnh.subscribe<std_msgs::String>(topic, 1, heard);
+          }
+        } while (more);
+        """
+    inner = '<param name="base" value="b"/><param name="input0" value="/x"/><param name="input1" value="/y"/>'
+    # Another node might set the next one.
+    assert desk.topics(body, inner=inner)[:3] == ["~b", "/x", "/y"]
 
 
 def test_headers_of_another_package_bring_their_source(desk: Desk) -> None:

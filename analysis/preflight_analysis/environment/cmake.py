@@ -354,11 +354,16 @@ def _joined(values: Sequence[str] | Iterator[str]) -> str:
 
 
 def _files(words: Sequence[str], folder: str) -> list[str]:
-    return [
-        os.path.normpath(os.path.join(folder, word))
-        for word in words
-        if word not in _NO_SOURCES and word.endswith(_SOURCES) and "$<" not in word
-    ]
+    found: list[str] = []
+    for word in words:
+        path = os.path.normpath(os.path.join(folder, word))
+        if word in _NO_SOURCES or "$<" in word:
+            continue
+        if word.endswith(_SOURCES):
+            found.append(path)
+        elif not os.path.splitext(word)[1]:  # CMake tries the endings that it knows
+            found += [path + ending for ending in _SOURCES if os.path.isfile(path + ending)][:1]
+    return found
 
 
 def _globbed(patterns: Sequence[str], folder: str, deep: bool) -> list[str]:

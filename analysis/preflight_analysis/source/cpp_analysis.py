@@ -6,7 +6,6 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 
 from preflight_analysis.environment.model import Package
-from preflight_analysis.evaluation import names
 from preflight_analysis.source.cpp_files import CppFiles
 from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.cpp_walk import walk_class, walk_main
@@ -49,10 +48,9 @@ class CppAnalysis:
         elif (program := files.executable(package, executable)) is not None:
             calls.includes = program.includes
             walk_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
-            for loaded, plugin in calls.nodelets:
-                full = names.resolve(loaded, name)
-                calls.private = "~" if full == name else full
-                self._nodelet(files, plugin, calls)
+            for loaded in calls.nodelets:
+                calls.loaded = loaded
+                self._nodelet(files, loaded.plugin, calls)
         return calls.found
 
     def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:

@@ -137,7 +137,7 @@ def path_of(node: Node | None) -> Path:
         return ()
     if node.type == "qualified_identifier":
         return path_of(node.child_by_field_name("scope")) + path_of(node.child_by_field_name("name"))
-    if node.type in ("template_type", "template_function", "template_method", "dependent_name"):
+    if node.type in ("template_type", "template_function", "template_method", "dependent_name", *_CLASSES):
         return path_of(node.child_by_field_name("name") or first_child(node))
     return (text_of(node),)
 

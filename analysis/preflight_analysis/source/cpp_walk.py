@@ -74,12 +74,13 @@ _SMART = frozenset({"shared_ptr", "unique_ptr", "scoped_ptr", "intrusive_ptr", "
 _LISTS = frozenset({"std::vector", "std::list", "std::set", "std::deque", "std::array", "std::initializer_list"})
 _MAPS = frozenset({"std::map", "std::unordered_map"})
 _STREAMS = frozenset({"std::stringstream", "std::ostringstream"})
-_OWN = _LISTS | _MAPS | _STREAMS | {"std::string", "string"}
+_OWN = _LISTS | _MAPS | _STREAMS | {"std::string"}
 _CALLABLE = frozenset({"std::function", "boost::function"})
 _CASTS = frozenset({"static_cast", "dynamic_cast", "const_cast", "reinterpret_cast", "lexical_cast"})
 _SAME = frozenset({"ref", "cref", "move", "forward", "dynamic_pointer_cast", "static_pointer_cast"})
 _MAKERS = frozenset({"make_shared", "make_unique"})
 _PLACEHOLDER = re.compile(r"_\d\Z")
+_FOREVER = frozenset({"(true)", "(1)"})
 _EXITS = frozenset({"exit", "_exit", "abort", "quick_exit"})
 
 
@@ -254,15 +255,15 @@ class _Walk:
         if node.type in ("argument_list", "initializer_list"):
             if type_ is None or pointer:
                 return self._value(first_child(node), scope) if node.named_child_count else None
-            if node.type == "initializer_list" and type_.name in _LISTS | _MAPS:
+            if node.type == "initializer_list" and _standard(type_.name) in _LISTS | _MAPS:
                 return self._make(type_, [Argument(self._value(node, scope))], place, scope)
             return self._make(type_, self._arguments(node, scope), place, scope)
         value = self._value(node, scope)
         if type_ is None or type_.name in _PRIMITIVES:
             return value
-        if isinstance(value, list) and type_.name in _LISTS | _MAPS:
+        if isinstance(value, list) and _standard(type_.name) in _LISTS | _MAPS:
             return self._make(type_, [Argument(value)], place, scope)
-        return Unmade(type_) if value is UNKNOWN and type_.name != "std::string" else value
+        return Unmade(type_) if value is UNKNOWN and _standard(type_.name) != "std::string" else value
 
     def _if(self, node: Node, scope: Scope) -> bool:
         condition = node.child_by_field_name("condition")
@@ -333,13 +334,17 @@ class _Walk:
 
     def _while(self, node: Node, scope: Scope) -> None:
         condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
-        known = truth(self._condition(condition, scope)) if node.type == "while_statement" else True
-        if body is not None and known:
-            self._statement(body, scope)
-        elif body is not None and known is None:
-            self._once(body, scope)
-        if node.type == "do_statement":
-            self._condition(condition, scope)
+        if body is None:
+            return
+        first = node.type == "do_statement"
+        literal = text_of(condition) in _FOREVER
+        for _ in range(1 if literal else _MAX_TURNS):
+            known = True if first else truth(self._condition(condition, scope))
+            first = False
+            if known is None:
+                self._once(body, scope)
+            if not known or self._statement(body, scope):
+                return
 
     def _switch(self, node: Node, scope: Scope) -> None:
         self._condition(node.child_by_field_name("condition"), scope)
@@ -637,18 +642,18 @@ class _Walk:
     def _make(self, type_: CppType, args: list[Argument], place: Place, scope: Scope) -> Any:
         """An object of a type."""
         first = value_at(args, 0)
-        last = type_.name.rpartition("::")[2]
-        if type_.name in ("std::string", "string"):
+        name, last = _standard(type_.name), type_.name.rpartition("::")[2]
+        if name == "std::string":
             return "" if not args else first if isinstance(first, str) and len(args) == 1 else UNKNOWN
-        if type_.name in _PRIMITIVES:
+        if name in _PRIMITIVES:
             return first if len(args) == 1 else UNKNOWN
-        if type_.name in _LISTS:
+        if name in _LISTS:
             return [] if not args else list(first) if len(args) == 1 and isinstance(first, list) else UNKNOWN
-        if type_.name in _MAPS:
+        if name in _MAPS:
             pairs = first if args and isinstance(first, list) else []
             known = {p[0]: p[1] for p in pairs if isinstance(p, list) and len(p) == 2 and isinstance(p[0], (str, int))}
             return known if len(known) == len(pairs) else UNKNOWN
-        if type_.name in _STREAMS:
+        if name in _STREAMS:
             return Stream([first] if args else [])
         cls = self._class(type_)
         if cls is not None:
@@ -658,7 +663,7 @@ class _Walk:
             instance = Instance(cls)
             self._construct(instance, cls, args)
             return instance
-        if last in _SMART or last.endswith("Ptr") or type_.name in _CALLABLE:
+        if last in _SMART or last.endswith("Ptr") or name in _CALLABLE:
             pointed = type_.args[0] if last in _SMART and type_.args else type_
             return first if args else Unmade(pointed)
         return self._calls.make(type_, args, place)
@@ -788,7 +793,7 @@ class _Walk:
         type_ = self._type(callee, scope)
         if type_ is not None and (self._class(type_) is not None or type_.name != "::".join(p for p in path if p)):
             return self._make(type_, args, place, scope)
-        if type_ is not None and (name in _SMART or type_.name in _OWN | _CALLABLE):
+        if type_ is not None and (name in _SMART or _standard(type_.name) in _OWN | _CALLABLE):
             return self._make(type_, args, place, scope)
         if len(path) == 1 and scope.this is not None:
             found = self._library_method(scope.this, name, types, args, place)
@@ -935,7 +940,7 @@ class _Walk:
             elif (default := parameter.default or declared[index].default) is not None:
                 value = self._value(default, scope)
             if value is UNKNOWN and (type_ := self._type(parameter.type, scope)) is not None:
-                value = Unmade(type_) if type_.name not in _PRIMITIVES | {"std::string"} else UNKNOWN
+                value = Unmade(type_) if _standard(type_.name) not in _PRIMITIVES | {"std::string"} else UNKNOWN
             if parameter.name:
                 scope.names[parameter.name] = value
 
@@ -946,6 +951,11 @@ class _Walk:
         self._steps += 1
         if self._steps > MAX_STEPS:
             raise _TooLargeError
+
+
+def _standard(name: str) -> str:
+    """`std::string` of `string`, where all of `std` is used."""
+    return f"std::{name}" if f"std::{name}" in _OWN else name
 
 
 def _fitting(functions: Sequence[FunctionText], arity: int | None) -> FunctionText | None:

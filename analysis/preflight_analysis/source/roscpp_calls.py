@@ -128,11 +128,17 @@ class _Options:
     type: str | None
 
 
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A nodelet that a program loads: `plugin` is `package/Type`, `remaps` maps resolved names to resolved names."""
+
+    name: str
+    plugin: str
+    remaps: Mapping[str, str]
+
+
 class RoscppCalls:
     """Collects what the calls of one node make. Implements `cpp_values.Calls`."""
-
-    private = "~"
-    """The namespace of a nodelet's own; of one that another program loads that of its name."""
 
     includes: Sequence[str] = ()
     """What the files of the program include."""
@@ -142,8 +148,10 @@ class RoscppCalls:
         self._remaps = remaps
         self._params = params
         self.found = Found()
-        self.nodelets: list[tuple[str, str]] = []
-        """The nodelets that the program loads into its own process: name and `package/Type`."""
+        self.nodelets: list[Loaded] = []
+        """The nodelets that the program loads into its own process."""
+        self.loaded: Loaded | None = None
+        """The one of them whose calls are collected."""
 
     # Objects.
 
@@ -155,6 +163,10 @@ class RoscppCalls:
         known = _handle(handle)
         if name == _HANDLE:
             return self._new_handle(given)
+        if name in ("ros::M_string", "nodelet::M_string"):
+            return {}
+        if name in ("ros::V_string", "nodelet::V_string"):
+            return []
         if ends := _FIXED.get(name):
             for role, topic, kind in ends:
                 self._end(role, topic, kind, place)
@@ -225,7 +237,13 @@ class RoscppCalls:
             case "ros::names::append" if isinstance(first, str):
                 second = value_at(args, 1)
                 return names.canonicalize(f"{first}/{second}") if isinstance(second, str) else UNKNOWN
-            case "ros::names::resolve" | "ros::names::remap":
+            case "ros::names::remap":
+                found = self._resolved(first)
+                return found if found in self._remaps.values() else first
+            case "ros::removeROSArgs" if isinstance(value_at(args, 1), list):
+                store(args[-1], list(args[1].value))
+                return UNKNOWN
+            case "ros::names::resolve":
                 last = value_at(args, len(args) - 1)
                 asked = last if isinstance(last, str) else first
                 return self._resolved(asked)
@@ -265,16 +283,16 @@ class RoscppCalls:
         if isinstance(owner, Instance):
             space = _NODELET_HANDLES.get(name)
             if space is not None:
-                return Handle(self.private if space == "~" else space)
+                return Handle(self._private() if space == "~" else space)
             return self._node if name == "getName" else UNKNOWN
         if _is_handle(owner):
             return self._of_handle(_handle(owner), name, types, args, place, store)
         if isinstance(owner, _Made):
             return self._of_made(owner, name, args, place)
         if isinstance(owner, Unmade) and owner.type.name == "nodelet::Loader" and name == "load":
-            loaded, plugin = value_at(args, 0), value_at(args, 1)
+            loaded, plugin, remaps = (value_at(args, index) for index in range(3))
             if isinstance(loaded, str) and isinstance(plugin, str) and len(self.nodelets) < _MAX_NODELETS:
-                self.nodelets.append((loaded, plugin))
+                self.nodelets.append(Loaded(loaded, plugin, self._remaps_of(remaps)))
         if (
             isinstance(owner, Unmade)
             and owner.type.name == "urdf::Model"
@@ -341,7 +359,9 @@ class RoscppCalls:
 
     def _image(self, role: Role, topic: Any, given: Sequence[Any], place: Place) -> None:
         """By the transport that is known: each has a topic of its own below the image's."""
-        transport = next((v for v in reversed(given) if isinstance(v, str) and v != topic), "raw")
+        transport = next((v for v in reversed(given) if isinstance(v, str) and v != topic), None)
+        if transport is None:
+            transport = self._hints((), Handle(""), place)
         if transport == "compressed" and isinstance(topic, str):
             self._end(role, f"{topic}/compressed", "sensor_msgs/CompressedImage", place)
         elif transport not in ("theora", "compressedDepth"):
@@ -354,8 +374,7 @@ class RoscppCalls:
     ) -> Any:
         name = handle.name(value_at(args, 0))
         if access == "search":
-            for found in args[-1:]:
-                store(found, UNKNOWN)
+            return self._search(handle, args, place, store)
         if access != "get":
             return self._param(access, name, UNKNOWN, False, place)
         into = args[1] if len(args) > (2 if has_default else 1) else None
@@ -367,6 +386,22 @@ class RoscppCalls:
             store(into, found)
         # Another node may set it; what the variable had is then what it starts with.
         return True if found is not UNKNOWN and not has_default else UNKNOWN
+
+    def _search(self, handle: Handle, args: Sequence[Argument], place: Place, store: Store) -> Any:
+        """The parameter of that name in the handle's namespace or the nearest one around it."""
+        name, into = value_at(args, 0), args[-1] if len(args) > 1 else None
+        self._param("search", handle.name(name), UNKNOWN, False, place)
+        space = self._resolved(handle.space)
+        found: Any = UNKNOWN
+        while is_name(name) and isinstance(space, str) and found is UNKNOWN:
+            full = names.canonicalize(f"{space}/{name}")
+            found = full if self._params.look(full) is not UNKNOWN else UNKNOWN
+            if space == "/":
+                break
+            space = names.parent(space).rstrip("/") or "/"
+        if into is not None:
+            store(into, found)
+        return UNKNOWN if found is UNKNOWN else True
 
     def _param(self, access: str, name: Any, default: Any, has_default: bool, place: Place) -> Any:
         """Note a use; the value that it gives. Nothing is mandatory: what is not there leaves the node's own value."""
@@ -383,6 +418,18 @@ class RoscppCalls:
 
     # Names and types.
 
+    def _private(self) -> str:
+        """The private namespace of a nodelet, which may have another name than the node."""
+        if self.loaded is None:
+            return "~"
+        full = names.resolve(self.loaded.name, self._node)
+        return "~" if full == self._node else full
+
+    def _remaps_of(self, given: Any) -> Mapping[str, str]:
+        pairs = given.items() if isinstance(given, dict) else ()
+        known = {k: v for k, v in pairs if is_name(k) and is_name(v)}
+        return {names.resolve(k, self._node): names.resolve(v, self._node) for k, v in known.items()}
+
     def _resolved(self, name: Any) -> Any:
         known = isinstance(name, str) and names.is_legal(name)
         return names.canonicalize(names.resolve(name, self._node, self._remaps)) if known else UNKNOWN
@@ -390,6 +437,8 @@ class RoscppCalls:
     def _end(
         self, role: Role, name: Any, type_: str | None, place: Place, qos: Mapping[str, Any] | None = None
     ) -> None:
+        if self.loaded is not None and is_name(name):
+            name = self.loaded.remaps.get(names.resolve(name, self._node), name)
         self.found.end(Endpoint(role, name, type_, None, qos or {}, place.file, place.line))
 
     def _message(self, types: Sequence[CppType]) -> str | None:
@@ -431,7 +480,7 @@ class RoscppCalls:
         if last in _WRAPPERS:
             name = space
         name = _SUFFIX.sub("", name)
-        if name == "topic_tools::ShapeShifter":
+        if name in ("topic_tools::ShapeShifter", "ShapeShifter"):
             return "*"
         if name == "pcl::PointCloud":
             return "sensor_msgs/PointCloud2"
