@@ -1,7 +1,8 @@
 """The table of the roslaunch language: complete in itself, and what evaluation checks against."""
 
 import pytest
-from preflight_analysis.launch.schema_ros1 import TAGS, one_of
+from preflight_analysis.launch.schema import one_of
+from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_check import check
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
-from preflight_analysis.launch.ros1_xml import MAX_DEPTH
+from preflight_analysis.launch.xml_actions import MAX_DEPTH
 from preflight_analysis.launch.schema_ros1 import ANNOTATIONS, TAGS
 from preflight_analysis.launch.substitutions import COMMANDS_ROS1
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.span import Span
@@ -22,7 +22,10 @@ class Literal(NamedTuple):
 
 
 class Substitution(NamedTuple):
-    """`$(command arguments)`. `span` covers all of it, `arguments_span` what follows the command's blank."""
+    """`$(command arguments)`. `span` covers all of it, `arguments_span` what follows the command's blank.
+
+    In ROS 2, where they nest, `words` are the arguments cut into pieces; in ROS 1 there are none.
+    """
 
     command: str
     command_span: Span
@@ -30,15 +33,25 @@ class Substitution(NamedTuple):
     arguments_span: Span
     text: str
     span: Span
+    words: tuple[tuple[Literal | Substitution, ...], ...] = ()
+
+
+class Typed(NamedTuple):
+    """What a value that is no text stands for: a bool, int, float, list or None of a YAML file."""
+
+    value: Any
 
 
 class Value(NamedTuple):
-    """A text as written (entities decoded) and its pieces. `problem` says why it could not be cut into pieces."""
+    """A text as written (entities decoded) and its pieces. `problem` says why it could not be cut into pieces, and
+    `problem_span` where; `typed` is there if it is no text."""
 
     text: str
     span: Span
     parts: tuple[Literal | Substitution, ...]
     problem: str | None = None
+    problem_span: Span | None = None
+    typed: Typed | None = None
 
     @property
     def substitutions(self) -> Iterator[Substitution]:

@@ -11,7 +11,8 @@ from collections.abc import Iterable, Iterator
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.schema_ros1 import TAGS, Attribute
+from preflight_analysis.launch.schema import Attribute
+from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.cursor import Place, is_closed, place_at

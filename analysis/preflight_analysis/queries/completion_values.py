@@ -11,7 +11,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.schema_ros1 import Attribute, Kind
+from preflight_analysis.launch.schema import Attribute, Kind
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.queries import completion_graph as from_graph
 from preflight_analysis.queries.arguments import accepted, argument_values, included_file, resolved, visible

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.schema_ros1 import TAGS, Attribute, Tag
+from preflight_analysis.launch.schema import Attribute, Tag
+from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.queries.cursor import place_at
 
 

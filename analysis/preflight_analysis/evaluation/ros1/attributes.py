@@ -12,7 +12,8 @@ from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
 from preflight_analysis.launch.model import Action, ActionAttribute
-from preflight_analysis.launch.schema_ros1 import TAGS, one_of
+from preflight_analysis.launch.schema import one_of
+from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.substitutions import parse_value
 
 T = TypeVar("T")

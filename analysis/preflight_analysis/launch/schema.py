@@ -1,0 +1,71 @@
+"""What a launch language is as data: tags, their attributes, and what the values of those are.
+
+`schema_ros1.py` and `schema_ros2.py` are made of this; validation, completion and hover read them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal[
+    "text",
+    "prose",
+    "condition",
+    "flag",
+    "choice",
+    "integer",
+    "number",
+    "package",
+    "executable",
+    "launch-file",
+    "yaml-file",
+    "file",
+    "argument",
+    "parameter",
+    "variable",
+    "machine",
+    "namespace",
+    "remap-from",
+    "remap-to",
+]
+"""What an attribute's value is. `prose`: a sentence for people; `condition`: true, false, 1 or 0; `flag`: true or
+false; `choice`: one of `choices`; `executable`: of the package in `pkg`; `argument`, `parameter`, `variable` (of the
+environment), `machine`: its name; `remap-from`, `remap-to`: the name of a topic, service or action."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """An attribute of a tag. `required`: without it the launcher stops."""
+
+    name: str
+    doc: str
+    kind: Kind = "text"
+    choices: tuple[str, ...] = ()
+    default: str | None = None
+    required: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Tag:
+    """What a tag may have, in the order in which it should be offered. `attributes` includes the conditions;
+    `children` are the tags that the launcher reads there; `text` tells whether it reads the text between the tags."""
+
+    doc: str
+    attributes: Mapping[str, Attribute]
+    children: tuple[str, ...] = ()
+    text: bool = False
+    refused: tuple[str, ...] = ()
+    """Attributes and children on which roslaunch stops, where others that it does not know get a warning."""
+
+    @property
+    def required(self) -> tuple[str, ...]:
+        """The attributes without which the launcher stops."""
+        return tuple(a.name for a in self.attributes.values() if a.required)
+
+
+def one_of(choices: tuple[str, ...]) -> str:
+    """The choices in words: `load, dump or delete`."""
+    *others, last = choices
+    return f"{', '.join(others)} or {last}" if others else last

@@ -1,0 +1,49 @@
+"""XML elements to actions: what the XML frontends of both generations share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from preflight_analysis.documents.document import Comment, Element, SpannedText, Text
+from preflight_analysis.documents.span import Span
+from preflight_analysis.launch.model import Action, ActionAttribute, Value
+
+ParseValue = Callable[[SpannedText], Value]
+
+MAX_DEPTH = 100
+"""Elements nested deeper than this are left out; real launch files stay below ten."""
+
+
+def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Action:
+    """The action of an element and those below it; `parse_value` cuts its values into pieces."""
+    comments: list[SpannedText] = []
+    children: list[Action] = []
+    texts: list[SpannedText] = []
+    for child in element.children:
+        if isinstance(child, Element):
+            if depth < MAX_DEPTH:
+                children.append(action_of(child, parse_value, depth + 1))
+        elif isinstance(child, Comment):
+            comments.append(child.content)
+        elif isinstance(child, Text):
+            texts.append(child.content)
+    return Action(
+        element.tag,
+        element.tag_span,
+        tuple([ActionAttribute(a.name, a.name_span, parse_value(a.value), a.span) for a in element.attributes]),
+        tuple(children),
+        tuple(comments),
+        _body(texts, element, parse_value),
+        element.open_span,
+        element.span,
+    )
+
+
+def _body(texts: list[SpannedText], element: Element, parse_value: ParseValue) -> Value:
+    if len(texts) == 1:
+        return parse_value(texts[0])
+    if not texts:
+        return Value("", Span(element.open_span.end, element.open_span.end), ())
+    span = Span(texts[0].span.start, texts[-1].span.end)
+    # Several pieces (CDATA, comments between): one text without a way back to single characters.
+    return Value("".join(t.text for t in texts), span, ())
