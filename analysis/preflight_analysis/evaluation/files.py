@@ -14,8 +14,8 @@ from preflight_analysis.launch.model import LaunchFile
 class Files(Protocol):
     """Reads by absolute path; nothing raises."""
 
-    def launch_file(self, path: str) -> LaunchFile | Unreadable:
-        """The launch file at `path`, parsed."""
+    def launch_file(self, path: str, generation: int | None = None) -> LaunchFile | Unreadable:
+        """The launch file at `path`, parsed as that generation of ROS reads it; None: as the file looks."""
 
     def text(self, path: str) -> Document | Unreadable:
         """Any text file, not parsed: a Document without children."""

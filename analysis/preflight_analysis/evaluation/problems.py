@@ -11,6 +11,7 @@ KINDS: dict[str, str] = {
     "file-unreadable": "path, reason: the root file cannot be read (missing, no permission, a folder). fatal",
     "file-not-text": "path, reason: binary, not UTF-8, or larger than the limit; not analysed. fatal",
     "xml-malformed": "message: not well-formed XML, at the place of the cause. fatal",
+    "yaml-malformed": "message: not YAML, at the place where it stops to be. fatal",
     "xml-entity": "name: an entity that a DOCTYPE defines; never expanded here, so values with it are unknown",
     "root-not-launch": "tag (None in an empty file): the document element is not <launch>. fatal",
     # the language
@@ -34,6 +35,7 @@ KINDS: dict[str, str] = {
     "arg-required": "name, file (the included), passed (list): an include without a value for a required arg. fatal",
     "root-arg-required": "name: the root file needs name:=value on the command line. fatal",
     "include-arg-undeclared": "name, file (the included), declared (list): roslaunch stops with 'unused args'. fatal",
+    "arg-not-a-choice": "name, value, choices (list), declared (Location): ROS 2. fatal",
     "arg-redeclared": "name, first (Location), passed: declared twice in a file, or passed twice in an include. fatal",
     "arg-override": "name: an include passes a value for an arg that the file fixes with value=. fatal",
     "include-arg-no-value": "name: <arg> in an <include> without value. fatal",

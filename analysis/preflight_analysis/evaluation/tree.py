@@ -86,8 +86,20 @@ class Executable:
     """Files of that name that may not be executed: what is missing is a `chmod +x`."""
 
 
+class ParamSource(NamedTuple):
+    """What gives parameters to a ROS 2 node: a file, or values in the launch file (`path` None). `params` are those
+    that reach the node, their names as it declares them (`a.b`)."""
+
+    path: str | None
+    params: tuple[Param, ...]
+    origin: Origin
+
+
 class LaunchNode(NamedTuple):
-    """One node or test. `kind` as in the contract of `tree --format json`."""
+    """One node or test. `kind` as in the contract of `tree --format json`.
+
+    A ROS 2 node that the launch file does not name has a name by its executable and no `named`.
+    """
 
     name: str
     namespace: str
@@ -110,6 +122,15 @@ class LaunchNode(NamedTuple):
     clear_params: bool = False
     unknowns: tuple[Unknown, ...] = ()
     """Values of this node that could not be known: it is then not run, and findings about it are less sure."""
+    named: bool = True
+    container: str | None = None
+    plugin: str | None = None
+    params: tuple[Param, ...] = ()
+    """ROS 2: the parameters that it gets, each from the last source that has it. Those of ROS 1 are the tree's."""
+    param_sources: tuple[ParamSource, ...] = ()
+    """ROS 2: in the order in which they apply."""
+    deferred: bool = False
+    """Whether it is not started at once, but after a timer or an event."""
 
     @property
     def location(self) -> Location:

@@ -10,7 +10,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, ParamValue
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, ParamValue, Remap
 from preflight_analysis.findings.finding import Finding
 
 SCHEMA = "ros-preflight/tree/1"
@@ -31,7 +31,8 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
             name: {"value": arg.value, "default": arg.default, "required": arg.required}
             for name, arg in tree.args.items()
         },
-        "nodes": [_node(node, tree, documents) for node in tree.nodes],
+        "nodes": [_node(node, tree, documents) for node in tree.nodes if not node.deferred],
+        "deferred": [_node(node, tree, documents) for node in tree.nodes if node.deferred],
         "params": {name: json_value(param.value) for name, param in tree.params.items()},
         "clear_params": list(tree.clear_params),
         "includes": [include.path for include in tree.includes if include.path is not None],
@@ -84,22 +85,29 @@ def dumps(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
 
 def _node(node: LaunchNode, tree: LaunchTree, documents: Mapping[str, Document]) -> dict[str, Any]:
     private = node.name + "/"
-    params = {name: param for name, param in tree.params.items() if name.startswith(private)}
+    params = {
+        **{name: param for name, param in tree.params.items() if name.startswith(private)},
+        **{private + param.name: param for param in node.params},
+    }
     launch_files = set(tree.files)
-    param_files = (p.name_location.file for p in params.values() if p.name_location is not None)
+    set_in = (p.name_location.file for p in params.values() if p.name_location is not None)
+    param_files = [
+        *(s.path for s in node.param_sources if s.path),
+        *(file for file in set_in if file not in launch_files),
+    ]
     return {
-        "name": node.name,
+        "name": node.name if node.named else None,
         "namespace": node.namespace,
         "package": node.package,
         "executable": node.executable,
         "kind": node.kind,
-        "container": None,
-        "plugin": None,
+        "container": node.container,
+        "plugin": node.plugin,
         "args": node.args,
-        "remaps": [[remap.source, remap.target] for remap in node.remaps],
+        "remaps": [_remap(node, remap) for remap in node.remaps],
         "env": [list(pair) for pair in node.env],
         "params": {name.removeprefix(private): json_value(param.value) for name, param in params.items()},
-        "param_files": list(dict.fromkeys(file for file in param_files if file not in launch_files)),
+        "param_files": list(dict.fromkeys(param_files)),
         "machine": node.machine,
         "respawn": node.respawn,
         "respawn_delay": json_value(node.respawn_delay),
@@ -110,3 +118,8 @@ def _node(node: LaunchNode, tree: LaunchTree, documents: Mapping[str, Document])
         "clear_params": node.clear_params,
         "origin": [place_json(step, documents) for step in node.origin],
     }
+
+
+def _remap(node: LaunchNode, remap: Remap) -> list[str] | str:
+    """As the launcher hands it over: to a container in the form of a rule."""
+    return f"{remap.source}:={remap.target}" if node.kind == "composable" else [remap.source, remap.target]

@@ -10,9 +10,9 @@ from typing import Any
 from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
-from preflight_analysis.launch.xml_actions import MAX_DEPTH
 from preflight_analysis.launch.schema_ros1 import ANNOTATIONS, TAGS
 from preflight_analysis.launch.substitutions import COMMANDS_ROS1
+from preflight_analysis.launch.xml_actions import MAX_DEPTH
 
 _DEFUNCT = {"launch": ("master",), "group": ("master",)}
 """Accepted in silence, without meaning since ROS Fuerte."""

@@ -9,7 +9,7 @@ from preflight_analysis.launch.xml_actions import action_of
 
 
 def read_ros2_xml(document: Document) -> LaunchFile:
-    """The launch file in `document`. Any text gives one; its root is None where the document element is no `<launch>`."""
+    """The launch file in `document`. Any text gives one; without a root where the document element is no `<launch>`."""
     root = document.root
     action = action_of(root, parse_value_ros2) if root is not None and root.tag == "launch" else None
     return LaunchFile(document.path, 2, action, document)

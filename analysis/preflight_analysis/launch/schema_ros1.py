@@ -14,6 +14,7 @@ from preflight_analysis.launch.schema import Attribute, Tag
 ANNOTATIONS = ("topics", "services", "params", "actions")
 """Our own tags in a `<node>`; roslaunch skips them with a warning, which is why a comment may hold them too."""
 
+
 def _flag(name: str, doc: str) -> Attribute:
     return Attribute(name, doc, "flag", ("true", "false"), "false")
 

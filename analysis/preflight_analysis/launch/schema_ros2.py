@@ -66,7 +66,9 @@ ACTIONS = (
 """The tags that may stand in `<launch>`, `<group>` and timers."""
 
 _VALUE_NAME = Attribute("name", "The name of the launch configuration.", "argument", required=True)
-_NAMESPACE = Attribute("namespace", "The namespace, relative to the pushed one unless it starts with a slash.", "namespace")
+_NAMESPACE = Attribute(
+    "namespace", "The namespace, relative to the pushed one unless it starts with a slash.", "namespace"
+)
 _PROCESS = (
     Attribute("cwd", "The working directory of the process.", "file"),
     Attribute("on_exit", "`shutdown`: end the whole launch when the process ends.", "choice", ("shutdown",)),
@@ -108,9 +110,7 @@ TAGS_ROS2: Mapping[str, Tag] = {
         children=("choice",),
     ),
     "choice": _entity("A value that the argument may have.", Attribute("value", "The value.", required=True)),
-    "let": _action(
-        "Sets a launch configuration.", _VALUE_NAME, Attribute("value", "The value.", required=True)
-    ),
+    "let": _action("Sets a launch configuration.", _VALUE_NAME, Attribute("value", "The value.", required=True)),
     "include": _action(
         "Executes another launch file. What it sets stays set after it.",
         Attribute("file", "The launch file.", "launch-file", required=True),

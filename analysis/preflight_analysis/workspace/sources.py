@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
-from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.ros1_xml import read_ros1
+from preflight_analysis.launch.read import read_launch
 
 
 @dataclass(slots=True)
@@ -56,16 +55,19 @@ class Sources:
             return entry.text.digest
         return "" if entry.text.kind == "missing" else digest(repr(entry.signature))
 
-    def launch_file(self, path: str) -> LaunchFile | Unreadable:
-        """The launch file at `path`."""
+    def launch_file(self, path: str, generation: int | None = None) -> LaunchFile | Unreadable:
+        """The launch file at `path`, read as that generation of ROS reads it; None: as the file looks."""
         entry = self._entry(path)
         if isinstance(entry.text, Unreadable):
             return entry.text
         with entry.parsing:
             found = entry.parsed.get("launch")
             if not isinstance(found, LaunchFile):
-                found = read_ros1(parse_xml(path, entry.text.text, entry.text.encoding))
-                entry.parsed["launch"] = found
+                found = entry.parsed["launch"] = read_launch(entry.text)
+            if generation not in (None, found.generation):
+                found = entry.parsed.get(f"launch {generation}")
+                if not isinstance(found, LaunchFile):
+                    found = entry.parsed[f"launch {generation}"] = read_launch(entry.text, generation)
         return found
 
     def text(self, path: str) -> Document | Unreadable:

@@ -16,6 +16,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import build_graph
@@ -151,7 +152,11 @@ class Workspace:
             self._memo_lock.release()
 
     def _evaluate(self, path: str, args: Mapping[str, str], memo: Memo | None) -> LaunchTree:
-        return evaluate(path, args, self.sources, self._executables, self.environment, self.cwd, self.commands, memo)
+        found = self.sources.launch_file(path)
+        sources = self.sources, self._executables, self.environment, self.cwd, self.commands
+        if not isinstance(found, Unreadable) and found.generation == 2:
+            return evaluate_ros2(path, args, *sources)
+        return evaluate(path, args, *sources, memo)
 
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
@@ -215,7 +220,7 @@ class Workspace:
         launch_files: dict[str, LaunchFile] = {}
         documents: dict[str, Document] = {}
         for path in tree.files:
-            found = self.sources.launch_file(path)
+            found = self.sources.launch_file(path, tree.generation)
             if not isinstance(found, Unreadable):
                 launch_files[path] = found
                 documents[path] = found.document

@@ -10,6 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import parse_arguments
@@ -38,6 +39,14 @@ BASE_ENV: Mapping[str, str] = {
 }
 """What every job starts from, whatever this process was started with: the answers are the same on every machine."""
 
+BASE_ENV_ROS2: Mapping[str, str] = {
+    **BASE_ENV,
+    "HOME": "$CWD/home",
+    "ROS_DISTRO": "rolling",
+    "ROS_VERSION": "2",
+}
+"""The same for ROS 2, with the home folder as the recorded answers of the real launch name it."""
+
 _ROOT = "$ROOT"
 _CWD = "/"
 """Relative include paths are relative to where roslaunch is called; a batch is called from nowhere in particular."""
@@ -57,14 +66,18 @@ def answer_all(jobs: Path) -> int:
     """Answer all jobs. Raises `CannotDoError` at the first line that is no job."""
     environment_of = lru_cache(maxsize=4)(_environment)
     for job in _read(jobs):
-        environment = environment_of(job.package_path, tuple(sorted(job.env.items())))
-        analysis = Workspace(environment, Sources(), _CWD).static(job.file, job.args)
+        sources = Sources()
+        launch_file = sources.launch_file(job.file)
+        generation = 1 if isinstance(launch_file, Unreadable) else launch_file.generation
+        environment = environment_of(generation, job.package_path, tuple(sorted(job.env.items())))
+        analysis = Workspace(environment, sources, _CWD).static(job.file, job.args)
         print_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
     return CLEAN
 
 
-def _environment(package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]) -> Environment:
-    variables = {**BASE_ENV, "ROS_PACKAGE_PATH": os.pathsep.join(package_path), **dict(env)}
+def _environment(generation: int, package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]) -> Environment:
+    base = BASE_ENV if generation == 1 else BASE_ENV_ROS2
+    variables = {**base, "ROS_PACKAGE_PATH": os.pathsep.join(package_path), **dict(env)}
     return detect_environment(None, variables, package_path)
 
 

@@ -8,9 +8,10 @@ from typing import TypeVar
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import values
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
-from preflight_analysis.evaluation.ros1.substitute import Resolved, resolve
+from preflight_analysis.evaluation.ros1.substitute import resolve
 from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.schema import one_of
 from preflight_analysis.launch.schema_ros1 import TAGS

@@ -254,7 +254,7 @@ def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default
 def _check_language(state: State) -> None:
     """What roslaunch would skip or complain of in each file, whatever its context."""
     for path in state.visited:
-        launch_file = state.files.launch_file(path)
+        launch_file = state.files.launch_file(path, 1)
         if not isinstance(launch_file, Unreadable):
             memo = state.memo
             for found in memo.language(launch_file) if memo is not None else check_language(launch_file):

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, plain_number, positive_number
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
-from preflight_analysis.evaluation.ros1.substitute import Resolved
 from preflight_analysis.evaluation.ros1.tags import clear_params, evaluate_env, evaluate_remap, namespace_of
 from preflight_analysis.evaluation.tree import Executable, LaunchNode, Unknown, Use
 from preflight_analysis.launch.model import Action

@@ -3,32 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
-from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands
-from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.memo import Memo, Record
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
-    Arg,
-    Command,
-    Include,
-    LaunchNode,
     Machine,
     Param,
-    Problem,
-    Unknown,
-    Use,
 )
-from preflight_analysis.launch.model import LaunchFile
 
 
-class State:
-    """The growing result, and what everything is read from."""
+class State(Collector):
+    """The growing result of a ROS 1 launch."""
 
     def __init__(
         self,
@@ -39,25 +29,12 @@ class State:
         results: Commands,
         memo: Memo | None = None,
     ) -> None:
-        self.files = files
-        self.executables = executables
-        self.results = results
-        self.environment = environment
-        self.cwd = cwd
+        super().__init__(1, files, executables, environment, cwd, results)
         self.memo = memo
-        self.nodes: list[LaunchNode] = []
         self.node_names: dict[str, Location | None] = {"/rosout": None}
         self.params: dict[str, Param] = {}
         self.clear_params: list[str] = []
-        self.includes: list[Include] = []
         self.machines: dict[str, Machine] = {}
-        self.args: dict[str, Arg] = {}
-        self.commands: list[Command] = []
-        self.uses: list[Use] = []
-        self.problems: list[Problem] = []
-        self.unknowns: list[Unknown] = []
-        self.visited: list[str] = []
-        self.inputs: dict[str, str] = {}
         self.exhausted = False
         """Whether something was nested too deeply to be evaluated."""
         self.depends_on_outside = False
@@ -65,9 +42,6 @@ class State:
         launch, machines known to all of it, and includes that include themselves bounded by what is above them."""
         self.includes_before = 0
         """How many includes the states around this one have met."""
-        self._digests: dict[str, str] = {}
-        self._anonymous: dict[str, int] = {}
-        self._reported: set[tuple[str, Origin, str]] = set()
 
     @property
     def anonymous_names(self) -> Mapping[str, int]:
@@ -142,13 +116,6 @@ class State:
             self.results.result(command.line) == command.result for command in record.commands
         )
 
-    def digest(self, path: str) -> str:
-        """Names the content of a file, which is looked up once."""
-        found = self._digests.get(path)
-        if found is None:
-            found = self._digests[path] = self.files.digest(path)
-        return found
-
     def set_param(self, param: Param) -> None:
         """Set a parameter as the last one to do so; what it replaces is kept with it."""
         old = self.params.pop(param.name, None)
@@ -156,43 +123,11 @@ class State:
             param = param._replace(overrides=(*old.overrides, old._replace(overrides=()), *param.overrides))
         self.params[param.name] = param
 
-    def problem(self, kind: str, origin: Origin, *, fatal: bool = True, **data: Any) -> None:
-        """Note a problem; the same one at the same place once."""
-        self._add(Problem(kind, origin, data, fatal))
-
-    def _add(self, problem: Problem) -> None:
-        key = (problem.kind, problem.origin, str(problem.data.get("name")))
-        if key not in self._reported:
-            self._reported.add(key)
-            self.problems.append(problem)
-
     def unknown(self, what: str, reason: str, scope: Scope, span: Span) -> None:
         """Note a value that cannot be known."""
-        self.unknowns.append(Unknown(what, reason, Location(scope.file, span)))
+        self.note_unknown(what, reason, Location(scope.file, span))
 
     def anonymous_name(self, identifier: str) -> str:
-        """A fresh name for `$(anon identifier)`, numbered in the order of evaluation."""
+        """As for any launch; what depends on the count is not remembered for another place."""
         self.depends_on_outside = True
-        count = self._anonymous[identifier] = self._anonymous.get(identifier, 0) + 1
-        return f"{identifier}_ANON{count}"
-
-    def read_launch_file(self, path: str) -> LaunchFile | Unreadable:
-        """A launch file, noted as an input."""
-        self.inputs[path] = self.digest(path)
-        return self.files.launch_file(path)
-
-    def read_text(self, path: str) -> Document | Unreadable:
-        """A text file, noted as an input."""
-        real = without_dots(path)
-        if real is None:
-            return Unreadable(path, "does not exist", "missing")
-        self.inputs[real] = self.digest(real)
-        return self.files.text(real)
-
-    def read_data(self, path: str) -> bytes | Unreadable:
-        """The bytes of a file, noted as an input."""
-        real = without_dots(path)
-        if real is None:
-            return Unreadable(path, "does not exist", "missing")
-        self.inputs[real] = self.digest(real)
-        return self.files.data(real)
+        return super().anonymous_name(identifier)

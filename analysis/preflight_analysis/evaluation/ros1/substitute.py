@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import expression, values
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.tree import Use
@@ -22,13 +23,6 @@ from preflight_analysis.launch.substitutions import (
     find_substitutions,
     is_eval,
 )
-
-
-class Resolved(NamedTuple):
-    """The text a value came to. Where `known` is false it still has the unresolved substitutions in it."""
-
-    text: str
-    known: bool = True
 
 
 class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list

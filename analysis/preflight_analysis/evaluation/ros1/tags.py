@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, positive_number
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
 from preflight_analysis.evaluation.ros1.state import State
-from preflight_analysis.evaluation.ros1.substitute import Resolved
 from preflight_analysis.evaluation.tree import Machine, Remap, Use
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.schema_ros1 import TAGS

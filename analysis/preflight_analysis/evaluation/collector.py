@@ -1,0 +1,93 @@
+"""What accumulates while a launch file of either generation is evaluated, and what it is read from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import Commands
+from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.tree import Arg, Command, Include, LaunchNode, Problem, Unknown, Use
+from preflight_analysis.launch.model import LaunchFile
+
+
+class Collector:
+    """The growing result, and what everything is read from."""
+
+    def __init__(
+        self,
+        generation: int,
+        files: Files,
+        executables: Executables,
+        environment: Environment,
+        cwd: str,
+        results: Commands,
+    ) -> None:
+        self.generation = generation
+        self.files = files
+        self.executables = executables
+        self.results = results
+        self.environment = environment
+        self.cwd = cwd
+        self.nodes: list[LaunchNode] = []
+        self.includes: list[Include] = []
+        self.args: dict[str, Arg] = {}
+        self.commands: list[Command] = []
+        self.uses: list[Use] = []
+        self.problems: list[Problem] = []
+        self.unknowns: list[Unknown] = []
+        self.visited: list[str] = []
+        self.inputs: dict[str, str] = {}
+        self._digests: dict[str, str] = {}
+        self._anonymous: dict[str, int] = {}
+        self._reported: set[tuple[str, Origin, str]] = set()
+
+    def digest(self, path: str) -> str:
+        """Names the content of a file, which is looked up once."""
+        found = self._digests.get(path)
+        if found is None:
+            found = self._digests[path] = self.files.digest(path)
+        return found
+
+    def problem(self, kind: str, origin: Origin, *, fatal: bool = True, **data: Any) -> None:
+        """Note a problem; the same one at the same place once."""
+        self._add(Problem(kind, origin, data, fatal))
+
+    def _add(self, problem: Problem) -> None:
+        key = (problem.kind, problem.origin, str(problem.data.get("name")))
+        if key not in self._reported:
+            self._reported.add(key)
+            self.problems.append(problem)
+
+    def note_unknown(self, what: str, reason: str, location: Location) -> None:
+        """Note a value that cannot be known."""
+        self.unknowns.append(Unknown(what, reason, location))
+
+    def anonymous_name(self, identifier: str) -> str:
+        """A fresh name for `$(anon identifier)`, numbered in the order of evaluation."""
+        count = self._anonymous[identifier] = self._anonymous.get(identifier, 0) + 1
+        return f"{identifier}_ANON{count}"
+
+    def read_launch_file(self, path: str) -> LaunchFile | Unreadable:
+        """A launch file, noted as an input."""
+        self.inputs[path] = self.digest(path)
+        return self.files.launch_file(path, self.generation)
+
+    def read_text(self, path: str) -> Document | Unreadable:
+        """A text file, noted as an input."""
+        real = without_dots(path)
+        if real is None:
+            return Unreadable(path, "does not exist", "missing")
+        self.inputs[real] = self.digest(real)
+        return self.files.text(real)
+
+    def read_data(self, path: str) -> bytes | Unreadable:
+        """The bytes of a file, noted as an input."""
+        real = without_dots(path)
+        if real is None:
+            return Unreadable(path, "does not exist", "missing")
+        self.inputs[real] = self.digest(real)
+        return self.files.data(real)

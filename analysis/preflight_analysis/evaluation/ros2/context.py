@@ -1,0 +1,100 @@
+"""What `launch.LaunchContext` holds while a launch is evaluated: configurations, environment, pushed ROS settings.
+
+Includes do not scope any of it, groups do. `push` copies as launch does, one level deep: the lists of remaps and of
+parameters are the same ones afterwards if they were there before, so a group can add to what is around it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.evaluation.resolved import Resolved
+
+
+@dataclass(frozen=True, slots=True)
+class Configuration:
+    """A launch configuration: its text, not known where something that it depends on is missing, and who set it
+    (None: the command line)."""
+
+    value: Resolved
+    origin: Origin | None
+
+
+@dataclass(frozen=True, slots=True)
+class PushedRemap:
+    """A rule of `<set_remap>`."""
+
+    source: Resolved
+    target: Resolved
+    origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
+class PushedParam:
+    """A parameter of `<set_parameter>`, or the file of `<set_parameters_from_file>`, whose `name` is None."""
+
+    name: str | None
+    value: object
+    origin: Origin
+
+
+@dataclass(slots=True)
+class Scope:
+    """What `push` saves and `pop` brings back."""
+
+    configurations: dict[str, Configuration] = field(default_factory=dict)
+    namespace: Resolved | None = None
+    remaps: list[PushedRemap] | None = None
+    params: list[PushedParam] | None = None
+    environment: dict[str, str] = field(default_factory=dict)
+
+    def copy(self) -> Scope:
+        """As launch copies it."""
+        return Scope(dict(self.configurations), self.namespace, self.remaps, self.params, dict(self.environment))
+
+
+class Context:
+    """The state of one launch."""
+
+    def __init__(self, environment: Mapping[str, str]) -> None:
+        self.scope = Scope(environment=dict(environment))
+        self.initial_environment = dict(environment)
+        self.launch_file = ""
+        """The launch file that was included last: that of `$(dirname)`, also after the include."""
+        self._stack: list[Scope] = []
+
+    def push(self) -> None:
+        """Begin a scope."""
+        self._stack.append(self.scope.copy())
+
+    def pop(self) -> None:
+        """End it."""
+        self.scope = self._stack.pop()
+
+    def reset(self) -> None:
+        """Forget all that was configured; the environment is the first one again."""
+        self.scope = Scope(environment=dict(self.initial_environment))
+
+    def get(self, name: str) -> Configuration | None:
+        """A launch configuration."""
+        if name == "ros_namespace" and self.scope.namespace is not None:
+            return Configuration(self.scope.namespace, None)
+        return self.scope.configurations.get(name)
+
+    def set(self, name: str, value: Resolved, origin: Origin | None) -> None:
+        """Set a launch configuration."""
+        self.scope.configurations[name] = Configuration(value, origin)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """The launch file that is evaluated, and the include tags that led to it, outermost first."""
+
+    file: str
+    chain: Origin
+
+    def origin(self, span: Span) -> Origin:
+        """The origin of a place in the file."""
+        return (*self.chain, Location(self.file, span))

@@ -1,0 +1,105 @@
+"""Which arguments a launch file asks for, as far as that shows without evaluating it.
+
+`launch.LaunchDescription.get_launch_arguments_with_include_launch_description_actions`, by which an include checks that
+all required arguments are given before anything of the file is executed. It looks into groups and into those includes
+whose file is known without any launch configuration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.launch.model import Action, LaunchFile
+
+MAX_FILES = 500
+
+Included = Callable[[str, Action], LaunchFile | None]
+"""The file that an include of a launch file (by path) leads to without any configuration."""
+
+
+@dataclass(slots=True)
+class Declared:
+    """An `<arg>` of the file or of one below it. `passed` are the names that the includes on the way pass."""
+
+    name: str
+    file: str
+    span: Span
+    required: bool
+    conditional: bool
+    passed: list[str] = field(default_factory=list)
+
+
+def declared_arguments(launch_file: LaunchFile, included: Included) -> list[Declared]:
+    """The arguments in the order in which they are met, each name once."""
+    reader = _Reader(included)
+    if launch_file.root is not None:
+        reader.read(launch_file.path, launch_file.root.children, None)
+    return [_resolved(found, includes) for found, includes in reader.found]
+
+
+def _resolved(found: Declared, includes: list[Action] | None) -> Declared:
+    for include in includes or ():
+        found.passed += passed_names(include)
+    return found
+
+
+def passed_names(include: Action) -> list[str]:
+    """The names of the arguments that an include passes, those that are plain text."""
+    values = (child.value("name") for child in include.children if child.kind == "arg")
+    return [value.text for value in values if value is not None and value.is_literal]
+
+
+class _Reader:
+    def __init__(self, included: Included) -> None:
+        self._included = included
+        self._names: set[str] = set()
+        self._files: list[str] = []
+        self.found: list[tuple[Declared, list[Action] | None]] = []
+
+    def read(
+        self, file: str, actions: Iterable[Action], includes: list[Action] | None, *, conditional: bool = False
+    ) -> None:
+        """As launch goes through them: the list of includes is shared between siblings below an include."""
+        for action in actions:
+            if action.kind == "arg":
+                self._declare(file, action, conditional, includes)
+            if action.kind == "reset":
+                return
+            below = includes
+            if action.kind == "include":
+                if below is None:
+                    below = []
+                below.append(action)
+            has_condition = action.attribute("if") is not None or action.attribute("unless") is not None
+            deferred = action.kind in ("timer", "ros_timer")
+            for inner_file, inner in self._sub(file, action):
+                self.read(inner_file, inner, below, conditional=has_condition or deferred)
+                if action.kind == "include":
+                    self._files.pop()
+
+    def _declare(self, file: str, action: Action, conditional: bool, includes: list[Action] | None) -> None:
+        value = action.value("name")
+        if value is None or value.text in self._names:
+            return
+        self._names.add(value.text)
+        conditional = conditional or action.attribute("if") is not None or action.attribute("unless") is not None
+        declared = Declared(value.text, file, action.head_span, action.attribute("default") is None, conditional)
+        self.found.append((declared, includes))
+
+    def _sub(self, file: str, action: Action) -> list[tuple[str, tuple[Action, ...]]]:
+        if action.kind == "group":
+            forwarding = action.value("forwarding")
+            if forwarding is not None and forwarding.text.lower() in ("false", "0"):
+                return []  # launch resets the configurations first, and looks no further
+            return [(file, action.children)]
+        if action.kind in ("timer", "ros_timer"):
+            return [(file, action.children)]
+        if action.kind == "include":
+            found = self._included(file, action)
+            if found is None or found.root is None or found.path in self._files or len(self._files) > MAX_FILES:
+                return []
+            self._files.append(found.path)
+            return [(found.path, found.root.children)]
+        return []

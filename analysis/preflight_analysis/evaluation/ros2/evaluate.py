@@ -1,0 +1,486 @@
+"""The walk over a ROS 2 launch file and its includes, from the root to a LaunchTree."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.commands import Commands, NoResults
+from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap
+from preflight_analysis.evaluation.ros2.declared import declared_arguments
+from preflight_analysis.evaluation.ros2.nodes import (
+    evaluate_composable,
+    evaluate_executable,
+    evaluate_node,
+    namespace_of,
+)
+from preflight_analysis.evaluation.ros2.params import pushed_value
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
+from preflight_analysis.launch.check_language_ros2 import check_language_ros2
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+
+MAX_DEPTH = 150
+"""Of groups and includes within each other."""
+MAX_INCLUDES = 2_000
+NO_RESULTS = NoResults()
+
+
+def evaluate_ros2(
+    path: str,
+    args: Mapping[str, str],
+    files: Files,
+    executables: Executables,
+    environment: Environment,
+    cwd: str,
+    commands: Commands = NO_RESULTS,
+) -> LaunchTree:
+    """What `ros2 launch path name:=value...` would start.
+
+    Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What timers
+    and events start comes after the rest and is marked as deferred. Reads through `files` only; runs nothing.
+    """
+    state = Collector(2, files, executables, environment, cwd, commands)
+    context = Context(environment.variables)
+    for name, value in args.items():
+        context.set(name, Resolved(value), None)
+    path = os.path.normpath(path)
+    walk = _Walk(state, context)
+    walk.root(path, args)
+    return LaunchTree(
+        path,
+        2,
+        state.args,
+        tuple(state.nodes),
+        {},
+        (),
+        tuple(state.includes),
+        {},
+        tuple(state.uses),
+        tuple(state.problems),
+        tuple(state.unknowns),
+        tuple(state.visited),
+        state.inputs,
+        tuple(state.commands),
+    )
+
+
+class _Walk:
+    """One launch: actions in the order in which launch executes them."""
+
+    def __init__(self, state: Collector, context: Context) -> None:
+        self._state, self._context = state, context
+        self._later: list[tuple[Place, tuple[Action, ...]]] = []
+        self._deferred = False
+        self._depth = 0
+        self._exhausted = False
+
+    def root(self, path: str, args: Mapping[str, str]) -> None:
+        """The root file, then what waits for timers."""
+        whole = (Location(path, Span(0, 0)),)
+        found = self._state.read_launch_file(path)
+        if isinstance(found, Unreadable):
+            kind = "file-not-text" if found.kind == "not-text" else "file-unreadable"
+            self._state.problem(kind, whole, path=path, reason=found.reason)
+            return
+        self._context.launch_file = path
+        self._required_arguments(found, sorted(args), None)
+        self._file(Place(path, ()), found)
+        self._root_args(found)
+        while self._later:
+            self._deferred = True
+            place, actions = self._later.pop(0)
+            self._actions(place, actions)
+
+    def _root_args(self, launch_file: LaunchFile) -> None:
+        own = {name: arg for name, arg in self._state.args.items() if arg.origin[-1].file == launch_file.path}
+        self._state.args = own
+
+    def _file(self, place: Place, launch_file: LaunchFile) -> None:
+        """Execute one launch file."""
+        state, document = self._state, launch_file.document
+        if place.file not in state.visited:
+            state.visited.append(place.file)
+        for problem in document.problems:
+            kind = "yaml-malformed" if place.file.endswith((".yaml", ".yml")) else "xml-malformed"
+            state.problem(kind, place.origin(problem.span), message=problem.message)
+        for name, span in document.entities:
+            state.problem("xml-entity", place.origin(span), fatal=False, name=name)
+            state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", Location(place.file, span))
+        for found in check_language_ros2(launch_file):
+            state.problem(found.kind, place.origin(found.span), **found.data)
+        if launch_file.root is None:
+            span = document.root.tag_span if document.root is not None else Span(0, min(1, len(document.text)))
+            tag = document.root.tag if document.root is not None else None
+            state.problem("root-not-launch", place.origin(span), tag=tag)
+            return
+        self._actions(place, launch_file.root.children)
+
+    def _actions(self, place: Place, actions: tuple[Action, ...]) -> None:
+        performer = Performer(self._state, self._context, place)
+        for action in actions:
+            execute = _EXECUTE.get(action.kind)
+            if execute is not None and applies(performer, action):
+                execute(self, performer, action)
+
+    # Actions
+
+    def _arg(self, performer: Performer, action: Action) -> None:
+        """`DeclareLaunchArgument`."""
+        name_value = action.value("name")
+        if name_value is None:
+            return
+        name, place, state = name_value.text, performer.place, self._state
+        default = action.value("default")
+        given = self._context.get(name)
+        origin = place.origin(action.head_span)
+        location = Location(place.file, name_value.span)
+        if given is None:
+            if default is not None:
+                self._context.set(name, performer.value(default), place.origin(default.span))
+            else:
+                if not place.chain:
+                    state.problem("root-arg-required", origin, name=name)
+                self._context.set(name, Resolved(f"$(var {name})", False), origin)
+        found = self._context.get(name)
+        value = found.value if found is not None and found.value.known else None
+        self._check_choices(performer, action, name, value)
+        shown = value.text if value is not None else None
+        description = action.value("description")
+        doc = description.text if description is not None else None
+        value_origin = found.origin if found is not None else None
+        text = default.text if default is not None else None
+        state.args.setdefault(name, Arg(name, shown, text, default is None, origin, location, value_origin, doc))
+        state.uses.append(Use("arg", location, name, shown, location))
+
+    def _check_choices(self, performer: Performer, action: Action, name: str, value: Resolved | None) -> None:
+        choices = [v.text for c in action.children if c.kind == "choice" and (v := c.value("value")) is not None]
+        if not choices or value is None or value.text in choices:
+            return
+        found = self._context.get(name)
+        declared = performer.place.origin(action.head_span)
+        origin = found.origin if found is not None and found.origin else declared
+        where = declared[-1]
+        self._state.problem("arg-not-a-choice", origin, name=name, value=value.text, choices=choices, declared=where)
+
+    def _let(self, performer: Performer, action: Action) -> None:
+        name, value = action.value("name"), action.value("value")
+        if name is not None and value is not None:
+            result = performer.value(value)
+            self._context.set(performer.value(name).text, result, performer.place.origin(action.head_span))
+
+    def _group(self, performer: Performer, action: Action) -> None:
+        """`GroupAction`: scoped and forwarding unless it says otherwise."""
+        scoped, forwarding = _flag(action, "scoped"), _flag(action, "forwarding")
+        kept = []
+        for child in action.children:
+            name, value = child.value("name"), child.value("value")
+            if child.kind == "keep" and name is not None and value is not None:
+                origin = performer.place.origin(child.head_span)
+                kept.append((performer.value(name).text, performer.value(value), origin))
+        if self._too_deep(performer.place, action):
+            return
+        self._depth += 1
+        if scoped:
+            self._context.push()
+            if not forwarding:
+                self._context.reset()
+        for name_text, result, origin in kept:
+            self._context.set(name_text, result, origin)
+        self._actions(performer.place, action.children)
+        if scoped:
+            self._context.pop()
+        self._depth -= 1
+
+    def _include(self, performer: Performer, action: Action) -> None:
+        """`IncludeLaunchDescription`: what it passes, and what the file sets, stays set after it."""
+        state, place = self._state, performer.place
+        attribute = action.attribute("file")
+        if attribute is None:
+            return
+        file = performer.value(attribute.value)
+        origin = place.origin(action.head_span)
+        at = Location(place.file, attribute.value.span)
+        passed = self._passed(performer, action)
+        if not file.known:
+            state.includes.append(Include(None, origin, at, {}))
+            state.note_unknown("<include>", "its file is not known", at)
+            return
+        path = os.path.normpath(os.path.join(state.cwd, file.text))
+        path = without_dots(path) or path
+        shown: dict[str, str | None] = {}
+        include = Include(path, origin, at, shown)
+        state.includes.append(include)
+        state.uses.append(Use("include", at, file.text, path, Location(path, Span(0, 0))))
+        if self._too_deep(place, action):
+            return
+        found = self._read(place, path, at)
+        if found is None:
+            return
+        self._context.launch_file = path
+        self._required_arguments(found, [name for name, _ in passed], place.origin(at.span))
+        for name, child in passed:
+            value = child.value("value")
+            result = performer.value(value) if value is not None else Resolved("", False)
+            shown[name] = result.text if result.known else None
+            self._context.set(name, result, place.origin(value.span if value is not None else child.kind_span))
+        self._depth += 1
+        self._file(Place(path, origin), found)
+        self._depth -= 1
+
+    def _passed(self, performer: Performer, action: Action) -> list[tuple[str, Action]]:
+        found = []
+        for child in action.children:
+            name = child.value("name")
+            if child.kind == "arg" and name is not None:
+                text = performer.value(name).text
+                found.append((text, child))
+                self._state.uses.append(Use("argument", Location(performer.place.file, name.span), text, text))
+        return found
+
+    def _read(self, place: Place, path: str, at: Location) -> LaunchFile | None:
+        """The included file; what is wrong with it is noted."""
+        state, origin = self._state, place.origin(at.span)
+        chain = [location.file for location in place.chain]
+        if path in (place.file, *chain):
+            state.problem("include-cycle", origin, path=path, chain=[*chain, place.file])
+            return None
+        found = state.read_launch_file(path)
+        if not isinstance(found, Unreadable):
+            return found
+        if found.kind == "missing":
+            state.problem("include-not-found", origin, path=path, reason=found.reason)
+        else:
+            state.problem("include-unreadable", origin, path=path, reason=found.reason)
+        state.note_unknown("<include>", f"{path} {found.reason}", at)
+        return None
+
+    def _required_arguments(self, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
+        """Before it executes a file launch looks whether each required argument is passed by the include itself:
+        a configuration that is set already does not count."""
+        names = list(passed)
+        for declared in declared_arguments(launch_file, self._included_without_context):
+            if not declared.required or declared.conditional:
+                continue
+            names += declared.passed
+            if declared.name in names:
+                continue
+            if include is not None:
+                self._state.problem("arg-required", include, name=declared.name, file=declared.file, passed=passed)
+            elif declared.file != launch_file.path:
+                at = Location(declared.file, declared.span)
+                self._state.problem("root-arg-required", (at,), name=declared.name)
+
+    def _included_without_context(self, file: str, action: Action) -> LaunchFile | None:
+        value = action.value("file")
+        if value is None or value.problem is not None:
+            return None
+        if any(part.command not in ("find-pkg-share", "find-pkg-prefix", "env") for part in value.substitutions):
+            return None
+        quiet = Collector(
+            2, self._state.files, self._state.executables, self._state.environment, self._state.cwd, self._state.results
+        )
+        empty = Context(self._state.environment.variables)
+        result = Performer(quiet, empty, Place(file, ())).value(value)
+        if not result.known:
+            return None
+        found = self._state.read_launch_file(os.path.normpath(os.path.join(self._state.cwd, result.text)))
+        return None if isinstance(found, Unreadable) else found
+
+    def _too_deep(self, place: Place, action: Action) -> bool:
+        if self._depth <= MAX_DEPTH and len(self._state.includes) <= MAX_INCLUDES:
+            return False
+        if not self._exhausted:
+            self._exhausted = True
+            limit = f"{MAX_DEPTH} levels" if self._depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"
+            self._state.problem("nested-too-deeply", place.origin(action.kind_span), fatal=False, limit=limit)
+            at = Location(place.file, action.kind_span)
+            self._state.note_unknown(f"<{action.kind}>", f"there are more than {limit}", at)
+        return True
+
+    def _node(self, performer: Performer, action: Action) -> None:
+        evaluate_node(performer, action, deferred=self._deferred)
+
+    def _container(self, performer: Performer, action: Action) -> None:
+        before = len(self._state.nodes)
+        evaluate_node(performer, action, kind="container", deferred=self._deferred)
+        if len(self._state.nodes) > before:
+            name = self._state.nodes[-1].name
+            evaluate_composable(performer, action.children, name, applies, deferred=self._deferred)
+
+    def _load(self, performer: Performer, action: Action) -> None:
+        target = action.value("target")
+        if target is not None:
+            name = performer.value(target).text
+            evaluate_composable(performer, action.children, name, applies, deferred=self._deferred)
+
+    def _executable(self, performer: Performer, action: Action) -> None:
+        evaluate_executable(performer, action, deferred=self._deferred)
+
+    def _push_namespace(self, performer: Performer, action: Action) -> None:
+        ns, valid = namespace_of(performer, action, self._context.scope)
+        if ns is not None and valid:
+            self._context.scope.namespace = ns
+
+    def _set_remap(self, performer: Performer, action: Action) -> None:
+        source, target = action.value("from"), action.value("to")
+        if source is None or target is None:
+            return
+        origin = performer.place.origin(action.head_span)
+        remap = PushedRemap(performer.value(source), performer.value(target), origin)
+        scope = self._context.scope
+        if scope.remaps is None:
+            scope.remaps = []
+        scope.remaps.append(remap)
+
+    def _set_parameter(self, performer: Performer, action: Action) -> None:
+        name, value = action.value("name"), action.value("value")
+        if name is not None and value is not None:
+            found = pushed_value(performer, value)
+            if found is not None:
+                origin = performer.place.origin(action.head_span)
+                self._push_param(PushedParam(performer.value(name).text, found, origin))
+
+    def _set_parameters_from_file(self, performer: Performer, action: Action) -> None:
+        file = action.value("filename")
+        if file is not None:
+            result = performer.value(file)
+            if result.known:
+                self._push_param(PushedParam(None, result.text, performer.place.origin(file.span)))
+
+    def _push_param(self, param: PushedParam) -> None:
+        scope = self._context.scope
+        if scope.params is None:
+            scope.params = []
+        scope.params.append(param)
+
+    def _timer(self, performer: Performer, action: Action) -> None:
+        self._later.append((performer.place, action.children))
+
+    def _set_env(self, performer: Performer, action: Action) -> None:
+        name, value = action.value("name"), action.value("value")
+        if name is not None and value is not None:
+            result = performer.value(value)
+            if result.known:
+                self._context.scope.environment[performer.value(name).text] = result.text
+
+    def _unset_env(self, performer: Performer, action: Action) -> None:
+        name = action.value("name")
+        if name is not None:
+            self._context.scope.environment.pop(performer.value(name).text, None)
+
+    def _append_env(self, performer: Performer, action: Action) -> None:
+        name, value = action.value("name"), action.value("value")
+        if name is None or value is None:
+            return
+        key, result = performer.value(name).text, performer.value(value)
+        separator = action.value("separator")
+        between = performer.value(separator).text if separator is not None else os.pathsep
+        environment = self._context.scope.environment
+        old = environment.get(key)
+        if old is None:
+            environment[key] = result.text
+        elif _flag(action, "prepend", default=False):
+            environment[key] = result.text + between + old
+        else:
+            environment[key] = old + between + result.text
+
+    def _reset_env(self, performer: Performer, action: Action) -> None:
+        self._context.scope.environment = dict(self._context.initial_environment)
+
+    def _reset(self, performer: Performer, action: Action) -> None:
+        kept = []
+        for child in action.children:
+            name, value = child.value("name"), child.value("value")
+            if child.kind == "keep" and name is not None and value is not None:
+                origin = performer.place.origin(child.head_span)
+                kept.append((performer.value(name).text, performer.value(value), origin))
+        environment = self._context.scope.environment
+        self._context.reset()
+        self._context.scope.environment = environment
+        for text, result, origin in kept:
+            self._context.set(text, result, origin)
+
+    def _only_read(self, performer: Performer, action: Action) -> None:
+        """Actions that start nothing and set nothing that a node sees; their values are read all the same."""
+        for attribute in action.attributes:
+            if attribute.name not in ("if", "unless"):
+                performer.value(attribute.value)
+
+
+_EXECUTE: dict[str, Callable[[_Walk, Performer, Action], None]] = {
+    "arg": _Walk._arg,
+    "let": _Walk._let,
+    "group": _Walk._group,
+    "include": _Walk._include,
+    "node": _Walk._node,
+    "node_container": _Walk._container,
+    "load_composable_node": _Walk._load,
+    "executable": _Walk._executable,
+    "push_ros_namespace": _Walk._push_namespace,
+    "push-ros-namespace": _Walk._push_namespace,
+    "set_remap": _Walk._set_remap,
+    "set_parameter": _Walk._set_parameter,
+    "set_parameters_from_file": _Walk._set_parameters_from_file,
+    "timer": _Walk._timer,
+    "ros_timer": _Walk._timer,
+    "set_env": _Walk._set_env,
+    "unset_env": _Walk._unset_env,
+    "append_env": _Walk._append_env,
+    "reset_env": _Walk._reset_env,
+    "reset": _Walk._reset,
+    "log": _Walk._only_read,
+    "shutdown": _Walk._only_read,
+    "set_use_sim_time": _Walk._only_read,
+    "set_ros_log_dir": _Walk._only_read,
+}
+
+
+def applies(performer: Performer, action: Action) -> bool:
+    """Whether an action is executed, by its `if` and `unless` (`launch.conditions`)."""
+    for name in ("if", "unless"):
+        attribute = action.attribute(name)
+        if attribute is not None:
+            return _condition(performer, action, attribute) == (name == "if")
+    return True
+
+
+def _condition(performer: Performer, action: Action, attribute: ActionAttribute) -> bool | None:
+    """The truth of a condition; None where it is not known or none."""
+    result = performer.value(attribute.value)
+    span = attribute.value.span
+    if not result.known:
+        at = Location(performer.place.file, span)
+        performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
+        return None
+    word = result.text.strip().lower()
+    if word in ("true", "1"):
+        return True
+    if word in ("false", "0"):
+        return False
+    performer.state.problem(
+        "bad-value",
+        performer.place.origin(span),
+        tag=action.kind,
+        attribute=attribute.name,
+        value=result.text,
+        expected="true, false, 1 or 0",
+        choices=("true", "false"),
+    )
+    return None
+
+
+def _flag(action: Action, name: str, *, default: bool = True) -> bool:
+    """A boolean attribute; a text that is not one counts as true, as it does for launch."""
+    value = action.value(name)
+    if value is None:
+        return default
+    if value.typed is not None:
+        return bool(value.typed.value)
+    return value.text.strip().lower() not in ("false", "0", "off", "no", "")

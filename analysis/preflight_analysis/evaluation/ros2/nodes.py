@@ -1,0 +1,332 @@
+"""Nodes, containers, composable nodes and other processes (`launch_ros.actions`, `launch.actions.ExecuteProcess`)."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from collections.abc import Callable, Iterable
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2.context import Scope
+from preflight_analysis.evaluation.ros2.params import (
+    Sources,
+    allows_substitutions,
+    file_source,
+    pushed_source,
+    tag_params,
+)
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.tree import Executable, LaunchNode, ParamSource, Remap, Unknown, Use
+from preflight_analysis.launch.model import Action, Literal, Substitution, Value
+
+_NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_NAMESPACE = re.compile(r"/|(?:/[A-Za-z_][A-Za-z0-9_]*)+")
+
+
+def prefixed(base: str | None, ns: str | None) -> str | None:
+    """`ns` below `base` (`launch_ros.utilities.prefix_namespace`)."""
+    if ns is None:
+        combined = base
+    elif not base or ns.startswith("/"):
+        combined = ns
+    else:
+        combined = ("" if base == "/" else base) + "/" + ns
+    return combined.rstrip("/") if combined is not None and combined != "/" else combined
+
+
+def absolute(ns: str | None) -> str | None:
+    """`launch_ros.utilities.make_namespace_absolute`."""
+    return ns if ns is None or ns.startswith("/") else "/" + ns
+
+
+def namespace_of(performer: Performer, action: Action, scope: Scope) -> tuple[Resolved | None, bool]:
+    """The namespace of a node, None where neither it nor what is around it says one, and whether it is valid."""
+    value = action.value("namespace")
+    own = performer.value(value) if value is not None else None
+    base = scope.namespace
+    if own is None and base is None:
+        return None, True
+    known = (own is None or own.known) and (base is None or base.known)
+    text = absolute(prefixed(base.text if base else None, own.text if own else None))
+    result = Resolved(text or "/", known)
+    if known and text is not None and _NAMESPACE.fullmatch(text) is None:
+        where = value if value is not None else None
+        origin = performer.place.origin(where.span if where is not None else action.kind_span)
+        reason = "a namespace is made of letters, digits and underscores between single slashes"
+        performer.state.problem("invalid-name", origin, what="namespace", name=text, reason=reason)
+        return result, False
+    return result, True
+
+
+def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", deferred: bool = False) -> None:
+    """`<node>` and `<node_container>`; composable nodes of the container after it."""
+    state, scope, place = performer.state, performer.context.scope, performer.place
+    unknowns: list[Unknown] = []
+
+    def known(result: Resolved, what: str) -> str:
+        if not result.known:
+            unknowns.append(Unknown(what, "it is not known", place.origin(action.kind_span)[-1]))
+        return result.text
+
+    executable = action.value("exec")
+    if executable is None:
+        return
+    exec_name = known(performer.value(executable), "exec")
+    package_value = action.value("pkg")
+    package = known(performer.value(package_value), "pkg") if package_value is not None else ""
+    name_value = action.value("name")
+    name = known(performer.value(name_value), "name") if name_value is not None else None
+    if name is not None and name_value is not None and not unknowns and _NODE_NAME.fullmatch(name) is None:
+        reason = "a name is a letter or underscore, then letters, digits and underscores"
+        state.problem("invalid-name", place.origin(name_value.span), what="node", name=name, reason=reason)
+        return
+    ns, valid = namespace_of(performer, action, scope)
+    if not valid:
+        return
+    namespace = known(ns, "namespace") if ns is not None else "/"
+    full = _full(namespace, name if name is not None else _guessed_name(exec_name))
+    sources = _sources(performer, action, full if name is not None else "", must_exist=False)
+    remaps = _remaps(performer, action, full)
+    arguments = _words(performer, action, "args")
+    resolved = state.executables.find(package, exec_name) if package else Executable(_plain_executable(exec_name))
+    if package_value is not None and name_value is None:
+        place_of_name = action.kind_span
+    else:
+        place_of_name = name_value.span if name_value is not None else action.kind_span
+    state.uses.append(Use("node", Location(place.file, place_of_name), full, full))
+    state.nodes.append(
+        LaunchNode(
+            full,
+            namespace if namespace.endswith("/") else namespace + "/",
+            package,
+            exec_name,
+            kind,
+            " ".join(arguments),
+            tuple(remaps),
+            tuple(_environment(performer, action)),
+            place.origin(action.head_span),
+            action,
+            resolved,
+            respawn=_text(performer, action, "respawn", "false").lower() in ("true", "1"),
+            output=_text(performer, action, "output", "log"),
+            cwd=_text(performer, action, "cwd", "") or None,
+            launch_prefix=_text(performer, action, "launch-prefix", "") or None,
+            unknowns=tuple(unknowns),
+            named=name is not None,
+            params=sources.effective(),
+            param_sources=tuple(sources.found),
+            deferred=deferred,
+        )
+    )
+
+
+def evaluate_composable(
+    performer: Performer,
+    actions: Iterable[Action],
+    container: str,
+    applies: Callable[[Performer, Action], bool],
+    *,
+    deferred: bool,
+) -> None:
+    """The `<composable_node>`s of a container or of a `<load_composable_node>`."""
+    state, scope, place = performer.state, performer.context.scope, performer.place
+    for action in actions:
+        if action.kind != "composable_node" or not applies(performer, action):
+            continue
+        package, plugin = action.value("pkg"), action.value("plugin")
+        name_value = action.value("name")
+        if package is None or plugin is None:
+            continue
+        name = performer.value(name_value) if name_value is not None else None
+        ns, _ = namespace_of(performer, action, scope)
+        namespace = ns.text if ns is not None else "/"
+        plugin_name = performer.value(plugin)
+        full = _full(namespace, name.text if name is not None else plugin_name.text.rpartition("::")[2])
+        sources = _sources(performer, action, full if name is not None else "", must_exist=True)
+        state.nodes.append(
+            LaunchNode(
+                full,
+                namespace if namespace.endswith("/") else namespace + "/",
+                performer.value(package).text,
+                plugin_name.text,
+                "composable",
+                "",
+                tuple(_remaps(performer, action, full)),
+                (),
+                place.origin(action.head_span),
+                action,
+                Executable(None),
+                named=name is not None,
+                container=container,
+                plugin=plugin_name.text,
+                params=sources.effective(),
+                param_sources=tuple(sources.found),
+                deferred=deferred,
+            )
+        )
+
+
+def evaluate_executable(performer: Performer, action: Action, *, deferred: bool) -> None:
+    """`<executable>`: a process that is no node."""
+    command = action.value("cmd")
+    if command is None:
+        return
+    words = _words(performer, action, "cmd")
+    state, place = performer.state, performer.place
+    state.nodes.append(
+        LaunchNode(
+            "",
+            "/",
+            "",
+            words[0] if words else "",
+            "process",
+            " ".join(words[1:]),
+            (),
+            tuple(_environment(performer, action)),
+            place.origin(action.head_span),
+            action,
+            Executable(None),
+            output=_text(performer, action, "output", "log"),
+            cwd=_text(performer, action, "cwd", "") or None,
+            launch_prefix=_text(performer, action, "launch-prefix", "") or None,
+            named=False,
+            deferred=deferred,
+        )
+    )
+
+
+def _full(namespace: str, name: str) -> str:
+    return f"{'' if namespace == '/' else namespace}/{name}"
+
+
+def _guessed_name(executable: str) -> str:
+    """What a node is probably called that the launch file does not name."""
+    return re.sub(r"\W", "_", os.path.basename(executable).rpartition(".")[0] or os.path.basename(executable))
+
+
+def _plain_executable(path: str) -> str | None:
+    return path if os.path.isfile(path) else None
+
+
+def _text(performer: Performer, action: Action, name: str, default: str) -> str:
+    value = action.value(name)
+    if value is None:
+        return default
+    if value.typed is not None:
+        return str(value.typed.value)
+    return performer.value(value).text
+
+
+def _sources(performer: Performer, action: Action, node: str, *, must_exist: bool) -> Sources:
+    """Pushed parameters first, then those of the node, in the order in which launch passes them."""
+    sources = Sources(node)
+    for pushed in performer.context.scope.params or ():
+        _add(sources, pushed_source(performer, pushed, node, must_exist=True))
+    for child in action.children:
+        if child.kind != "param":
+            continue
+        origin = performer.place.origin(child.head_span)
+        file = child.value("from")
+        if file is not None:
+            result = performer.value(file)
+            if result.known:
+                path = os.path.join(performer.state.cwd, result.text)
+                at = performer.place.origin(file.span)
+                location = Location(performer.place.file, file.span)
+                performer.state.uses.append(Use("file", location, result.text, path, Location(path, location.span)))
+                substitute = allows_substitutions(performer, child)
+                _add(
+                    sources,
+                    file_source(performer, path, at, node, substitute=substitute, must_exist=must_exist),
+                )
+        elif child.value("name") is not None:
+            _add(sources, ParamSource(None, tuple(tag_params(performer, child, node)), origin))
+    return sources
+
+
+def _add(sources: Sources, source: ParamSource | None) -> None:
+    if source is not None:
+        sources.found.append(source)
+
+
+def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:
+    """The pushed rules first: of two for one name the first counts."""
+    place = performer.place
+    remaps = [
+        Remap(p.source.text, p.target.text, p.origin, p.origin[-1], p.origin[-1], False)
+        for p in performer.context.scope.remaps or ()
+    ]
+    for child in action.children:
+        if child.kind != "remap":
+            continue
+        source, target = child.value("from"), child.value("to")
+        if source is None or target is None:
+            continue
+        found, given = performer.value(source), performer.value(target)
+        origin = place.origin(child.head_span)
+        at = Location(place.file, source.span), Location(place.file, target.span)
+        remaps.append(Remap(found.text, given.text, origin, *at, True))
+    return remaps
+
+
+def _environment(performer: Performer, action: Action) -> list[tuple[str, str]]:
+    """What the process gets beyond, or in place of, what the launch was started with."""
+    context = performer.context
+    initial = context.initial_environment
+    changed = {k: v for k, v in context.scope.environment.items() if initial.get(k) != v}
+    for child in action.children:
+        name, value = child.value("name"), child.value("value")
+        if child.kind == "env" and name is not None and value is not None:
+            changed[performer.value(name).text] = performer.value(value).text
+    return list(changed.items())
+
+
+def _words(performer: Performer, action: Action, name: str) -> list[str]:
+    """A command line, split where it is written: what a substitution comes to stays one word
+    (`ExecuteProcess._parse_cmdline`)."""
+    value = action.value(name)
+    if value is None:
+        return []
+    if value.problem is not None:
+        performer.value(value)
+        return []
+    words: list[str] = []
+    for parts in _split(value):
+        words.append(performer.parts(parts).text)
+    return words
+
+
+def _split(value: Value) -> list[tuple[Literal | Substitution, ...]]:
+    words: list[tuple[Literal | Substitution, ...]] = []
+    word: list[Literal | Substitution] = []
+
+    def end() -> None:
+        nonlocal word
+        words.append(tuple(word))
+        word = []
+
+    for part in value.parts:
+        if not isinstance(part, Literal):
+            word.append(part)
+            continue
+        try:
+            tokens = shlex.split(part.text)
+        except ValueError:
+            tokens = part.text.split()
+        if not tokens:
+            end()
+            continue
+        if part.text[0].isspace() and word:
+            end()
+        word.append(Literal(tokens[0], part.span))
+        if len(tokens) > 1:
+            end()
+            words.extend((Literal(token, part.span),) for token in tokens[1:-1])
+            word.append(Literal(tokens[-1], part.span))
+        if part.text[-1].isspace():
+            end()
+    if word:
+        end()
+    return words

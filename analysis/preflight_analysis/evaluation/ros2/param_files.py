@@ -1,0 +1,126 @@
+"""Parameter files of ROS 2: which nodes each section is for, and what it sets.
+
+https://design.ros2.org/articles/160_ros_command_line_arguments.html#multiple-parameter-assignments: the keys down to
+`ros__parameters` are the full name of a node, with `*` for one part of it and `**` for any number of them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import yaml
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.yaml import parse_yaml, span_of
+
+MARK = "ros__parameters"
+_MAX_DEPTH = 40
+_MAX_VALUES = 50_000
+
+
+class FileParam(NamedTuple):
+    """One parameter of a section, its name as the node declares it (`a.b`)."""
+
+    name: str
+    value: Any
+    name_span: Span
+    value_span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """The parameters for the nodes that `pattern` (`/robot/camera`, `/**`, `/*/camera`) fits. `spans` are its keys."""
+
+    pattern: str
+    spans: tuple[Span, ...]
+    params: tuple[FileParam, ...]
+
+    def fits(self, node: str) -> bool:
+        """Whether the node of this full name gets them."""
+        return _compiled(self.pattern).fullmatch(node) is not None
+
+    @property
+    def exact(self) -> bool:
+        """Whether it names one node."""
+        return "*" not in self.pattern
+
+
+@dataclass(frozen=True, slots=True)
+class ParamFile:
+    """What a parameter file says. `problem` is why it is no YAML, with its place; `unmarked` are keys that lead to
+    values without `ros__parameters` above them, which nobody reads."""
+
+    sections: tuple[Section, ...]
+    problem: tuple[str, Span] | None = None
+    unmarked: tuple[tuple[str, Span], ...] = ()
+
+
+@lru_cache(maxsize=64)
+def read_param_file(text: str) -> ParamFile:
+    """The sections of a parameter file in the order in which they are written."""
+    parsed = parse_yaml("", text)
+    problems = parsed.document.problems
+    problem = (problems[0].message, problems[0].span) if problems else None
+    reader = _Reader()
+    if isinstance(parsed.node, yaml.MappingNode):
+        reader.nodes(parsed.node, (), (), 0)
+    return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked))
+
+
+class _Reader:
+    def __init__(self) -> None:
+        self.sections: list[Section] = []
+        self.unmarked: list[tuple[str, Span]] = []
+        self._values = 0
+
+    def nodes(self, node: yaml.MappingNode, keys: tuple[str, ...], spans: tuple[Span, ...], depth: int) -> None:
+        """The levels above `ros__parameters`."""
+        for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode) or depth > _MAX_DEPTH:
+                continue
+            name, span = str(key.value), span_of(key)
+            if name == MARK:
+                if isinstance(value, yaml.MappingNode):
+                    params = tuple(self._params(value, "", depth))
+                    self.sections.append(Section(_pattern(keys), spans or (span,), params))
+            elif isinstance(value, yaml.MappingNode):
+                self.nodes(value, (*keys, name), (*spans, span), depth + 1)
+            else:
+                self.unmarked.append((name, span))
+
+    def _params(self, node: yaml.MappingNode, prefix: str, depth: int) -> Iterator[FileParam]:
+        for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode) or depth > _MAX_DEPTH or self._values > _MAX_VALUES:
+                continue
+            name = f"{prefix}{key.value}"
+            if isinstance(value, yaml.MappingNode):
+                yield from self._params(value, name + ".", depth + 1)
+            else:
+                self._values += 1
+                yield FileParam(name, plain(value), span_of(key), span_of(value))
+
+
+def plain(node: yaml.Node) -> Any:
+    """The value of a node as plain data, by the rules of YAML 1.1."""
+    try:
+        return yaml.SafeLoader("").construct_object(node, deep=True)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return str(getattr(node, "value", ""))
+
+
+def _pattern(keys: tuple[str, ...]) -> str:
+    """The full name that the keys make: each may have slashes of its own."""
+    parts = [part for key in keys for part in key.split("/") if part]
+    return "/" + "/".join(parts)
+
+
+@lru_cache(maxsize=4096)
+def _compiled(pattern: str) -> re.Pattern[str]:
+    parts = []
+    for part in pattern.split("/")[1:]:
+        parts.append(r"(?:/[^/]+)*" if part == "**" else "/" + re.escape(part).replace(r"\*", "[^/]*"))
+    return re.compile("".join(parts) or "/")

@@ -1,0 +1,330 @@
+"""Substitutions of ROS 2: from a value as written to its text, as `launch.substitutions` perform them."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import shlex
+import shutil
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import yaml
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import expression
+from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.tree import Command, Use
+from preflight_analysis.launch.model import Literal, Substitution, Value
+from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
+
+Parts = tuple[Literal | Substitution, ...]
+_MATH_MODULE = re.compile(r"(?<![\w.'\"])math\.(?=[a-z])")
+
+
+class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list
+    """A substitution that has no value. `kind` None: the reason is known already."""
+
+    def __init__(self, kind: str | None = None, *, fatal: bool = True, **data: Any) -> None:
+        super().__init__(kind)
+        self.kind, self.fatal, self.data = kind, fatal, data
+
+
+class Performer:
+    """Performs the substitutions of one launch file. What goes wrong is noted at the substitution concerned."""
+
+    def __init__(self, state: Collector, context: Context, place: Place) -> None:
+        self.state, self.context, self.place = state, context, place
+
+    def value(self, value: Value) -> Resolved:
+        """The text of a whole value."""
+        if value.problem is not None:
+            span = value.problem_span or value.span
+            self.state.problem("bad-substitution", self.place.origin(span), text=value.text, message=value.problem)
+            return Resolved(value.text, False)
+        result = self.parts(value.parts)
+        if not value.is_literal:
+            text = result.text if result.known else None
+            self.state.uses.append(Use("value", Location(self.place.file, value.span), value.text, text))
+        return result
+
+    def parts(self, parts: Parts) -> Resolved:
+        """The pieces put together."""
+        if len(parts) == 1 and isinstance(parts[0], Literal):
+            return Resolved(parts[0].text)
+        texts, known = [], True
+        for part in parts:
+            if isinstance(part, Literal):
+                texts.append(part.text)
+                continue
+            result = self._one(part)
+            known = known and result is not None
+            texts.append(part.text if result is None else result)
+        return Resolved("".join(texts), known)
+
+    def _one(self, part: Substitution) -> str | None:
+        target: Location | None = None
+        try:
+            known = SUBSTITUTIONS_ROS2.get(part.command)
+            if known is None:
+                raise _Failure(
+                    "bad-substitution",
+                    text=part.text,
+                    message=f"'{part.command}' is not a substitution",
+                    command=part.command,
+                    commands=tuple(SUBSTITUTIONS_ROS2),
+                )
+            arity = known[2]
+            if len(part.words) < arity.least or (arity.most is not None and len(part.words) > arity.most):
+                raise _Failure("bad-substitution", text=part.text, message=f"$({part.command}) takes {arity}")
+            text: str | None = _PERFORM[part.command](self, part)
+        except _Failure as failure:
+            if failure.kind is not None:
+                origin = self.place.origin(part.span)
+                self.state.problem(failure.kind, origin, fatal=failure.fatal, **failure.data)
+            text = None
+        name = "".join(p.text for p in part.words[0]) if part.words else ""
+        if part.command == "var":
+            given = self.context.get(name)
+            target = given.origin[-1] if given is not None and given.origin else None
+        elif part.command == "find-pkg-share" and text is not None:
+            manifest = self.state.environment.packages[self._word(part, 0)].manifest
+            target = Location(manifest, Span(0, 0))
+        kind = {"var": "arg", "find-pkg-share": "find"}.get(part.command, part.command)
+        self.state.uses.append(Use(kind, Location(self.place.file, part.span), name, text, target))
+        return text
+
+    # What a substitution's `perform` does
+
+    def _word(self, part: Substitution, index: int) -> str:
+        """An argument; a value that is not known makes the whole not known."""
+        result = self.parts(part.words[index])
+        if not result.known:
+            raise _Failure
+        return result.text
+
+    def _var(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        found = self.context.get(name)
+        if found is None:
+            if len(part.words) == 2:
+                return self._word(part, 1)
+            raise _Failure("arg-undeclared", name=name, declared=sorted(self.context.scope.configurations))
+        if not found.value.known:
+            raise _Failure
+        return found.value.text
+
+    def _env(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        found = self.context.scope.environment.get(name)
+        if found is None:
+            if len(part.words) == 2:
+                return self._word(part, 1)
+            raise _Failure("env-unset", name=name)
+        return found
+
+    def _share(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        package = self.state.environment.packages.get(name)
+        if package is None:
+            raise _Failure("package-not-found", name=name)
+        return package.share
+
+    def _prefix(self, part: Substitution) -> str:
+        share, name = self._share(part), self._word(part, 0)
+        end = os.path.join("share", name)
+        return share[: -len(end)].rstrip("/") if share.endswith("/" + end) else share
+
+    def _executable_of_package(self, part: Substitution) -> str:
+        name, package = self._word(part, 0), self._word(part, 1)
+        if package not in self.state.environment.packages:
+            raise _Failure("package-not-found", name=package)
+        found = self.state.executables.find(package, name)
+        if found.path is None:
+            # What is not built yet is no reason to call the launch file wrong.
+            self.state.note_unknown(part.text, f"{package} has no executable '{name}'", self._at(part))
+            raise _Failure
+        return found.path
+
+    def _executable(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        found = shutil.which(name, path=self.context.scope.environment.get("PATH", ""))
+        if found is None:
+            self.state.note_unknown(part.text, f"'{name}' is not on the PATH", self._at(part))
+            raise _Failure
+        return found
+
+    def _at(self, part: Substitution) -> Location:
+        return Location(self.place.file, part.span)
+
+    def _eval(self, part: Substitution) -> str:
+        text = self._word(part, 0)
+        modules = [m.strip() for m in self._word(part, 1).split(",")] if len(part.words) == 2 else ["math"]
+        if any(module != "math" for module in modules):
+            raise _Failure("eval-not-allowed", fatal=False, expression=text, message="only the module math is known")
+
+        def names(name: str) -> object:
+            raise KeyError(name)
+
+        try:
+            return str(expression.evaluate(_MATH_MODULE.sub("", text), names, {}))
+        except expression.NotAllowedError as error:
+            raise _Failure("eval-not-allowed", fatal=False, expression=text, message=str(error)) from error
+        except expression.EvaluationError as error:
+            raise _Failure("eval-error", expression=text, message=str(error)) from error
+
+    def _dirname(self, part: Substitution) -> str:
+        return os.path.dirname(self.context.launch_file)
+
+    def _filename(self, part: Substitution) -> str:
+        return self.context.launch_file
+
+    def _command(self, part: Substitution) -> str:
+        line = self._word(part, 0)
+        try:
+            shlex.split(line)
+        except ValueError as error:
+            raise _Failure("command-malformed", command=line, message=str(error)) from error
+        result = self.state.results.result(line)
+        self.state.commands.append(Command(line, "", self.place.origin(part.span), result))
+        if result is not None and result.status == "done":
+            return result.output
+        if result is not None and result.status in ("failed", "missing"):
+            if result.status == "failed":
+                stderr = list(result.stderr_tail)
+                raise _Failure("command-failed", command=line, reason=result.reason, stderr=stderr)
+            raise _Failure("command-missing", command=line, reason=result.reason)
+        if result is not None:
+            raise _Failure("command-not-run", fatal=False, command=line, reason=result.reason)
+        self.state.note_unknown(part.text, "the command was not run", self._at(part))
+        raise _Failure
+
+    def _anon(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        key = "anon" + name
+        found = self.context.get(key)
+        if found is None:
+            self.context.set(key, Resolved(self.state.anonymous_name(name)), self.place.origin(part.span))
+            found = self.context.get(key)
+        return found.value.text if found is not None else name
+
+    def _truth(self, part: Substitution, index: int) -> bool:
+        text = self._word(part, index)
+        truth = yaml_bool(text)
+        if truth is None:
+            message = f"'{text}' is neither true nor false"
+            raise _Failure("bad-substitution", text=part.text, message=message)
+        return truth
+
+    def _not(self, part: Substitution) -> str:
+        return _text(not self._truth(part, 0))
+
+    def _and(self, part: Substitution) -> str:
+        return _text(all([self._truth(part, 0), self._truth(part, 1)]))
+
+    def _or(self, part: Substitution) -> str:
+        return _text(any([self._truth(part, 0), self._truth(part, 1)]))
+
+    def _any(self, part: Substitution) -> str:
+        return _text(any(self._truth(part, index) for index in range(len(part.words))))
+
+    def _all(self, part: Substitution) -> str:
+        return _text(all(self._truth(part, index) for index in range(len(part.words))))
+
+    def _equals(self, part: Substitution) -> str:
+        return _text(_equal(self._word(part, 0), self._word(part, 1)))
+
+    def _not_equals(self, part: Substitution) -> str:
+        return _text(not _equal(self._word(part, 0), self._word(part, 1)))
+
+    def _if(self, part: Substitution) -> str:
+        if self._truth(part, 0):
+            return self._word(part, 1)
+        return self._word(part, 2) if len(part.words) == 3 else ""
+
+    def _file_content(self, part: Substitution) -> str:
+        path = self._word(part, 0)
+        found = self.state.read_text(os.path.join(self.state.cwd, path))
+        if isinstance(found, Unreadable):
+            message = f"the file '{path}' {found.reason}"
+            raise _Failure("bad-substitution", text=part.text, message=message)
+        return found.text
+
+    def _param(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        for param in self.context.scope.params or ():
+            if param.name == name:
+                return str(param.value)
+        if len(part.words) == 2:
+            return self._word(part, 1)
+        message = f"no <set_parameter> of '{name}' comes before"
+        raise _Failure("bad-substitution", text=part.text, message=message)
+
+    def _log_dir(self, part: Substitution) -> str:
+        self.state.note_unknown(part.text, "the folder of the logs is made at launch", self._at(part))
+        raise _Failure
+
+
+_PERFORM: dict[str, Callable[[Performer, Substitution], str]] = {
+    "var": Performer._var,
+    "env": Performer._env,
+    "find-pkg-share": Performer._share,
+    "find-pkg-prefix": Performer._prefix,
+    "exec-in-pkg": Performer._executable_of_package,
+    "find-exec": Performer._executable,
+    "eval": Performer._eval,
+    "dirname": Performer._dirname,
+    "filename": Performer._filename,
+    "command": Performer._command,
+    "anon": Performer._anon,
+    "not": Performer._not,
+    "and": Performer._and,
+    "or": Performer._or,
+    "any": Performer._any,
+    "all": Performer._all,
+    "equals": Performer._equals,
+    "not-equals": Performer._not_equals,
+    "if": Performer._if,
+    "file-content": Performer._file_content,
+    "param": Performer._param,
+    "launch_log_dir": Performer._log_dir,
+    "log_dir": Performer._log_dir,
+}
+
+
+def yaml_bool(text: str) -> bool | None:
+    """What `launch.utilities.type_utils.coerce_to_type(text, bool)` makes of it; None where it raises."""
+    if text in ("1", "0"):
+        return text == "1"
+    try:
+        value = yaml.safe_load(text)
+    except yaml.YAMLError:
+        return None
+    return value if isinstance(value, bool) else None
+
+
+def _text(truth: bool) -> str:
+    return str(truth).lower()
+
+
+def _equal(left: str, right: str) -> bool:
+    """Truth values, numbers or texts, in this order (`launch.substitutions.EqualsSubstitution`)."""
+    booleans = ("true", "false", "1", "0")
+    if left.lower() in booleans and right.lower() in booleans:
+        return (left.lower() in ("true", "1")) == (right.lower() in ("true", "1"))
+    numbers = _numbers((left, right))
+    if numbers is not None:
+        return math.isclose(*numbers)
+    return left == right
+
+
+def _numbers(texts: Sequence[str]) -> tuple[float, float] | None:
+    try:
+        one, other = (float(text) for text in texts)
+    except ValueError:
+        return None
+    return one, other

@@ -1,0 +1,68 @@
+"""Tags and attributes that the ROS 2 launch language does not know. launch reads a file whole before it executes any
+of it, and stops at the first of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.launch.check_language import LanguageProblem
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
+
+_ANNOTATIONS = ("topics", "services", "params", "actions")
+
+
+def check_language_ros2(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
+    """Everything in the file at which launch would stop while it reads it, in document order."""
+    if launch_file.root is not None:
+        yield from _check(launch_file.root, None)
+
+
+def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
+    tag = TAGS_ROS2[action.kind]
+    allowed = tag.attributes
+    given = {attribute.name for attribute in action.attributes}
+    for attribute in action.attributes:
+        name = attribute.name
+        if name in allowed and not _is_elsewhere(action.kind, parent, name):
+            continue
+        if name.endswith("-sep") and name.removesuffix("-sep") in given:
+            continue
+        yield LanguageProblem(
+            "unknown-attribute", attribute.name_span, {"name": name, "tag": action.kind, "allowed": list(allowed)}
+        )
+    required = ("name", "value") if (action.kind, parent) == ("arg", "include") else tag.required
+    missing = [name for name in required if name not in given]
+    if missing:
+        yield LanguageProblem("missing-attribute", action.kind_span, {"tag": action.kind, "names": missing[:1]})
+    conditions = [name for name in ("if", "unless") if name in given]
+    if len(conditions) == 2:
+        yield LanguageProblem("attributes-exclude", action.kind_span, {"tag": action.kind, "names": conditions})
+    yield from _check_param(action, given)
+    for child in action.children:
+        if child.kind in tag.children:
+            yield from _check(child, action.kind)
+        elif not (action.kind in ("node", "node_container", "composable_node") and child.kind in _ANNOTATIONS):
+            data = {"tag": child.kind, "parent": action.kind, "allowed": list(tag.children)}
+            yield LanguageProblem("unknown-element", child.kind_span, data)
+
+
+def _is_elsewhere(kind: str, parent: str | None, name: str) -> bool:
+    """An `<arg>` has a value in an include only, and nothing but that there."""
+    if kind != "arg":
+        return False
+    return (name not in ("name", "value")) if parent == "include" else name == "value"
+
+
+def _check_param(action: Action, given: set[str]) -> Iterator[LanguageProblem]:
+    """`Node.parse_nested_parameters`."""
+    if action.kind != "param":
+        return
+    nested = any(child.kind == "param" for child in action.children)
+    if "from" in given and "name" in given:
+        names = ["name", "from"]
+        yield LanguageProblem("attributes-exclude", action.kind_span, {"tag": "param", "names": names})
+    elif "from" not in given and "name" not in given:
+        yield LanguageProblem("missing-attribute", action.kind_span, {"tag": "param", "names": ["name", "from"]})
+    elif "name" in given and "value" not in given and not nested:
+        yield LanguageProblem("missing-attribute", action.kind_span, {"tag": "param", "names": ["value"]})

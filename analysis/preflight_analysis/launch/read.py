@@ -1,0 +1,71 @@
+"""Which format and generation a launch file is of, and reading it as that.
+
+The name says what YAML and Python files are. XML files of both generations may have the same name: what they hold
+decides (`exec=` and `$(var)` against `type=` and `$(arg)`), then the package that they are in.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+from preflight_analysis.documents.reading import Text
+from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.documents.yaml import parse_yaml
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.ros1_xml import read_ros1
+from preflight_analysis.launch.ros2_xml import read_ros2_xml
+from preflight_analysis.launch.ros2_yaml import read_ros2_yaml
+
+YAML_SUFFIXES = (".yaml", ".yml")
+
+_ROS2_MARKS = re.compile(
+    r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
+    r"""|<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
+    r"""|unset_env|append_env|node_container|composable_node|load_composable_node|executable|timer|log)[\s/>]"""
+    r"""|<(?:node|test)\s[^>]*\bexec\s*=|<param\s[^>]*\bfrom\s*="""
+)
+_ROS1_MARKS = re.compile(
+    r"""\$\((?:arg|find|optenv)\s|<(?:rosparam|machine|test)[\s/>]"""
+    r"""|<node\s[^>]*\btype\s*=|<(?:include|node|group)\s[^>]*\bns\s*="""
+    r"""|<param\s[^>]*\b(?:command|textfile|binfile)\s*=|\bpass_all_args\s*="""
+)
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_AMENT = re.compile(r"<build_type[^>]*>\s*ament_|<buildtool_depend[^>]*>\s*ament_")
+_CATKIN = re.compile(r"<buildtool_depend[^>]*>\s*catkin\s*<")
+
+
+def read_launch(source: Text, generation: int | None = None) -> LaunchFile:
+    """The launch file of a text, read as that generation of ROS reads it; None: as it looks. Never raises."""
+    path, text = source.path, source.text
+    if path.endswith(YAML_SUFFIXES):
+        return read_ros2_yaml(parse_yaml(path, text))
+    document = parse_xml(path, text, source.encoding)
+    return read_ros2_xml(document) if (generation or generation_of(path, text)) == 2 else read_ros1(document)
+
+
+def generation_of(path: str, text: str) -> int:
+    """1 or 2. What has no mark of either, in no package that has one, counts as ROS 1, whose language is the older."""
+    if path.endswith((*YAML_SUFFIXES, ".py")):
+        return 2
+    code = _COMMENT.sub("", text)
+    ros2, ros1 = _ROS2_MARKS.search(code), _ROS1_MARKS.search(code)
+    if (ros2 is None) != (ros1 is None):
+        return 2 if ros2 is not None else 1
+    return _of_package(path) or 1
+
+
+def _of_package(path: str) -> int | None:
+    """The generation of the package around a file, by its build tool."""
+    folder = os.path.dirname(path)
+    while folder != os.path.dirname(folder):
+        manifest = os.path.join(folder, "package.xml")
+        try:
+            if os.path.isfile(manifest):
+                with open(manifest, encoding="utf-8", errors="replace") as file:
+                    content = _COMMENT.sub("", file.read(100_000))
+                return 2 if _AMENT.search(content) else 1 if _CATKIN.search(content) else None
+        except OSError:
+            return None
+        folder = os.path.dirname(folder)
+    return None
