@@ -44,10 +44,13 @@ bench: setup ## editing and completion latency, a large workspace and the time o
 	$(BIN)/python bench/commands.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
-corpus: $(READY) ## how many records of ../shared/corpus/ros1 are as real roslaunch has them, values and errors
+corpus: CORPUS2 = $(realpath ../shared/corpus/ros2)
+corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch and ros2 launch have them, values and errors
 	@mkdir -p out
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
 	$(BIN)/python tests/against_roslaunch.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
+	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS2)/jobs-xml-yaml.jsonl > out/ros2.jsonl
+	-$(PYTHON) ../shared/tools/compare_ros2.py --root $(CORPUS2) $(CORPUS2)/expected-xml-yaml.jsonl out/ros2.jsonl
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages

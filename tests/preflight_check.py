@@ -34,7 +34,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.tree import Executable, LaunchTree
 from preflight_analysis.findings.finding import Edit, Finding
 from preflight_analysis.graph.annotations import read_annotation
@@ -140,13 +140,13 @@ def analyse(
         sources.open(path, text)
     environment = environment_of(fixture)
     executables, results = _EveryExecutable(environment), _Results(fixture.commands)
-    tree = evaluate(fixture.root, args or {}, sources, executables, environment, "/", results)
+    tree = evaluate_launch(fixture.root, args or {}, sources, executables, environment, "/", results)
     documents: dict[str, Document] = {}
     launch_files = {}
     for path in (*tree.files, *tree.inputs):
         if path in documents or path not in fixture.files:
             continue
-        launch_file = sources.launch_file(path) if path in tree.files else None
+        launch_file = sources.launch_file(path, tree.generation) if path in tree.files else None
         if launch_file is not None and not isinstance(launch_file, Unreadable):
             launch_files[path] = launch_file
             documents[path] = launch_file.document

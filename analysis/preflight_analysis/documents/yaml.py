@@ -55,7 +55,10 @@ def span_of(node: yaml.Node) -> Span:
 
 
 def _problem(error: yaml.YAMLError, text: str) -> tuple[SyntaxProblem, int]:
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+    mark = getattr(error, "problem_mark", None)
+    begun = getattr(error, "context_mark", None)
+    if begun is not None and (mark is None or not text[mark.index :].strip()):
+        mark = begun  # what was never ended is wrong where it begins
     position = getattr(error, "position", None)
     at = mark.index if mark is not None else position if isinstance(position, int) else 0
     words = [str(word) for word in (getattr(error, "context", None), getattr(error, "problem", None)) if word]

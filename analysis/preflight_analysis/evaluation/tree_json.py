@@ -20,11 +20,14 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
     """The contract's object. `errors` are the findings that would stop the launcher, what it meets first in front; the
     other ones are of `check`.
 
-    Lines and columns are counted from 1, columns in code points. A float that JSON has no number for is a string.
+    `deferred` (ROS 2) are the nodes that are not started at once. Lines and columns are counted from 1, columns in
+    code points. A float that JSON has no number for is a string.
     """
+    deferred = [_node(node, tree, documents) for node in tree.nodes if node.deferred]
     errors = sorted((f for f in findings if f.stops_launch), key=lambda finding: finding.met)
     return {
         "schema": SCHEMA,
+        **({"deferred": deferred} if tree.generation == 2 else {}),
         "file": tree.file,
         "generation": tree.generation,
         "args": {
@@ -32,7 +35,6 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
             for name, arg in tree.args.items()
         },
         "nodes": [_node(node, tree, documents) for node in tree.nodes if not node.deferred],
-        "deferred": [_node(node, tree, documents) for node in tree.nodes if node.deferred],
         "params": {name: json_value(param.value) for name, param in tree.params.items()},
         "clear_params": list(tree.clear_params),
         "includes": [include.path for include in tree.includes if include.path is not None],

@@ -14,8 +14,12 @@ _ANNOTATIONS = ("topics", "services", "params", "actions")
 
 def check_language_ros2(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
     """Everything in the file at which launch would stop while it reads it, in document order."""
-    if launch_file.root is not None:
-        yield from _check(launch_file.root, None)
+    if launch_file.root is None:
+        return
+    for problem in _check(launch_file.root, None):
+        # In the middle of typing the line that has the attribute may be the one that is left out.
+        if problem.kind != "missing-attribute" or not launch_file.document.problems:
+            yield problem
 
 
 def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:

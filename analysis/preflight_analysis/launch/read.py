@@ -23,6 +23,7 @@ _ROS2_MARKS = re.compile(
     r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
     r"""|<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
     r"""|unset_env|append_env|node_container|composable_node|load_composable_node|executable|timer|log)[\s/>]"""
+    r"""|<include\s[^>]*\.(?:py|ya?ml)["']"""
     r"""|<(?:node|test)\s[^>]*\bexec\s*=|<param\s[^>]*\bfrom\s*="""
 )
 _ROS1_MARKS = re.compile(

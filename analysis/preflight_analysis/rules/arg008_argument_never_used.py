@@ -115,6 +115,7 @@ RULE = Rule(
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',
     instead='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch">\n'
     '  <arg name="rate" value="$(arg rate)"/>\n</include>',
+    generations=(1,),
     check=_check,
     every_root=True,
 )

@@ -20,12 +20,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(rule, context):
         name = str(problem.data["tag"])
         near = nearest(name, problem.data["allowed"])
-        message = f"<{name}> is not known in <{problem.data['parent']}> and is skipped{did_you_mean(near)}"
+        skipped = "" if problem.fatal else " and is skipped"
+        message = f"<{name}> is not known in <{problem.data['parent']}>{skipped}{did_you_mean(near)}"
         fixes: list[Fix] = []
         if near is not None:
             renamed = rename(context, problem.location, name, near)
             fixes = [_both_tags(context, tags, problem, near, fix) for fix in renamed]
-        yield problem_finding(rule, problem, message, fixes=fixes)
+        yield problem_finding(rule, problem, message, severity="error" if problem.fatal else None, fixes=fixes)
 
 
 def _both_tags(context: Context, tags: Tags, problem: Problem, name: str, fix: Fix) -> Fix:
@@ -47,7 +48,7 @@ RULE = Rule(
     severity="warning",
     what="Reports an element that `roslaunch` does not know at that place, and names the nearest one that it knows.",
     why="`roslaunch` prints one line among many others and skips the element with all that is in it: the parameter "
-    "is not set, the node is not started.",
+    "is not set, the node is not started. `ros2 launch` stops, and starts nothing of the file.",
     example='<node pkg="camera" type="driver" name="camera">\n  <parm name="rate" value="30"/>\n</node>',
     instead='<node pkg="camera" type="driver" name="camera">\n  <param name="rate" value="30"/>\n</node>',
     check=_check,

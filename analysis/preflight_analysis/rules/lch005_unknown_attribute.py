@@ -22,7 +22,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if tag is None or tag.action.attribute(near) is None:  # a second one of the name would be malformed
                 fixes = rename(context, problem.location, name, near)
         message = f"<{problem.data['tag']}> has no attribute '{name}'{did_you_mean(near)}"
-        yield problem_finding(rule, problem, message, fixes=fixes)
+        yield problem_finding(rule, problem, message, severity="error" if problem.fatal else None, fixes=fixes)
 
 
 RULE = Rule(
@@ -30,7 +30,8 @@ RULE = Rule(
     name="unknown-attribute",
     severity="warning",
     what="Reports an attribute that the element does not have, and names the nearest one that it has.",
-    why="`roslaunch` mentions it and goes on without it: what the attribute was to do does not happen.",
+    why="`roslaunch` mentions it and goes on without it: what the attribute was to do does not happen. "
+    "`ros2 launch` stops, and starts nothing of the file.",
     example='<node pkg="camera" type="driver" name="camera" respwan="true"/>',
     instead='<node pkg="camera" type="driver" name="camera" respawn="true"/>',
     check=_check,

@@ -118,5 +118,6 @@ RULE = Rule(
     "path leads nowhere.",
     example='<param name="model" value="/home/bob/catkin_ws/src/vision/models/net.pt"/>',
     instead='<param name="model" value="$(find vision)/models/net.pt"/>',
+    generations=(1,),
     check=_check,
 )

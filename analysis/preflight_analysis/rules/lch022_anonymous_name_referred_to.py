@@ -126,5 +126,6 @@ RULE = Rule(
     "nothing that names `/talker` ever means this node.",
     example='<node pkg="chat" type="talker" name="$(anon talker)"/>\n<param name="/talker/rate" value="10"/>',
     instead='<param name="/$(anon talker)/rate" value="10"/>\n<node pkg="chat" type="talker" name="$(anon talker)"/>',
+    generations=(1,),
     check=_check,
 )

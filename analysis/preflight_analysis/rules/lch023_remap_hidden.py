@@ -86,5 +86,6 @@ RULE = Rule(
     example='<remap from="scan" to="front/scan"/>\n<remap from="scan" to="rear/scan"/>\n'
     '<node pkg="slam" type="mapper" name="mapper"/>',
     instead='<remap from="scan" to="front/scan"/>\n<node pkg="slam" type="mapper" name="mapper"/>',
+    generations=(1,),
     check=_check,
 )

@@ -188,5 +188,6 @@ RULE = Rule(
     "to the text `'true'`, and the tag is never evaluated, whatever is passed.",
     example="<group if=\"$(eval arg('simulation') == 'true')\">\n</group>",
     instead='<group if="$(arg simulation)">\n</group>',
+    generations=(1,),
     check=_check,
 )

@@ -77,6 +77,7 @@ RULE = Rule(
     '  <node pkg="arm" type="driver" name="driver"/>\n</group>',
     instead='<group ns="arm" clear_params="true">\n  <param name="rate" value="10"/>\n'
     '  <node pkg="arm" type="driver" name="driver"/>\n</group>',
+    generations=(1,),
     check=_check,
     every_root=True,
 )

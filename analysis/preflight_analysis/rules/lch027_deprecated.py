@@ -193,5 +193,6 @@ RULE = Rule(
     why="What is deprecated goes away with an upgrade; what was removed is not started at all.",
     example='<node pkg="robot_state_publisher" type="state_publisher" name="state_publisher"/>',
     instead='<node pkg="robot_state_publisher" type="robot_state_publisher" name="state_publisher"/>',
+    generations=(1,),
     check=_check,
 )

@@ -62,6 +62,7 @@ RULE = Rule(
     example='<param name="/use_sim_time" value="true"/>\n<node pkg="amcl" type="amcl" name="amcl"/>',
     instead='<arg name="simulated" default="false"/>\n<param name="/use_sim_time" value="$(arg simulated)"/>\n'
     '<node pkg="amcl" type="amcl" name="amcl"/>',
+    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -90,5 +90,6 @@ RULE = Rule(
     why="`roslaunch` prints an error among the output of the other nodes and goes on without this one.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
+    generations=(1,),
     check=_check,
 )

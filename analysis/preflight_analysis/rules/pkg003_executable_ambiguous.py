@@ -59,5 +59,6 @@ RULE = Rule(
     "which the file system lists the folders, so it may be another one on the robot.",
     example="scripts/talker.py\nscripts/old/talker.py",
     instead="scripts/talker.py\nscripts/old/talker_2019.py",
+    generations=(1,),
     check=_check,
 )

@@ -100,5 +100,6 @@ RULE = Rule(
     "launch file works only where somebody else needed it. `roslaunch_add_file_check` reports the same in a build.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
     instead="<exec_depend>rviz</exec_depend>",
+    generations=(1,),
     check=_check,
 )

@@ -71,6 +71,7 @@ RULE = Rule(
     why="The node goes on with its default, and nothing says that the value of the launch file is not used.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
     instead='<param name="publish_objects" value="false"/>',
+    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

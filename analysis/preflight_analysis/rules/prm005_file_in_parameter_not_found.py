@@ -241,5 +241,6 @@ RULE = Rule(
     "without its calibration, a planner without its limits.",
     example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
     instead='<param name="camera_info_url" value="file://$(find camera)/config/calibration/left.yaml"/>',
+    generations=(1,),
     check=_check,
 )

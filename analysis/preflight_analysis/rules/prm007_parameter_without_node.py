@@ -184,6 +184,7 @@ RULE = Rule(
     why="The node that was meant goes on with its default, and nothing says that it did not get the value.",
     example='<param name="/talkr/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
     instead='<param name="/talker/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
+    generations=(1,),
     check=_check,
     every_root=True,
 )

@@ -112,6 +112,7 @@ RULE = Rule(
     "`1e3`, `0x10` and `1_000` are texts.",
     example='<param name="rate" value="1e3"/> <!-- rospy.get_param("~rate", 10) -->',
     instead='<param name="rate" value="1000"/>',
+    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

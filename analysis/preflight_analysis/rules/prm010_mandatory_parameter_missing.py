@@ -151,6 +151,7 @@ RULE = Rule(
     example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'
     '<node pkg="p" type="talker" name="talker"/>',
     instead='<node pkg="p" type="talker" name="talker">\n  <param name="rate" value="10"/>\n</node>',
+    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

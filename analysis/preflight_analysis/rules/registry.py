@@ -50,7 +50,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     raw: list[Finding] = []
     ran: set[str] = set()
     for rule in chosen:
-        if rule.needs_graph and context.graph is None:
+        if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
             continue
         try:
             found = list(rule.check(rule, context))

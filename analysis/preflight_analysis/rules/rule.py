@@ -73,6 +73,7 @@ class Rule:
     `severity` is the usual one; a check may give a finding another with `finding(..., severity=...)`.
     `problems` are the kinds of `evaluation.problems.KINDS` that the rule reports; each kind has one rule.
     `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
+    `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
     """
@@ -88,6 +89,7 @@ class Rule:
     problems: tuple[str, ...] = ()
     needs_graph: bool = False
     every_root: bool = False
+    generations: tuple[int, ...] = (1, 2)
     unused_suppression: Callable[[Rule, Suppression], Finding] | None = field(default=None, repr=False)
 
     def finding(

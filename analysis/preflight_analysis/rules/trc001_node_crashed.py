@@ -59,6 +59,7 @@ RULE = Rule(
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
+    generations=(1,),
     check=_check,
     needs_graph=True,
 )

@@ -33,6 +33,7 @@ RULE = Rule(
     example="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)",
     instead="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)\n"
     "    rospy.spin()",
+    generations=(1,),
     check=_check,
     needs_graph=True,
 )

@@ -50,5 +50,6 @@ RULE = Rule(
     "connections are missing, or less sure.",
     example="ros-preflight: the 2 nodes of this launch were not run: the workspace is not trusted",
     instead="Trust the workspace in the editor, install `bubblewrap`, or annotate the nodes.",
+    generations=(1,),
     check=_check,
 )

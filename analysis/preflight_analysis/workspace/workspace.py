@@ -14,9 +14,8 @@ from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
-from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
-from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import build_graph
@@ -152,11 +151,9 @@ class Workspace:
             self._memo_lock.release()
 
     def _evaluate(self, path: str, args: Mapping[str, str], memo: Memo | None) -> LaunchTree:
-        found = self.sources.launch_file(path)
-        sources = self.sources, self._executables, self.environment, self.cwd, self.commands
-        if not isinstance(found, Unreadable) and found.generation == 2:
-            return evaluate_ros2(path, args, *sources)
-        return evaluate(path, args, *sources, memo)
+        return evaluate_launch(
+            path, args, self.sources, self._executables, self.environment, self.cwd, self.commands, memo
+        )
 
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
@@ -168,6 +165,8 @@ class Workspace:
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
+        if analysis.tree.generation == 2:
+            return (None,) * len(analysis.tree.nodes)
         params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 

@@ -1,0 +1,1 @@
+"""What `ros2 launch` makes of a launch file, whatever its format."""

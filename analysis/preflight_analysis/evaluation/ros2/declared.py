@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.launch.model import Action, LaunchFile
 
 MAX_FILES = 500
@@ -21,13 +21,15 @@ Included = Callable[[str, Action], LaunchFile | None]
 
 @dataclass(slots=True)
 class Declared:
-    """An `<arg>` of the file or of one below it. `passed` are the names that the includes on the way pass."""
+    """An `<arg>` of the file or of one below it. `passed` are the names that the includes on the way pass, `include` is
+    the `file` of the one that leads to it, None for an argument of the file itself."""
 
     name: str
     file: str
     span: Span
     required: bool
     conditional: bool
+    include: Location | None
     passed: list[str] = field(default_factory=list)
 
 
@@ -55,7 +57,7 @@ class _Reader:
     def __init__(self, included: Included) -> None:
         self._included = included
         self._names: set[str] = set()
-        self._files: list[str] = []
+        self._files: list[tuple[str, Location]] = []
         self.found: list[tuple[Declared, list[Action] | None]] = []
 
     def read(
@@ -85,7 +87,9 @@ class _Reader:
             return
         self._names.add(value.text)
         conditional = conditional or action.attribute("if") is not None or action.attribute("unless") is not None
-        declared = Declared(value.text, file, action.head_span, action.attribute("default") is None, conditional)
+        required = action.attribute("default") is None
+        include = self._files[-1][1] if self._files else None
+        declared = Declared(value.text, file, action.head_span, required, conditional, include)
         self.found.append((declared, includes))
 
     def _sub(self, file: str, action: Action) -> list[tuple[str, tuple[Action, ...]]]:
@@ -98,8 +102,12 @@ class _Reader:
             return [(file, action.children)]
         if action.kind == "include":
             found = self._included(file, action)
-            if found is None or found.root is None or found.path in self._files or len(self._files) > MAX_FILES:
+            if found is None or found.root is None or len(self._files) > MAX_FILES:
                 return []
-            self._files.append(found.path)
+            if any(found.path == path for path, _ in self._files):
+                return []
+            attribute = action.attribute("file")
+            span = attribute.value.span if attribute is not None else action.kind_span
+            self._files.append((found.path, Location(file, span)))
             return [(found.path, found.root.children)]
         return []

@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap
-from preflight_analysis.evaluation.ros2.declared import declared_arguments
+from preflight_analysis.evaluation.ros2.declared import Declared, declared_arguments
 from preflight_analysis.evaluation.ros2.nodes import (
     evaluate_composable,
     evaluate_executable,
@@ -22,7 +22,7 @@ from preflight_analysis.evaluation.ros2.nodes import (
 )
 from preflight_analysis.evaluation.ros2.params import pushed_value
 from preflight_analysis.evaluation.ros2.substitute import Performer
-from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
+from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem, Use
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 
@@ -43,8 +43,8 @@ def evaluate_ros2(
 ) -> LaunchTree:
     """What `ros2 launch path name:=value...` would start.
 
-    Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What timers
-    and events start comes after the rest and is marked as deferred. Reads through `files` only; runs nothing.
+    Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What
+    timers start comes after the rest and is marked as deferred. Reads through `files` only; runs nothing.
     """
     state = Collector(2, files, executables, environment, cwd, commands)
     context = Context(environment.variables)
@@ -80,6 +80,8 @@ class _Walk:
         self._deferred = False
         self._depth = 0
         self._exhausted = False
+        self._missing_below: list[Declared] = []
+        """Required arguments that an include further down does not pass, as the check of one above it saw."""
 
     def root(self, path: str, args: Mapping[str, str]) -> None:
         """The root file, then what waits for timers."""
@@ -97,6 +99,16 @@ class _Walk:
             self._deferred = True
             place, actions = self._later.pop(0)
             self._actions(place, actions)
+        self._report_missing_below()
+
+    def _report_missing_below(self) -> None:
+        """launch stops there also where the include is never executed, for a condition around it that is false."""
+        said = {(p.location, p.data["name"]) for p in self._state.problems if p.kind == "arg-required"}
+        for missing in self._missing_below:
+            if missing.include is not None and (missing.include, missing.name) not in said:
+                said.add((missing.include, missing.name))
+                data = {"name": missing.name, "file": missing.file, "passed": missing.passed}
+                self._state.problems.append(Problem("arg-required", (missing.include,), data, True))
 
     def _root_args(self, launch_file: LaunchFile) -> None:
         own = {name: arg for name, arg in self._state.args.items() if arg.origin[-1].file == launch_file.path}
@@ -271,11 +283,10 @@ class _Walk:
             names += declared.passed
             if declared.name in names:
                 continue
-            if include is not None:
+            if declared.include is not None:
+                self._missing_below.append(declared)
+            elif include is not None:
                 self._state.problem("arg-required", include, name=declared.name, file=declared.file, passed=passed)
-            elif declared.file != launch_file.path:
-                at = Location(declared.file, declared.span)
-                self._state.problem("root-arg-required", (at,), name=declared.name)
 
     def _included_without_context(self, file: str, action: Action) -> LaunchFile | None:
         value = action.value("file")

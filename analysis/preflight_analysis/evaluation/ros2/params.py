@@ -36,9 +36,8 @@ class Sources:
         for source in self.found:
             for param in source.params:
                 old = params.pop(param.name, None)
-                if old is not None:
-                    param = param._replace(overrides=(*old.overrides, old._replace(overrides=())))
-                params[param.name] = param
+                before = () if old is None else (*old.overrides, old._replace(overrides=()))
+                params[param.name] = param._replace(overrides=before)
         return tuple(params.values())
 
 

@@ -1,0 +1,31 @@
+"""What a launch file of any format would start, evaluated as the launcher of its generation does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import Commands
+from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2
+from preflight_analysis.evaluation.tree import LaunchTree
+
+
+def evaluate_launch(
+    path: str,
+    args: Mapping[str, str],
+    files: Files,
+    executables: Executables,
+    environment: Environment,
+    cwd: str,
+    commands: Commands,
+    memo: Memo | None = None,
+) -> LaunchTree:
+    """What launching `path` with `name:=value...` would start; see `evaluate` and `evaluate_ros2`."""
+    found = files.launch_file(path)
+    if not isinstance(found, Unreadable) and found.generation == 2:
+        return evaluate_ros2(path, args, files, executables, environment, cwd, commands)
+    return evaluate(path, args, files, executables, environment, cwd, commands, memo)

@@ -1,0 +1,33 @@
+"""ARG009: an argument has a value that is not among its choices."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        name, value, choices = (problem.data[key] for key in ("name", "value", "choices"))
+        near = nearest(value, choices)
+        allowed = ", ".join(f"'{choice}'" for choice in choices)
+        message = f"argument '{name}' cannot be '{value}'; it has the choices {allowed}{did_you_mean(near)}"
+        fixes = rename(context, problem.location, value, near) if near else ()
+        declared = Related("declared here", problem.data["declared"])
+        yield problem_finding(rule, problem, message, related=(declared,), fixes=fixes)
+
+
+RULE = Rule(
+    id="ARG009",
+    name="argument-not-a-choice",
+    severity="error",
+    what="Reports a value, given by an include or as the default, that is not among the choices with which the "
+    "argument is declared (ROS 2).",
+    why="`ros2 launch` stops when it gets to the declaration; what came before has been started by then.",
+    example='<arg name="model" default="s1">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
+    instead='<arg name="model" default="s2">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
+    check=_check,
+    problems=("arg-not-a-choice",),
+)

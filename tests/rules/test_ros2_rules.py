@@ -1,0 +1,92 @@
+"""Rules on ROS 2's XML and YAML launch files."""
+
+from preflight_check import check
+
+
+def test_a_value_that_is_not_among_the_choices() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <include file="/lidar.launch.yaml">
+            <arg name="model" value="s1"/>
+                                     ^^ error[ARG009] 'model' cannot be 's1'; it has the choices 'a1', 's2'
+          </include>
+          <include file="/lidar.launch.yaml">
+            <arg name="model" value="s2"/>
+          </include>
+        </launch>
+        //- /lidar.launch.yaml
+        launch:
+          - arg:
+              name: model
+              default: a1
+              choice:
+                - value: a1
+                - value: s2
+    """)
+
+
+def test_what_launch_does_not_know_stops_it() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="talker" name="talker" nmae="x">
+                                                    ^^^^ error[LCH005] <node> has no attribute 'nmae'
+            <parm name="rate" value="1"/>
+             ^^^^ error[LCH004] <parm> is not known in <node>; did you mean 'param'?
+          </node>
+          <let name="a" value="$(var b)"/>
+                               ^^^^^^^^ error[ARG001] argument 'b' is not declared
+        </launch>
+    """)
+
+
+def test_yaml_in_the_middle_of_typing() -> None:
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - node:
+              pkg: p
+              exec: talker
+              name: $(var nmae)
+                    ^^^^^^^^^^^ error[ARG001] argument 'nmae' is not declared
+          - node:
+              pkg: p
+              exec: [
+                    ^ error[LCH001] while parsing a flow sequence
+              nam
+    """)
+
+
+def test_a_condition_that_is_no_boolean() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="joystick" default="enabled"/>
+          <group if="$(var joystick)">
+                     ^^^^^^^^^^^^^^^ error[LCH008] if='enabled' of <group> is not true, false, 1 or 0
+            <node pkg="p" exec="joy"/>
+          </group>
+          <group unless="$(equals $(var joystick) enabled)">
+            <node pkg="nowhere" exec="$(var never)"/>
+          </group>
+        </launch>
+    """)
+
+
+def test_a_required_argument_counts_only_where_the_include_passes_it() -> None:
+    """launch looks at what the include itself passes, whatever is set already."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <let name="serial" value="7"/>
+          <include file="/camera.launch.xml"/>
+                         ^^^^^^^^^^^^^^^^^^ error[ARG002] '/camera.launch.xml' requires argument 'serial'
+          <include file="/camera.launch.xml"><arg name="serial" value="8"/></include>
+        </launch>
+        //- /camera.launch.xml
+        <launch>
+          <arg name="serial"/>
+          <node pkg="p" exec="camera" name="camera_$(var serial)"/>
+        </launch>
+    """)
