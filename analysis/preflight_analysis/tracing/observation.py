@@ -148,11 +148,12 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     endpoints = _endpoints(found, request.node, remaps)
     params, param_dependencies = _params(found)
     asked = set(found.asked)
-    unexplained = len(endpoints) > len(found.endpoints) or any(
-        not d.given and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
+    told = sum(not endpoint.builtin for endpoint, _ in found.endpoints.values())
+    unexplained = sum(not endpoint.builtin for endpoint in endpoints) > told or any(
+        not d.given and d.access != "search" and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
     )
-    # A roscpp node can look at its name and remaps without being seen.
-    if not found.woven or unexplained or not recipe.python:
+    watched = found.woven and (recipe.python or recipe.preload is not None)
+    if not watched or unexplained or _is_named(endpoints, params, request.node):
         asked |= {"name", "remaps"} if recipe.remapped else {"name"}
     interface = Interface("trace", outcome, endpoints, params, notes=_notes(found), frames=tuple(sorted(found.frames)))
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
@@ -363,6 +364,15 @@ def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[
             known.add(("client", full))
             endpoints.append(Endpoint("client", full, None))
     return tuple(endpoints)
+
+
+def _is_named(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: str) -> bool:
+    """Whether a name looks as if it was put together with the node's own name or namespace, which a roscpp node can
+    look up without being seen."""
+    space = names.parent(node)
+    starts = ("//", f"{node}/", *([space] if space != "/" else []))
+    given = [e.name for e in endpoints if not e.builtin] + [p.name for p in params if not p.builtin]
+    return any(name.startswith(starts) for name in given)
 
 
 def _logger_type(service: str) -> str:

@@ -11,6 +11,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <link.h>
+#include <stdarg.h>
 #include <string.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -175,6 +176,104 @@ void quietly(Tell tell) noexcept {
   }
 }
 
+// Files that the node opens to read them, whether they are there or not: what it does depends on them. It may be in a
+// child that was forked or in a handler of a signal, so no memory is allocated and no lock taken.
+
+constexpr size_t kMaxFiles = 2048, kMaxProbes = 64, kMaxPath = 1024;
+std::atomic<uint64_t> opened[kMaxFiles];
+
+bool first_time(const char* path) {
+  uint64_t hash = 14695981039346656037u;
+  for (const char* at = path; *at != 0; ++at) hash = (hash ^ static_cast<unsigned char>(*at)) * 1099511628211u;
+  hash |= 1;
+  for (size_t probe = 0; probe < kMaxProbes; ++probe) {
+    uint64_t there = 0;
+    if (opened[(hash + probe) % kMaxFiles].compare_exchange_strong(there, hash)) return true;
+    if (there == hash) return false;
+  }
+  return false;
+}
+
+void tell_opened(const char* path) noexcept {
+  if (fifo[0] == 0 || path == nullptr || path[0] == 0) return;
+  Errno kept;
+  char full[kMaxPath];
+  size_t length = 0;
+  if (path[0] != '/') {
+    if (getcwd(full, sizeof full) == nullptr || full[0] != '/') return;
+    length = strlen(full);
+    full[length++] = '/';
+  }
+  if (length + strlen(path) >= sizeof full) return;
+  strcpy(full + length, path);
+  for (const char* ours : {"/proc/", "/sys/", "/dev/", "/run/"}) {
+    if (strncmp(full, ours, strlen(ours)) == 0) return;
+  }
+  if (!first_time(full)) return;
+  char line[kMaxLine];
+  char* end = stpcpy(line, "{\"ev\":\"files\",\"paths\":[\"");
+  for (const char* at = full; *at != 0; ++at) {
+    if (end > line + sizeof line - 16 || static_cast<unsigned char>(*at) < 0x20) return;
+    if (*at == '"' || *at == '\\') *end++ = '\\';
+    *end++ = *at;
+  }
+  end = stpcpy(end, "\"]}\n");
+  // Not by the functions that are watched here.
+  int descriptor = static_cast<int>(syscall(SYS_openat, AT_FDCWD, fifo, O_WRONLY | O_CLOEXEC));
+  if (descriptor < 0) return;
+  while (write(descriptor, line, end - line) < 0 && errno == EINTR) {
+  }
+  close(descriptor);
+}
+
+void tell_opened(const char* path, int flags) noexcept {
+  if ((flags & O_ACCMODE) == O_RDONLY && (flags & (O_CREAT | O_DIRECTORY)) == 0) tell_opened(path);
+}
+
+#define OPEN(id, symbol)                                                             \
+  HOOK int id(const char* path, int flags, ...) __asm__(symbol);                     \
+  HOOK int id(const char* path, int flags, ...) {                                    \
+    va_list rest;                                                                    \
+    va_start(rest, flags);                                                           \
+    mode_t mode = va_arg(rest, mode_t);                                              \
+    va_end(rest);                                                                    \
+    tell_opened(path, flags);                                                        \
+    return REAL(symbol, int(const char*, int, ...))(path, flags, mode);              \
+  }
+OPEN(preflight_open, "open")
+OPEN(preflight_open64, "open64")
+
+#define OPEN_AT(id, symbol)                                                          \
+  HOOK int id(int folder, const char* path, int flags, ...) __asm__(symbol);         \
+  HOOK int id(int folder, const char* path, int flags, ...) {                        \
+    va_list rest;                                                                    \
+    va_start(rest, flags);                                                           \
+    mode_t mode = va_arg(rest, mode_t);                                              \
+    va_end(rest);                                                                    \
+    if (folder == AT_FDCWD || (path != nullptr && path[0] == '/')) tell_opened(path, flags); \
+    return REAL(symbol, int(int, const char*, int, ...))(folder, path, flags, mode); \
+  }
+OPEN_AT(preflight_openat, "openat")
+OPEN_AT(preflight_openat64, "openat64")
+
+#define OPEN_2(id, symbol)                                                           \
+  HOOK int id(const char* path, int flags) __asm__(symbol);                          \
+  HOOK int id(const char* path, int flags) {                                         \
+    tell_opened(path, flags);                                                        \
+    return REAL(symbol, int(const char*, int))(path, flags);                         \
+  }
+OPEN_2(preflight_open_2, "__open_2")
+OPEN_2(preflight_open64_2, "__open64_2")
+
+#define FOPEN(id, symbol)                                                            \
+  HOOK FILE* id(const char* path, const char* mode) __asm__(symbol);                 \
+  HOOK FILE* id(const char* path, const char* mode) {                                \
+    if (mode != nullptr && mode[0] == 'r' && strchr(mode, '+') == nullptr) tell_opened(path); \
+    return REAL(symbol, FILE*(const char*, const char*))(path, mode);                \
+  }
+FOPEN(preflight_fopen, "fopen")
+FOPEN(preflight_fopen64, "fopen64")
+
 struct NodeHandle {
   std::string name_space;  // resolved
   std::string given_name_space;
@@ -269,7 +368,20 @@ struct Names {
   std::string resolved;
 };
 
+// Of `name`, `namespace` and `remaps`, each once: nodes resolve names in their loops.
+void tell_asked(const char* what) {
+  static std::atomic<unsigned> asked{0};
+  const unsigned bit = what[0] == 'r' ? 1 : what[4] == 0 ? 2 : 4;
+  if ((asked.fetch_or(bit) & bit) == 0) Event("asked").add("what", std::string(what)).send();
+}
+
 Names names_of(const NodeHandle* handle, const std::string& name) {
+  // The namespace of a handle may have been remapped, or made of the node's own; `~` is resolved at once.
+  auto* own = REAL_IF_ANY("_ZN3ros9this_node7getNameB5cxx11Ev", const std::string&());
+  if (!handle->given_name_space.empty() && (own == nullptr || handle->given_name_space != own())) {
+    tell_asked("name");
+    tell_asked("remaps");
+  }
   auto* resolve = REAL_IF_ANY("_ZNK3ros10NodeHandle11resolveNameE" STRING "b",
                               std::string(const NodeHandle*, const std::string&, bool));
   if (resolve == nullptr) return {name, ""};
@@ -307,6 +419,37 @@ bool from_roscpp(void* place) {
   Dl_info info;
   return dladdr(place, &info) != 0 && info.dli_fname != nullptr && strstr(info.dli_fname, "/libroscpp.so") != nullptr;
 }
+
+// The node, or a library of its, asks for its own name, namespace or remaps: what it does may depend on them.
+
+void asks(const char* what, void* place) {
+  if (depth == 0 && !from_roscpp(place)) quietly([&] { tell_asked(what); });
+}
+
+#define ASKS(id, symbol, what)                                                       \
+  HOOK const void* id() __asm__(symbol);                                             \
+  HOOK const void* id() {                                                            \
+    asks(what, __builtin_return_address(0));                                         \
+    return REAL(symbol, const void*())();                                            \
+  }
+ASKS(preflight_get_name, "_ZN3ros9this_node7getNameB5cxx11Ev", "name")
+ASKS(preflight_get_namespace, "_ZN3ros9this_node12getNamespaceB5cxx11Ev", "namespace")
+ASKS(preflight_get_remappings, "_ZN3ros5names13getRemappingsB5cxx11Ev", "remaps")
+ASKS(preflight_get_unresolved, "_ZN3ros5names23getUnresolvedRemappingsB5cxx11Ev", "remaps")
+
+#define RESOLVES(id, symbol, parameters, ...)                                        \
+  HOOK std::string id parameters __asm__(symbol);                                    \
+  HOOK std::string id parameters {                                                   \
+    asks("name", __builtin_return_address(0));                                       \
+    asks("remaps", __builtin_return_address(0));                                     \
+    return REAL(symbol, std::string parameters)(__VA_ARGS__);                        \
+  }
+RESOLVES(preflight_remap, "_ZN3ros5names5remapE" STRING, (const std::string& name), name)
+RESOLVES(preflight_resolve, "_ZN3ros5names7resolveE" STRING "b", (const std::string& name, bool remap), name, remap)
+RESOLVES(preflight_resolve_in, "_ZN3ros5names7resolveE" STRING "S8_b",
+         (const std::string& space, const std::string& name, bool remap), space, name, remap)
+RESOLVES(preflight_resolve_name, "_ZNK3ros10NodeHandle11resolveNameE" STRING "b",
+         (const NodeHandle* self, const std::string& name, bool remap), self, name, remap)
 
 void tell_param(const char* access, const Names& names, void* place) {
   Event event("param");
