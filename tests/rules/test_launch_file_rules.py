@@ -425,3 +425,16 @@ def test_dollars_of_others_are_no_substitutions() -> None:
           <node pkg="p" type="t" name="n" launch-prefix="bash -c 'sleep $0; $@'"/>
         </launch>
     """)
+
+
+@pytest.mark.parametrize(
+    "hidden",
+    [
+        '<group if="$(env UNSET)"><machine name="base" address="a"/></group>',
+        '<machine unless="$(env UNSET)" name="base" address="a"/>',
+        '<machine name="$(env UNSET)" address="a"/>',
+    ],
+)
+def test_a_machine_that_may_be_declared_where_nobody_can_look(hidden: str) -> None:
+    launch = f'<launch>{hidden}<node pkg="p" type="t" name="n" machine="base"/></launch>'
+    assert [f.rule for f in findings_of(launch)] == ["LCH012"]

@@ -86,6 +86,10 @@ def evaluate(
     )
 
 
+_MAY_DECLARE_MACHINES = ("<machine", "<include", "<group if", "<group unless")
+"""What is not known of a launch that may hold the machine which seems to be missing."""
+
+
 def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: str | None) -> str | None:
     """Evaluate one file in `scope`; the default machine after it."""
     document = launch_file.document
@@ -378,6 +382,8 @@ def _root_args(scope: Scope, launch_file: LaunchFile) -> dict[str, Arg]:
 
 
 def _check_machines(state: State) -> None:
+    if any(unknown.what.startswith(_MAY_DECLARE_MACHINES) for unknown in state.unknowns):
+        return
     for node in sorted(state.nodes, key=lambda node: node.kind == "test"):
         if node.machine and node.machine not in state.machines and not node.unknowns:
             attribute = node.action.attribute("machine")

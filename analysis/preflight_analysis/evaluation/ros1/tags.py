@@ -103,6 +103,8 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
     found = attributes.require("name", "address")
     if found is None:
         return None
+    if not found[0].known:
+        state.unknown("<machine>", "its name is not known", scope, action.kind_span)
     for name in ("env-loader", "ssh-port", "user", "password", "default", "timeout"):
         attributes.get(name)
     ssh_port = attributes.convert("ssh-port", 22, lambda text: integer(text or "22"))
