@@ -185,7 +185,7 @@ def x_server() -> Iterator[str]:
     read, write = os.pipe()
     try:
         server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-nolisten", "tcp", "-screen", "0", "640x480x24"],
+            ["Xvfb", "-displayfd", str(write), "-nolisten", "tcp", "-noreset", "-screen", "0", "640x480x24"],
             pass_fds=[write],
             stderr=subprocess.DEVNULL,
         )

@@ -18,8 +18,8 @@ from roslaunch.config import load_config_default
 from roslaunch.node_args import create_local_process_args
 
 STABLE_SECONDS = 1.5
-ABSENT_SECONDS = 12
-"""How long the graph has to be stable for nodes that lack in it to be given up."""
+ABSENT_SECONDS = 6
+"""How long the graph has to be stable for nodes that lack in it, and have ended, to be given up."""
 LIMIT_SECONDS = 60
 
 
@@ -49,6 +49,23 @@ def state(master):
     return [sorted((name, sorted(nodes)) for name, nodes in side) for side in master.getSystemState()]
 
 
+def running():
+    """The names of the nodes that have a process."""
+    found = set()
+    for entry in os.listdir("/proc"):
+        try:
+            with open("/proc/%s/cmdline" % entry, "rb") as file:
+                words = file.read().decode(errors="replace").split("\0")
+            with open("/proc/%s/environ" % entry, "rb") as file:
+                variables = dict(v.split("=", 1) for v in file.read().decode(errors="replace").split("\0") if "=" in v)
+        except OSError:
+            continue
+        if variables.get("ROS_MASTER_URI") == os.environ["ROS_MASTER_URI"]:
+            name = next((word[8:] for word in words if word.startswith("__name:=")), "")
+            found.add(rosgraph.names.ns_join(variables.get("ROS_NAMESPACE", "/"), name))
+    return found
+
+
 def shown(master, wanted):
     """For each node what `rosnode info` would print, once the graph has stopped changing and all nodes are in it."""
     began = since = time.time()
@@ -56,7 +73,7 @@ def shown(master, wanted):
     absent = wanted
     while time.time() - since < (ABSENT_SECONDS if absent else STABLE_SECONDS):
         if time.time() - began > LIMIT_SECONDS:
-            raise SystemExit("the graph did not become stable: %s" % last)
+            raise SystemExit("the graph did not become stable, or lacks %s: %s" % (absent, last))
         time.sleep(0.1)
         try:
             now = state(master)
@@ -65,6 +82,8 @@ def shown(master, wanted):
         if now is None or now != last:
             last, since = now, time.time()
             absent = wanted - {node for side in now or () for _, nodes in side for node in nodes}
+        if absent & running():
+            since = time.time()
     types = dict(master.getTopicTypes())
     publishers, subscribers, services = last
     return {

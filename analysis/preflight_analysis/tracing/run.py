@@ -82,10 +82,12 @@ def execute(
     interpreter: str,
     cancel: threading.Event,
     agents: Agents = AGENTS,
+    screen: str | None = None,
 ) -> RawRun:
-    """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in, `agents` our code for it.
-    Raises `OSError` if bubblewrap cannot be started."""
+    """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in, `agents` our code for it,
+    `screen` an X server for the node's windows. Raises `OSError` if bubblewrap cannot be started."""
     job = {
+        "screen": screen,
         "params": encode_params(params),
         "limits": {
             "wall": WALL_SECONDS,

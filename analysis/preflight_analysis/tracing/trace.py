@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing import compiled, nodelets, preload, run, sandbox
+from preflight_analysis.tracing import compiled, nodelets, preload, run, sandbox, windows
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
@@ -81,7 +81,12 @@ class Tracer:
         interpreter = self.environment.python or sys.executable
         agents = compiled.copies().of(interpreter, visible)
         raw = run.execute(recipe, request.params, visible, interpreter, cancel, agents)
+        screen = windows.server() if (blind := windows.lacking(raw)) else None
+        if screen is not None:
+            raw = run.execute(recipe, request.params, visible, interpreter, cancel, agents, screen)
         observed = observe(raw, recipe, request)
+        if blind and screen is None:
+            observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
             observed = replace(observed, interface=noted)

@@ -12,9 +12,9 @@ _MEMORY_INTERVAL = 0.1
 """Seconds between looks at the memory."""
 
 
-def left_behind() -> list[int]:
-    """The processes beside our own and bubblewrap's."""
-    return sorted(int(name) for name in _processes() if int(name) not in (1, os.getpid()))
+def left_behind(ours: Optional[int]) -> list[int]:
+    """The processes beside our own, bubblewrap's and the one that is `ours` too."""
+    return sorted(int(name) for name in _processes() if int(name) not in (1, os.getpid(), ours))
 
 
 class Census:

@@ -57,6 +57,8 @@ class Run:
         self.polled_at = 0.0
         self.cpu = 0.0
         self.pid = -1
+        self.screen: Optional[int] = None
+        """The process of the node's X server."""
 
     def emit(self, record: dict[str, Any]) -> bool:
         """One line to the host; repetitions are left out. Whether it was new."""
@@ -261,7 +263,9 @@ def _main() -> None:
         os.makedirs(folder, exist_ok=True)
     os.mkfifo(FIFO, 0o600)
     events = os.open(FIFO, os.O_RDWR | os.O_NONBLOCK | os.O_CLOEXEC)
+    server = _screen(job) if job.get("screen") else None
     run = Run(job)
+    run.screen = server
     if "output" in job:
         from . import command  # noqa: PLC0415
 
@@ -299,6 +303,16 @@ def _main() -> None:
             }
         }
     )
+
+
+def _screen(job: dict[str, Any]) -> int:
+    """Start the X server that the job asks for, and tell the node of it."""
+    from . import screen  # noqa: PLC0415
+
+    pid, display = screen.start(job["screen"], lambda: _limit(job["rlimits"]))
+    if display is not None:
+        job["env"]["DISPLAY"] = display
+    return pid
 
 
 def start(run: Run, output: Optional[int] = None) -> tuple[int, int]:
@@ -343,9 +357,9 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
             os.read(wake, 512)
             ended = exit_code(run.pid)
         elif followed:
-            ended = None if left_behind() else 0
+            ended = None if left_behind(run.screen) else 0
         rest = drain(run, events, rest)
-        if ended == 0 and not run.initialised and not followed and (left := left_behind()):
+        if ended == 0 and not run.initialised and not followed and (left := left_behind(run.screen)):
             # It goes on as a daemon, or was a script that started the node in the background.
             followed, run.pid, ended = True, left[0], None
         if ended is not None:
