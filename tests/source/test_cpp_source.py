@@ -469,6 +469,28 @@ def test_nodelets(desk: Desk) -> None:
     assert ends(desk.again(node=node, args="manager")) == []
 
 
+def test_a_nodelet_whose_name_does_not_tell_its_package(desk: Desk) -> None:
+    with_nodelet(desk)
+    manifest = (desk.folder / "package.xml").read_text().replace("<export>", "<depend>nodelet</depend><export>")
+    desk.write("package.xml", manifest)
+    desk.write("plugins.xml", (desk.folder / "plugins.xml").read_text().replace("p/filter", "Filters/Filter"))
+    packages = find_packages([str(desk.folder)]).packages
+    desk.environment = Environment(1, "noetic", {}, (str(desk.folder),), packages, {}, (), (), None)
+    desk.analysis = SourceAnalysis(desk.environment, desk.sources)
+    node = '<node pkg="nodelet" type="nodelet" name="n" args="{args}">{inner}</node>'
+    assert len(ends(desk.again(node=node, args="standalone Filters/Filter"))) == 3
+    assert desk.again(node=node, args="standalone Filters/Other") is None
+
+
+def test_a_type_of_a_package_whose_namespace_is_used(desk: Desk) -> None:
+    desk.add_package("q_msgs")
+    desk.write("q_msgs/msg/Thing.msg", "")
+    desk.add_package("r_msgs")
+    before = "using namespace q_msgs;\nusing namespace r_msgs;\nusing namespace std;"
+    body = 'ros::NodeHandle nh; nh.advertise<Thing>("a", 1); nh.advertise<Other>("b", 1);'
+    assert desk.main(body, before) == [("publisher", "a", "q_msgs/Thing"), ("publisher", "b", None)]
+
+
 def test_nodelets_in_a_program_of_their_own(desk: Desk) -> None:
     with_nodelet(desk)
     assert desk.topics(

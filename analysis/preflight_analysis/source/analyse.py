@@ -135,7 +135,7 @@ class SourceAnalysis:
         # Loads the parser, which who has no C++ nodes does without.
         from preflight_analysis.source.cpp_analysis import CppAnalysis  # noqa: PLC0415
 
-        return CppAnalysis(self._environment.packages)
+        return CppAnalysis(self._environment.packages, self._has_type)
 
     def text(self, path: str) -> tuple[str, str] | None:
         """What a file holds, with its digest."""

@@ -22,8 +22,9 @@ _NODELET = "nodelet::Nodelet"
 class CppAnalysis:
     """Reads the C++ sources of nodes; what a file declares is remembered by its digest. Thread-safe."""
 
-    def __init__(self, packages: Mapping[str, Package]) -> None:
+    def __init__(self, packages: Mapping[str, Package], has_type: Callable[[str, str, str], bool]) -> None:
         self._packages = packages
+        self._has_type = has_type
         self._lock = threading.Lock()
         self._files: dict[tuple[str, str], FileText | None] = {}
 
@@ -40,7 +41,7 @@ class CppAnalysis:
         files = CppFiles(
             self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text)
         )
-        calls = RoscppCalls(name, remaps, params)
+        calls = RoscppCalls(name, remaps, params, self._has_type)
         if (nodelet := nodelet_of(package, executable, args)) is not None:
             self._nodelet(files, nodelet.plugin, calls)
             if nodelet.manager is not None and (calls.found.endpoints or calls.found.params):

@@ -11,7 +11,7 @@ from pathlib import PurePath
 
 from lxml import etree
 
-from preflight_analysis.environment.cmake import Build, Target, read_build
+from preflight_analysis.environment.cmake import LISTS, Build, Target, read_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import FileText
@@ -20,6 +20,7 @@ MAX_FILES = 200
 """How many files of one program are looked at."""
 
 _PLUGIN_FILES = 10
+_PLUGINS = frozenset({"nodelet", "pluginlib"})
 
 
 class CppFiles:
@@ -51,13 +52,22 @@ class CppFiles:
 
     def plugin(self, name: str, base: str) -> tuple[CppProgram, str] | None:
         """The program with the class that a plugin `package/Name` is, and the name of the class."""
-        package, _, _ = name.partition("/")
-        for library, type_, plugin in self._plugins(package, base):
-            if plugin == name or type_ == name.replace("/", "::"):
-                build = self.build(package)
-                target = build.library(PurePath(library).name)
-                return (self._program(package, target), type_) if target is not None else None
+        for package in self._having_plugins(name.partition("/")[0]):
+            for library, type_, plugin in self._plugins(package, base):
+                if plugin == name or type_ == name.replace("/", "::"):
+                    target = self.build(package).library(PurePath(library).name)
+                    return (self._program(package, target), type_) if target is not None else None
         return None
+
+    def _having_plugins(self, likely: str) -> Iterator[str]:
+        """Packages in source form that may have a plugin: the one that its name begins with by convention, first."""
+        if likely in self._packages:
+            yield likely
+            return
+        for name, package in self._packages.items():
+            needs = not _PLUGINS.isdisjoint(package.dependencies)
+            if needs and os.path.isfile(os.path.join(package.share, LISTS)):
+                yield name
 
     def _plugins(self, package: str, base: str) -> Iterator[tuple[str, str, str]]:
         """Library, class and name of each plugin that a package exports."""

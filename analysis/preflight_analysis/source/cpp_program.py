@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
@@ -16,11 +17,13 @@ from preflight_analysis.source.cpp_text import (
     Path,
     first_child,
     path_of,
+    text_of,
 )
 from preflight_analysis.source.cpp_values import CppType, Scope
 
 _T = TypeVar("_T")
 _MAX_DEPTH = 12
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _MAX_ARGUMENTS = 16
 
 
@@ -118,6 +121,22 @@ class CppProgram:
         cls = next((c for where in places if (c := self.find(self.classes, path, where)) is not None), None)
         return CppType("::".join(cls or tuple(part for part in path if part)), args, scope.file)
 
+    def leading_to(self, words: frozenset[str]) -> frozenset[str]:
+        """The names of functions and types in whose text one of the words stands, or a name that leads to one."""
+        parts: list[tuple[str, frozenset[str]]] = []
+        for functions in self.functions.values():
+            parts += [(f.name, _words_in(f.body, f.initializers)) for f in functions if f.body is not None]
+        for cls in self.classes.values():
+            nodes = [node for field in cls.fields for node in (field.type, field.value)]
+            parts.append((cls.name, _words_in(*cls.bases, *nodes)))
+        parts += [(path[-1], _words_in(node)) for path, (node, _, _) in self._aliases.items()]
+        found: set[str] = set(words)
+        while True:
+            more = {name for name, mentioned in parts if name not in found and not mentioned.isdisjoint(found)}
+            if not more:
+                return frozenset(found)
+            found |= more
+
     def class_of(self, type_: CppType) -> ClassText | None:
         """The class of the program that a type is."""
         return self.classes.get(tuple(type_.name.split("::")))
@@ -126,6 +145,10 @@ class CppProgram:
         """Where the program starts."""
         found = self.functions.get(("main",), ())
         return next((each for each in found if each.body is not None), None)
+
+
+def _words_in(*nodes: Node | None) -> frozenset[str]:
+    return frozenset(word for node in nodes if node is not None for word in _WORD.findall(text_of(node)))
 
 
 def _inside(type_: CppType, rest: Path, args: tuple[CppType, ...]) -> CppType:

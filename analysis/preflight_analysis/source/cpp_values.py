@@ -138,6 +138,10 @@ Store = Callable[[Argument, Any], None]
 class Calls(Protocol):
     """What is known of libraries. Each answer is a value, UNKNOWN if it cannot be told."""
 
+    @property
+    def words(self) -> frozenset[str]:
+        """Names of which one stands wherever there is something to tell: callbacks without one are left out."""
+
     def make(self, type_: CppType, args: Sequence[Argument], place: Place) -> Any:
         """An object of a class that is not of the program."""
 

@@ -114,6 +114,8 @@ class _Walk:
         self._visits: dict[int, int] = {}
         self._active: set[int] = set()
         self._returns: list[list[Any]] = []
+        self._leading: frozenset[str] | None = None
+        """Callbacks are not gone through but for these functions."""
         self._steps = 0
         self._depth = 0
         self._nesting = 0
@@ -122,6 +124,7 @@ class _Walk:
         try:
             with contextlib.suppress(ExitError):
                 self._call_text(function, instance, [Argument(arg) for arg in args], {})
+            self._leading = self._program.leading_to(self._calls.words)
             for waiting in self._waiting:  # grows while it is gone through
                 body = waiting.text.body if waiting.text is not None else waiting.body
                 if body is not None and not self._visits.get(body.id):
@@ -336,13 +339,14 @@ class _Walk:
         condition, body = node.child_by_field_name("condition"), node.child_by_field_name("body")
         if body is None:
             return
-        first = node.type == "do_statement"
+        first, done = node.type == "do_statement", False
         literal = text_of(condition) in _FOREVER
         for _ in range(1 if literal else _MAX_TURNS):
             known = True if first else truth(self._condition(condition, scope))
             first = False
-            if known is None:
+            if known is None and not done:
                 self._once(body, scope)
+            done = True
             if not known or self._statement(body, scope):
                 return
 
@@ -894,7 +898,7 @@ class _Walk:
     def _call_text(
         self, text: FunctionText, instance: Instance | None, args: list[Argument], types: dict[str, CppType]
     ) -> Any:
-        if text.body is None:
+        if text.body is None or (self._leading is not None and text.name not in self._leading):
             return UNKNOWN
         scope = Scope({}, text.scope, text.file, self._types(text, instance, types), instance)
         self._bind(text, args, scope)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -140,13 +140,23 @@ class Loaded:
 class RoscppCalls:
     """Collects what the calls of one node make. Implements `cpp_values.Calls`."""
 
+    words = frozenset(
+        f"NodeHandle getNodeHandle getMTNodeHandle getPrivateNodeHandle getMTPrivateNodeHandle {' '.join(_PARAMS)} "
+        "advertise advertiseCamera advertiseService subscribe subscribeCamera serviceClient createClient call "
+        "waitForService waitForMessage ImageTransport SubscriberFilter Subscriber RealtimePublisher Loader "
+        "TransformListener TransformBroadcaster StaticTransformBroadcaster Updater Server CameraInfoManager "
+        "SimpleActionServer SimpleActionClient ActionServer ActionClient InteractiveMarkerServer".split()
+    ) - {"get", "set", "has"} | {"ros"}
     includes: Sequence[str] = ()
     """What the files of the program include."""
 
-    def __init__(self, node: str, remaps: Mapping[str, str], params: KnownParams) -> None:
+    def __init__(
+        self, node: str, remaps: Mapping[str, str], params: KnownParams, has_type: Callable[[str, str, str], bool]
+    ) -> None:
         self._node = node
         self._remaps = remaps
         self._params = params
+        self._has_type = has_type
         self.found = Found()
         self.nodelets: list[Loaded] = []
         """The nodelets that the program loads into its own process."""
@@ -495,7 +505,9 @@ class RoscppCalls:
             packages = {header[1] for header in headers if header is not None and header[2] == name}
             if packages:
                 return f"{packages.pop()}/{name}" if len(packages) == 1 else None
-        return None
+        used = dict.fromkeys(path[0] for path in type_.file.namespaces if len(path) == 1)
+        having = [p for p in used if any(self._has_type(p, kind, name) for kind in ("msg", "srv", "action"))]
+        return f"{having[0]}/{name}" if len(having) == 1 else None
 
 
 def _private(name: str) -> str:
