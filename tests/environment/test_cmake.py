@@ -157,6 +157,13 @@ def test_scripts(desk: Desk) -> None:
     assert build.made_of("x") is None
 
 
+def test_an_executable_of_several_files_is_told_by_the_one_with_its_name(desk: Desk) -> None:
+    build = desk.build("add_executable(Driver a.cpp driver.cpp)\nadd_executable(b a.cpp main.cpp)\nadd_executable(c)")
+    assert build.made_of("Driver") == Made(str(desk.folder / "driver.cpp"), True)
+    assert build.made_of("b") == Made(str(desk.folder / "main.cpp"), True)
+    assert build.made_of("c") is None
+
+
 @pytest.mark.parametrize(
     "text",
     [

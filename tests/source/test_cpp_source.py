@@ -576,6 +576,14 @@ def test_headers_of_another_package_bring_their_source(desk: Desk) -> None:
     assert [(e.name, e.source_file) for e in found.endpoints] == [("~made", str(folder / "src/thing.cpp"))]
 
 
+def test_a_program_that_is_built_is_known_by_its_source_too(desk: Desk) -> None:
+    built = desk.folder / "t"
+    built.write_bytes(b"\x7fELF\2\1\1\0")
+    built.chmod(0o755)
+    assert desk.launch().nodes[0].resolved.path == str(built)
+    assert desk.topics('ros::NodeHandle nh; nh.advertise<std_msgs::String>("a", 1);') == ["a"]
+
+
 def test_a_script_that_is_installed_under_another_name(desk: Desk) -> None:
     desk.write("CMakeLists.txt", "install(PROGRAMS scripts/x.py DESTINATION bin RENAME t)\n")
     desk.write("scripts/x.py", "import rospy\nfrom std_msgs.msg import String\nrospy.Publisher('a', String)\n")

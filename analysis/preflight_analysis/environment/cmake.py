@@ -89,7 +89,8 @@ class Build:
         """What the executable of this name is made of."""
         target = self.executable(name)
         if target is not None:
-            return Made(target.sources[0], True) if target.sources else None
+            likely = sorted(target.sources, key=lambda path: _stem(path) not in (name.lower(), "main"))
+            return Made(likely[0], True) if likely else None
         program = self.programs.get(name)
         return Made(program.path, program.relayed) if program is not None else None
 
@@ -328,6 +329,10 @@ class _Lists:
         for file in files:
             path = os.path.normpath(os.path.join(folder, file))
             self._programs.setdefault(renamed or os.path.basename(path), Program(path, relayed))
+
+
+def _stem(path: str) -> str:
+    return os.path.splitext(os.path.basename(path))[0].lower()
 
 
 def _words(words: Sequence[_Word], variables: Mapping[str, str]) -> list[str]:
