@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 import multiprocessing
 import os
+import random
+import resource
+import signal
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +19,7 @@ import pytest
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
+from preflight_analysis.tracing.preload import MOST_KEPT, Library
 from preflight_analysis.tracing.recipe import make
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
@@ -267,3 +273,186 @@ def test_several_processes_at_once(desk: Desk, tmp_path: Path) -> None:
         worker.join(60)
     assert [w.exitcode for w in workers] == [0, 0, 0]
     assert not list(Path(shared).glob("*/*/.*.tmp"))
+
+
+class Writer:
+    """A process that writes entries until it is killed, and says after each whether it was kept."""
+
+    def __init__(
+        self, desk: Desk, folder: Path, prepare: Callable[[], object] = bool, max_bytes: int = 1 << 30
+    ) -> None:
+        self._said, said = os.pipe()
+        self.pid = os.fork()
+        if self.pid == 0:
+            try:
+                prepare()
+                cache = TraceCache(folder, max_bytes)
+                for number in range(100_000):
+                    if number % 7 == 0:
+                        cache.sweep()
+                    os.write(said, b"y" if self.write(desk, cache, number) else b"n")
+            finally:
+                os._exit(0)
+        os.close(said)
+
+    @staticmethod
+    def write(desk: Desk, cache: TraceCache, number: int) -> bool:
+        asked = dataclasses.replace(desk.request, args=(f"n{number % 9}",), node=f"/n{number % 5}")
+        notes = tuple("x" * 100 for _ in range(number * 37 % 500))
+        interface = dataclasses.replace(INTERFACE, notes=notes)
+        recipe = make(desk.tracer.environment, asked)
+        return cache.store(recipe, asked, interface, Dependencies(asked=frozenset(["name"])), started=time.time())
+
+    def says(self, number: int) -> bytes:
+        """What it said of the first so many entries."""
+        said = b""
+        while len(said) < number and (more := os.read(self._said, number - len(said))):
+            said += more
+        return said
+
+    def kill(self) -> None:
+        os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+        os.close(self._said)
+
+
+def whole(cache: TraceCache) -> int:
+    """How many entries there are; each of them is whole."""
+    found = entries(cache)
+    assert all(cache._read(path) is not None for path in found)
+    return len(found)
+
+
+def test_a_writer_that_is_killed_leaves_whole_entries(desk: Desk, tmp_path: Path) -> None:
+    cache = TraceCache(tmp_path / "shared")
+    chance = random.Random(4)
+    for _ in range(25):
+        # Two at once, killed wherever they are after so many entries.
+        writers = [Writer(desk, cache.folder), Writer(desk, cache.folder)]
+        for writer in writers:
+            assert set(writer.says(chance.randrange(1, 30))) <= set(b"y")
+            writer.kill()
+        assert whole(cache)
+    left = [path for path in cache.folder.glob("*/*/.*") if path.suffix == ".tmp"]
+    cache.sweep()
+    assert all(path.exists() for path in left), "another process may be writing them"
+    for path in left:
+        os.utime(path, (0, 0))
+    (cache.folder / "ab" / "cd").mkdir(parents=True)
+    abandoned = cache.folder / "ab" / "cd" / ".x.tmp"
+    abandoned.write_text("half an ent")
+    os.utime(abandoned, (0, 0))
+    cache.sweep()
+    assert not [path for path in cache.folder.glob("*/*/.*") if path.suffix == ".tmp"]
+    assert Writer.write(desk, cache, 1)
+
+
+def test_writers_that_sweep_each_others_entries_away(desk: Desk, tmp_path: Path) -> None:
+    cache = TraceCache(tmp_path / "shared", max_bytes=100_000)
+    writers = [Writer(desk, cache.folder, max_bytes=cache.max_bytes) for _ in range(3)]
+    for writer in writers:
+        assert set(writer.says(150)) <= set(b"y")
+    for writer in writers:
+        writer.kill()
+    whole(cache)
+    cache.sweep()
+    assert sum(path.stat().st_size for path in entries(cache)) <= cache.max_bytes
+
+
+def test_a_full_disk_costs_the_entry_alone(desk: Desk, tmp_path: Path) -> None:
+    def fill() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+
+    cache = TraceCache(tmp_path / "shared")
+    assert Writer.write(desk, cache, 0)
+    writer = Writer(desk, cache.folder, fill)
+    assert writer.says(20) == b"n" * 20
+    writer.kill()
+    assert whole(cache) == 1
+    assert [path for path in cache.folder.glob("*/*/*") if path.suffix != ".json"] == []
+
+
+def test_a_folder_that_may_only_be_read_is_read(desk: Desk, tmp_path: Path) -> None:
+    def no_root() -> None:
+        header, none = (ctypes.c_uint32 * 2)(0x20080522, 0), (ctypes.c_uint32 * 6)()
+        if ctypes.CDLL(None).capset(header, none) != 0:
+            os._exit(1)
+
+    folder = desk.cache.folder
+    for path in (*folder.glob("*/*"), *folder.glob("*"), folder):
+        path.chmod(0o555)
+    before = {path: path.stat().st_mtime for path in entries(desk.cache)}
+    writer = Writer(desk, folder, no_root)
+    assert writer.says(10) == b"n" * 10
+    writer.kill()
+    assert {path: path.stat().st_mtime for path in entries(desk.cache)} == before
+    assert desk.hit()
+    for path in (folder, *folder.glob("*"), *folder.glob("*/*")):
+        path.chmod(0o755)
+
+
+def test_foreign_files_do_no_harm_and_come_to_none(desk: Desk, tmp_path: Path) -> None:
+    cache = desk.cache
+    (path,) = entries(cache)
+    recipe = path.name.partition("-")[0]
+    outside = tmp_path / "outside"
+    (outside / "deep").mkdir(parents=True)
+    (outside / "deep" / "theirs.json").write_text("{}" * 10_000)
+    (cache.folder / "linked").symlink_to(outside)
+    (cache.folder / "notes.json").write_text("{}")
+    (cache.folder / "ab").mkdir(exist_ok=True)
+    (cache.folder / "ab" / "file").write_text("where a folder should be")
+    foreign = path.with_name("README")
+    foreign.write_text("hello")
+    path.with_name(f"{recipe}-folder.json").mkdir()
+    os.mkfifo(path.with_name(f"{recipe}-fifo.json"))
+    path.with_name(f"{recipe}-loop.json").symlink_to(f"{recipe}-loop.json")
+    path.with_name(f"{recipe}-zero.json").symlink_to("/dev/zero")
+    Path(os.fsdecode(os.fsencode(path.parent) + b"/\xff.json")).write_text("{}")
+    assert desk.hit()
+    assert [kept.node for kept in cache.traces_of("pkg", desk.script.name, None)[1]] == ["/node"]
+    cache.max_bytes = 1
+    cache.sweep()
+    assert not desk.hit()
+    assert foreign.exists()
+    assert (outside / "deep" / "theirs.json").exists()
+    cache.max_bytes = 1 << 30
+    assert not desk.trace().cached
+    assert desk.hit()
+
+
+def test_entries_of_other_versions_are_swept_as_any(desk: Desk) -> None:
+    old = desk.cache.folder / "0a" / ("0" * 64)
+    old.mkdir(parents=True)
+    (old / f"{'1' * 32}.json").write_text("of version 2")
+    os.utime(old / f"{'1' * 32}.json", (0, 0))
+    desk.cache.max_bytes = sum(path.stat().st_size for path in entries(desk.cache)) - 1
+    desk.cache.sweep()
+    assert not old.exists()
+    assert desk.hit()
+
+
+def test_libraries_of_other_versions_are_bounded(tmp_path: Path) -> None:
+    old = [tmp_path / f"roscpp-{number:032x}.so" for number in range(6)]
+    for number, path in enumerate(old):
+        path.write_text("of another compiler")
+        os.utime(path, (number, number))
+    broken_off, in_the_making = tmp_path / ".old", tmp_path / ".new"
+    for folder in (broken_off, in_the_making):
+        folder.mkdir()
+        (folder / "made.so").write_text("half a libr")
+    os.utime(broken_off, (0, 0))
+    (tmp_path / "notes.so").write_text("not ours")
+    library = Library(tmp_path)
+    made = library.build().path
+    assert made is not None
+    assert {path.name for path in tmp_path.iterdir()} == {
+        os.path.basename(made),
+        *(path.name for path in old[-MOST_KEPT + 1 :]),
+        in_the_making.name,
+        "notes.so",
+    }
+    os.utime(made, (0, 0))
+    assert library.build().path == made
+    assert Path(made).stat().st_mtime > 0, "it is in use"

@@ -13,11 +13,13 @@ import hashlib
 import logging
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,12 +27,16 @@ import platformdirs
 
 from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.preload_compile import FLAGS, MACHINES, PREBUILT, SECONDS, SOURCE, compile_library
+from preflight_analysis.tracing.store import ABANDONED
 
 _log = logging.getLogger(__name__)
 
 _ELF = b"\x7fELF\x02"
 """Of 64 bits, as the library is."""
 _PROBE = "/bin/true"
+_NAME = re.compile(r"roscpp-[0-9a-f]{32}\.so")
+MOST_KEPT = 4
+"""How many libraries stay in the folder: of versions of this program and of compilers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,10 +82,13 @@ class Library:
             if plan is self._copied and plan.path is not None and not os.path.isfile(plan.path):
                 self._unfit = not _copy(self._prebuilt, Path(plan.path))
                 plan = self.planned()
+                self._tidy()
             if plan.path is None or os.path.isfile(plan.path):
+                _used(plan.path)
                 return plan
             try:
                 compile_library(self._compiler or "", SOURCE, Path(plan.path))
+                self._tidy()
             except subprocess.TimeoutExpired:
                 self._failure = f"the C++ compiler did not end within {SECONDS} s"
             except subprocess.CalledProcessError as error:
@@ -90,6 +99,22 @@ class Library:
             if self._failure is not None:
                 _log.warning("%s", self._failure)
             return self.planned()
+
+    def _tidy(self) -> None:
+        """Remove the libraries of other versions and compilers that were not used for longest, and what making one
+        left behind that was interrupted. A process that still wants one makes it again."""
+        dated: list[tuple[float, Path]] = []
+        with contextlib.suppress(OSError):
+            for path in self._folder.iterdir():
+                with contextlib.suppress(OSError):
+                    made = path.lstat().st_mtime
+                    if _NAME.fullmatch(path.name):
+                        dated.append((made, path))
+                    elif path.name.startswith(".") and time.time() - made > ABANDONED:
+                        shutil.rmtree(path)
+        for _, path in sorted(dated, reverse=True)[MOST_KEPT:]:
+            with contextlib.suppress(OSError):
+                path.unlink()
 
     @functools.cached_property
     def _compiler(self) -> str | None:
@@ -132,6 +157,12 @@ class Library:
 def library() -> Library:
     """The one of the user's cache folder."""
     return Library()
+
+
+def _used(path: str | None) -> None:
+    with contextlib.suppress(OSError):
+        if path is not None:
+            os.utime(path)
 
 
 def _supported() -> bool:

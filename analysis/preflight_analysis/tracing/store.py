@@ -32,7 +32,9 @@ _HASHED_BYTES = 8 << 20
 """Larger files count by size and time."""
 _SYSTEM = ("/usr/", "/lib/", "/lib64/", "/opt/", "/etc/", "/bin/", "/sbin/")
 _SWEEP_EVERY = 32
-_ABANDONED = 3600.0
+_DEPTH = 3
+"""How far below the store's folder its entries are."""
+ABANDONED = 3600.0
 """Seconds after which a file that was being written belongs to a process that is gone."""
 
 
@@ -106,7 +108,8 @@ class Store:
 
     def _read(self, path: Path) -> dict[str, Any] | None:
         try:
-            if path.stat().st_size > self._entry_bytes:
+            info = path.stat()
+            if not stat.S_ISREG(info.st_mode) or info.st_size > self._entry_bytes:
                 return None
             checksum, _, data = path.read_bytes().partition(b"\n")
             if hashlib.sha256(data).hexdigest().encode() != checksum:
@@ -132,15 +135,15 @@ class Store:
         """Remove the least recently used entries until the rest fits, and what interrupted writes left behind. Files
         that are none of ours stay."""
         entries: list[tuple[float, int, Path]] = []
-        for path in self.folder.glob("*/*/*"):
+        for path in _below(self.folder, _DEPTH):
             unfinished = path.name.startswith(".") and path.suffix == ".tmp"
             if not unfinished and path.suffix != ".json":
                 continue
             with contextlib.suppress(OSError):
-                info = path.stat()
-                if unfinished and time.time() - info.st_mtime > _ABANDONED:
+                info = path.lstat()
+                if unfinished and time.time() - info.st_mtime > ABANDONED:
                     path.unlink()
-                else:
+                elif stat.S_ISREG(info.st_mode):
                     entries.append((info.st_mtime, info.st_size, path))
         total = sum(size for _, size, _ in entries)
         for _, size, path in sorted(entries):
@@ -150,6 +153,19 @@ class Store:
                 path.unlink()
                 total -= size
                 path.parent.rmdir()
+
+
+def _below(folder: Path, depth: int) -> Iterator[Path]:
+    """What lies so many levels below a folder, links not followed. Other processes may be taking it away meanwhile."""
+    try:
+        found = [] if folder.is_symlink() and depth < _DEPTH else os.listdir(folder)
+    except OSError:
+        return
+    for name in found:
+        if depth == 1:
+            yield folder / name
+        else:
+            yield from _below(folder / name, depth - 1)
 
 
 def _files(place: Place) -> list[Path]:
