@@ -16,22 +16,25 @@ LIBRARIES = (
     "boost_system",
     "boost_thread",
     "pthread",
+    "tf",
+    "tf2_ros",
+    "tf2",
 )
 
 
 @pytest.fixture(scope="session")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A package with the node of `roscpp_node.cpp`."""
+    """A package with the nodes of `roscpp_node.cpp` and `roscpp_waits.cpp`."""
     folder = tmp_path_factory.mktemp("packages") / "compiled"
     folder.mkdir()
     (folder / "package.xml").write_text('<package format="2"><name>compiled</name></package>')
-    source = Path(__file__).parent / "roscpp_node.cpp"
-    command = ["g++", "-w", str(source), "-o", str(folder / "node"), *(f"-l{name}" for name in LIBRARIES)]
-    subprocess.run(command, check=True)
+    for name, source in (("node", "roscpp_node.cpp"), ("waits", "roscpp_waits.cpp")):
+        command = ["g++", "-w", str(Path(__file__).parent / source), "-o", str(folder / name)]
+        subprocess.run([*command, *(f"-l{library}" for library in LIBRARIES)], check=True)
     return folder
 
 
 @pytest.fixture(scope="session")
 def node(package: Path) -> Path:
-    """The node itself."""
+    """The first of them."""
     return package / "node"

@@ -128,14 +128,6 @@ def test_a_service_that_comes_is_waited_for(node: Path) -> None:
 
 
 @pytest.mark.ros
-def test_a_wait_for_a_message_is_told(node: Path) -> None:
-    found = trace(node, args=("message",))
-    assert found.outcome.status == "timed-out"
-    assert (found.outcome.reason or "").startswith("it waits for a message on news")
-    assert own(found) == MADE | {("subscriber", "news", "std_msgs/String")}
-
-
-@pytest.mark.ros
 def test_a_crash_is_the_nodes_own(node: Path) -> None:
     found = trace(node, args=("invalid",))
     assert (found.outcome.status, found.outcome.signal) == ("crashed", "SIGABRT")

@@ -187,7 +187,7 @@ def test_one_poll_after_another(tmp_path: Path) -> None:
     assert made(found) == {"before": False, "after": True}
     assert found.outcome.answers == (
         FED,
-        "it waits for the parameter /ready, and was given 0",
+        "it waits for the parameter /ready, and was given a value",
         "it waits for messages on /more, and was given empty ones",
     )
 
@@ -211,7 +211,7 @@ def test_a_loop_that_polls_for_a_parameter_gets_one(tmp_path: Path, loop: str) -
     found = waiting(tmp_path, loop)
     assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
     assert made(found) == {"before": False, "after": True}
-    assert found.outcome.answers == ("it waits for the parameter /ready, and was given 0",)
+    assert found.outcome.answers == ("it waits for the parameter /ready, and was given a value",)
 
 
 @pytest.mark.parametrize(

@@ -45,7 +45,7 @@ _ANSWERS = {
     "call": "it calls the service {}, and was given an empty answer",
     "message": "it waits for a message on {}, and was given an empty one",
     "poll": "it waits for messages on {}, and was given empty ones",
-    "parameter": "it waits for the parameter {}, and was given 0",
+    "parameter": "it waits for the parameter {}, and was given a value",
     "action": "it waits for the action server {}, and was told that it is there",
     "result": "it waits for the result of the action {}, and was given an empty one",
     "transform": "it waits for the transform {}, and was given the identity",

@@ -22,7 +22,7 @@ _PORTABLE = ("-DPREFLIGHT_PORTABLE", "-s", "-Wl,--no-as-needed", "-l:libdl.so.2"
 """For the libraries of other machines, older ones too: see the source. The C++ library stays the node's own: a second
 one in the same process would not know the strings and exceptions of the first."""
 _FILES = "open; open64; openat; openat64; __open_2; __open64_2; fopen; fopen64;"
-_EXPORTS = "{ global: _ZN3ros*; _ZNK3ros*; _ZN9actionlib*; " + _FILES + " local: *; };"
+_EXPORTS = "{ global: _ZN3ros*; _ZNK3ros*; _ZN9actionlib*; _ZNK3tf2*; _ZNK7tf2_ros*; " + _FILES + " local: *; };"
 """Nothing of the C++ library that was compiled into it takes the place of the node's."""
 
 

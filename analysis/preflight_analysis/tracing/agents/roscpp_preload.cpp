@@ -14,6 +14,7 @@
 #include <stdarg.h>
 #include <string.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -22,7 +23,9 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 
 #ifdef PREFLIGHT_PORTABLE
 // Since 2.34 these are in glibc itself under a new version, which older ones lack; the old version is still there.
@@ -119,7 +122,7 @@ void* in_loaded_library(const char* symbol) {
       [](dl_phdr_info* info, size_t, void* data) {
         auto* wanted = static_cast<Search*>(data);
         const char* name = strrchr(info->dlpi_name, '/');
-        if (name == nullptr || strncmp(name, "/libros", 7) != 0) return 0;
+        if (name == nullptr || (strncmp(name, "/libros", 7) != 0 && strncmp(name, "/libtf2", 7) != 0)) return 0;
         void* library = dlopen(info->dlpi_name, RTLD_LAZY | RTLD_NOLOAD);
         if (library == nullptr) return 0;
         wanted->found = dlsym(library, wanted->symbol);
@@ -307,6 +310,35 @@ struct Serialized {
   void* buffer_count;
   size_t size;
   const unsigned char* start;
+  void* message[2];
+  const void* type;
+};
+
+// boost::function<ros::SerializedMessage()>. The lowest bit of the table's address is a flag.
+struct Serializer {
+  struct Table {
+    void* manager;
+    Serialized (*invoke)(const void* function);
+  };
+  uintptr_t table;
+  void* function;
+
+  // The message; its memory is never freed.
+  std::string operator()() const {
+    auto* found = reinterpret_cast<const Table*>(table & ~uintptr_t{1});
+    if (found == nullptr) return "";
+    Serialized made = found->invoke(&function);
+    // Its length, of four bytes, stands before it.
+    if (made.start == nullptr || made.size < 4) return "";
+    return std::string(reinterpret_cast<const char*>(made.start), made.size - 4);
+  }
+};
+
+// geometry_msgs::TransformStamped.
+struct Transform {
+  uint32_t sequence = 0, seconds = 0, nanoseconds = 0;
+  std::string frame, child;
+  double translation[3] = {0, 0, 0}, rotation[4] = {0, 0, 0, 1};
 };
 
 struct ClientOptions {
@@ -394,7 +426,17 @@ Names names_of(const std::string& name) {
   return {name, resolve == nullptr ? "" : resolve(name, true)};
 }
 
+// Seconds, of a clock that only goes forward.
+double now() {
+  timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + time.tv_nsec * 1e-9;
+}
+
+std::atomic<double> last_new{0};  // when an endpoint was made or a parameter asked for the first time
+
 Event endpoint(const char* role, const Names& names, const std::string& md5) {
+  last_new = now();
   Event event("endpoint");
   event.add("role", std::string(role)).add("name", names.given).add("md5", md5);
   if (!names.resolved.empty()) event.add("resolved", names.resolved);
@@ -451,7 +493,37 @@ RESOLVES(preflight_resolve_in, "_ZN3ros5names7resolveE" STRING "S8_b",
 RESOLVES(preflight_resolve_name, "_ZNK3ros10NodeHandle11resolveNameE" STRING "b",
          (const NodeHandle* self, const std::string& name, bool remap), self, name, remap)
 
+void tell_answered(const char* kind, const std::string& name) {
+  answered_here = true;
+  if (in_main_thread()) answered = true;
+  Event("answered").add("kind", std::string(kind)).add("name", name).send();
+}
+
+// What the node lacks while its main thread goes round in a loop (polling.py does the same for rospy).
+std::mutex lacks_mutex;
+struct Lacks {
+  std::set<std::string> topics;  // that it subscribes to, under their final names
+  std::set<std::string> fed;
+  std::set<std::string> asked;                              // parameters, with the kind of access
+  std::map<std::pair<std::string, void*>, double> polled;   // those that were not set, and since when from where
+  std::set<std::string> given;
+  std::set<std::pair<std::string, void*>> refused;          // other questions that were answered with no
+};
+Lacks& lacks() {
+  static auto* all = new Lacks;  // never destroyed: nodes end in any order
+  return *all;
+}
+
+// What is asked again says nothing new.
+bool asked_before(const std::string& question) {
+  std::lock_guard<std::mutex> locked(lacks_mutex);
+  bool before = !lacks().asked.insert(question).second;
+  if (!before) last_new = now();
+  return before;
+}
+
 void tell_param(const char* access, const Names& names, void* place) {
+  if (asked_before(access + names.given + "\n" + names.resolved)) return;
   Event event("param");
   event.add("access", std::string(access)).add("name", names.given);
   if (!names.resolved.empty()) event.add("resolved", names.resolved);
@@ -459,12 +531,114 @@ void tell_param(const char* access, const Names& names, void* place) {
   event.add("optional", true).add("builtin", from_roscpp(place)).send();
 }
 
-void tell_param(const char* access, const NodeHandle* handle, const std::string& key, void* place) {
-  if (depth == 0) quietly([&] { tell_param(access, names_of(handle, key), place); });
+// Milliseconds.
+constexpr int kGrace = 300, kLaterGrace = 100;
+
+int grace() { return answered || answered_here ? kLaterGrace : kGrace; }
+
+// Whether a parameter that is not set is to be taken as set, for the node asks for it again and again.
+bool gives_param(const Names& names, void* place, bool there) {
+  bool give = false;
+  quietly([&] {
+    if (!in_main_thread() || from_roscpp(place)) return;
+    const std::string& name = names.resolved.empty() ? names.given : names.resolved;
+    std::lock_guard<std::mutex> locked(lacks_mutex);
+    Lacks& known = lacks();
+    if (there) return;
+    if (known.given.count(name) == 0) {
+      auto first = known.polled.insert({{name, place}, now()});
+      if (first.second || now() - first.first->second < grace() * 1e-3) return;
+      known.given.insert(name);
+      tell_answered("parameter", name);
+    }
+    give = true;
+  });
+  return give;
 }
 
-void tell_param(const char* access, const std::string& key, void* place) {
-  if (depth == 0) quietly([&] { tell_param(access, names_of(key), place); });
+// A value that is not set is the one that the node had, but for plain ones, which it may not have set itself: those are
+// such as a rate or a size can be.
+void made_up(double* value) { *value = 1; }
+void made_up(float* value) { *value = 1; }
+void made_up(int* value) { *value = 1; }
+void made_up(bool* value) { *value = true; }
+void made_up(void*) {}
+
+template <typename Name, typename Value, typename Ask>
+bool ask_param(const char* access, Name name, void* place, Value* value, Ask ask) {
+  if (depth > 0) return ask();
+  Names names;
+  quietly([&] {
+    names = name();
+    tell_param(access, names, place);
+  });
+  bool there;
+  {
+    Depth nested;
+    there = ask();
+  }
+  if (!gives_param(names, place, there)) return there;
+  if (!there) made_up(value);
+  return true;
+}
+
+// Whether the same was asked from the same place before, and the answer was no.
+bool asks_again(const std::string& question, void* place) {
+  std::lock_guard<std::mutex> locked(lacks_mutex);
+  return !lacks().refused.insert({question, place}).second;
+}
+
+void ask_for_food(const std::string& topic, const std::string& goal = "") {
+  Event("feed").add("topic", topic).add("goal", goal).send();
+}
+
+bool without_time() {
+  auto* simulated = REAL_IF_ANY("_ZN3ros4Time9isSimTimeEv", bool());
+  auto* valid = REAL_IF_ANY("_ZN3ros4Time7isValidEv", bool());
+  return simulated != nullptr && valid != nullptr && simulated() && !valid();
+}
+
+std::atomic<bool> time_given{false};
+
+bool needs_time() { return !time_given && without_time(); }
+
+// Simulated time that nobody tells would never begin. Whether it was given now.
+bool give_time() {
+  bool given = false;
+  quietly([&] {
+    if (!needs_time() || time_given.exchange(true)) return;
+    tell_answered("clock", "/clock");
+    ask_for_food("/clock");
+    given = true;
+  });
+  return given;
+}
+
+// The topics that nobody publishes.
+std::set<std::string> starved() {
+  std::set<std::string> found;
+  auto* instance = REAL_IF_ANY("_ZN3ros12TopicManager8instanceEv", void* const*());
+  auto* publishers = REAL_IF_ANY("_ZN3ros12TopicManager16getNumPublishersE" STRING, size_t(void*, const std::string&));
+  if (instance == nullptr || publishers == nullptr) return found;
+  std::set<std::string> topics;
+  {
+    std::lock_guard<std::mutex> locked(lacks_mutex);
+    for (const auto& topic : lacks().topics) {
+      if (lacks().fed.count(topic) == 0) topics.insert(topic);
+    }
+  }
+  for (const auto& topic : topics) {
+    if (publishers(*instance(), topic) == 0) found.insert(topic);
+  }
+  return found;
+}
+
+bool polls_params() {
+  std::lock_guard<std::mutex> locked(lacks_mutex);
+  for (const auto& each : lacks().polled) {
+    if (lacks().given.count(each.first.first) == 0 && now() - each.second < 2 * kGrace * 1e-3) return true;
+  }
+  return false;
 }
 
 void tell_spin() {
@@ -477,28 +651,98 @@ void tell_spin() {
   });
 }
 
-// A sleep or spinOnce of the main thread. What comes twice from one place stands in a loop; a single sleep (`seconds`
-// is not negative) may be a pause before more endpoints are made.
-void tell_turn(void* place, double seconds) {
-  if (depth > 0) return;
-  quietly([&] {
-    static void* places[64];
-    static int count = 0;
-    static bool looped = false, idle = false;
-    if (looped || !in_main_thread() || from_roscpp(place)) return;
-    bool again = false;
-    for (int i = 0; i < count; ++i) again = again || places[i] == place;
-    if (!again && count < 64) places[count++] = place;
+std::atomic<int> published{0};  // messages of the main thread
+
+// A loop of the main thread, as its sleeps and spinOnce show it. What comes twice from one place stands in a loop; a
+// single sleep (`seconds` is not negative) may be a pause before more endpoints are made. A loop that does nothing while
+// the node lacks messages may be waiting for them: it gets some.
+class Loop {
+ public:
+  void turn(void* place, double seconds) {
+    Place* known = find(place);
+    bool again = known != nullptr && known->turns++ > 0;
+    double period = 0;
+    if (known != nullptr) {
+      works_ = works_ || (again && published > known->published);
+      known->published = published;
+      period = again ? now() - known->at : 0;
+      known->at = now();
+    }
+    if (works_ && starving_told_) {
+      starving_told_ = false;
+      Event("state").add("state", std::string("busy")).send();
+    }
+    if (told_looped_ && !starving_told_) return;
+    bool starving = !works_ && (polls_params() || needs_time() || !starved().empty());
+    if (again && starving && now() - last_new >= kQuiet && feed(period)) return;
+    tell(again, seconds, starving);
+  }
+
+ private:
+  static constexpr double kQuiet = 0.25;
+  struct Place {
+    void* place;
+    int turns, published;
+    double at;
+  };
+
+  Place* find(void* place) {
+    for (int i = 0; i < count_; ++i) {
+      if (places_[i].place == place) return &places_[i];
+    }
+    if (count_ == 64) return nullptr;
+    places_[count_] = {place, 0, published, now()};
+    return &places_[count_++];
+  }
+
+  void tell(bool again, double seconds, bool starving) {
     if (!again && seconds >= 0) {
       Event("state").add("state", std::string("sleep")).raw("seconds", std::to_string(seconds)).send();
-    } else if (again || !idle) {
-      (again ? looped : idle) = true;
+    } else if (again ? !told_looped_ || (starving_told_ && !starving) : !told_idle_) {
+      (again ? told_looped_ : told_idle_) = true;
+      starving_told_ = starving;
       int own = threads_now() - 1 - library_threads;
       Event("state")
           .add("state", std::string(again ? "looped" : "idle"))
           .raw("threads", std::to_string(own > 0 ? own : 0))
+          .add("starving", starving)
           .send();
     }
+  }
+
+  bool feed(double period) {
+    std::set<std::string> topics;
+    if (!give_time()) {
+      topics = starved();
+      if (topics.empty()) return false;
+    }
+    for (const auto& topic : topics) {
+      tell_answered("poll", topic);
+      ask_for_food(topic);
+    }
+    {
+      std::lock_guard<std::mutex> locked(lacks_mutex);
+      lacks().fed.insert(topics.begin(), topics.end());
+    }
+    // It may leave the loop now, and has to show another one.
+    count_ = 0;
+    told_idle_ = told_looped_ = starving_told_ = works_ = false;
+    last_new = now();
+    // Another turn takes the messages, the next one may go on.
+    Event("state").add("state", std::string("fed")).raw("seconds", std::to_string(2.5 * period)).send();
+    return true;
+  }
+
+  Place places_[64];
+  int count_ = 0;
+  bool told_idle_ = false, told_looped_ = false, starving_told_ = false, works_ = false;
+};
+
+void tell_turn(void* place, double seconds) {
+  if (depth > 0) return;
+  quietly([&] {
+    static Loop loop;
+    if (in_main_thread() && !from_roscpp(place)) loop.turn(place, seconds);
   });
 }
 
@@ -533,9 +777,6 @@ class Wait {
   std::string kind_, name_;
 };
 
-// Milliseconds.
-constexpr int kGrace = 300, kLaterGrace = 100;
-
 #define WAIT_INT "_ZN3ros7service14waitForServiceE" STRING "i"
 
 std::string name_of_client(void* client) {
@@ -543,20 +784,179 @@ std::string name_of_client(void* client) {
   return service == nullptr ? "" : service(client);
 }
 
-void tell_answered(const char* kind, const std::string& name) {
-  answered_here = true;
-  if (in_main_thread()) answered = true;
-  Event("answered").add("kind", std::string(kind)).add("name", name).send();
-}
-
 // Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for rospy
 // (answers.py).
 bool wait_briefly(const std::string& name) {
   Wait told("service", name);
-  int grace = answered || answered_here ? kLaterGrace : kGrace;
-  if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace)) return true;
+  if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace())) return true;
   quietly([&] { tell_answered("service", name); });
   return true;
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool is_transforms(const std::string& type) { return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage"; }
+
+// A topic that the node may wait for: not what libraries listen to, nor what has any type.
+void remember_subscription(const NodeHandle* handle, const TopicOptions& options) {
+  quietly([&] {
+    const std::string& type = options.type;
+    if (options.md5 == "*" || is_transforms(type) || starts_with(type, "actionlib_msgs/")) return;
+    for (const char* part : {"ActionGoal", "ActionFeedback", "ActionResult"}) {
+      if (ends_with(type, part)) return;
+    }
+    std::string name = names_of(handle, options.topic).resolved;
+    std::lock_guard<std::mutex> locked(lacks_mutex);
+    if (!name.empty()) lacks().topics.insert(name);
+  });
+}
+
+// Reads a message that was serialized: numbers of the machine's own byte order, strings with their length before them.
+class Reader {
+ public:
+  explicit Reader(const std::string& data) : data_(data) {}
+
+  uint32_t number() {
+    uint32_t value = 0;
+    if (!skip(sizeof value)) return 0;
+    memcpy(&value, data_.data() + at_ - sizeof value, sizeof value);
+    return value;
+  }
+
+  std::string text() {
+    uint32_t size = number();
+    return skip(size) ? data_.substr(at_ - size, size) : "";
+  }
+
+  bool skip(size_t size) {
+    good_ = good_ && size <= data_.size() - at_;
+    if (good_) at_ += size;
+    return good_;
+  }
+
+  bool good() const { return good_; }
+
+ private:
+  const std::string& data_;
+  size_t at_ = 0;
+  bool good_ = true;
+};
+
+std::mutex outgoing_mutex;
+std::atomic<bool> looks_at_messages{false};
+struct Outgoing {
+  std::set<std::string> transforms, frames;  // topics; what was told
+  int looked_at = 0;
+};
+Outgoing& outgoing() {
+  static auto* all = new Outgoing;
+  return *all;
+}
+
+constexpr int kMaxLookedAt = 2000;
+
+void remember_transforms(const std::string& topic) {
+  std::lock_guard<std::mutex> locked(outgoing_mutex);
+  outgoing().transforms.insert(topic);
+  looks_at_messages = true;
+}
+
+void tell_frames(const std::string& topic, const std::string& message) {
+  Reader reader(message);
+  constexpr size_t kStamp = 12, kTransform = 56;
+  for (uint32_t left = reader.number(); left > 0 && reader.good(); --left) {
+    reader.skip(kStamp);
+    std::string parent = reader.text(), child = reader.text();
+    if (!reader.skip(kTransform) || !outgoing().frames.insert(parent + "\n" + child).second) continue;
+    Event("frame").add("parent", parent).add("child", child).add("static", ends_with(topic, "/tf_static")).send();
+  }
+}
+
+std::mutex monitors_mutex;
+std::map<const void*, std::string>& monitors() {
+  static auto* all = new std::map<const void*, std::string>;
+  return *all;
+}
+std::set<std::string>& answered_actions() {
+  static auto* all = new std::set<std::string>;
+  return *all;
+}
+
+// The result of a goal for a server that was made up.
+void answer_goal(const std::string& action, const std::string& message) {
+  Reader reader(message);
+  reader.skip(12);
+  reader.text();
+  reader.skip(8);
+  std::string goal = reader.text();
+  if (!reader.good()) return;
+  tell_answered("result", action);
+  ask_for_food(action + "/result", goal);
+}
+
+void look_at(const void* publisher, const Serializer& message) {
+  auto* topic_of = REAL_IF_ANY("_ZNK3ros9Publisher8getTopicB5cxx11Ev", std::string(const void*));
+  if (topic_of == nullptr) return;
+  std::string topic = topic_of(publisher);
+  std::string action = ends_with(topic, "/goal") ? topic.substr(0, topic.size() - 5) : "";
+  if (!action.empty()) {
+    std::lock_guard<std::mutex> locked(monitors_mutex);
+    if (answered_actions().count(action) != 0) answer_goal(action, message());
+  }
+  std::lock_guard<std::mutex> locked(outgoing_mutex);
+  if (outgoing().transforms.count(topic) == 0 || outgoing().looked_at++ > kMaxLookedAt) return;
+  tell_frames(topic, message());
+}
+
+// Transforms. The node's buffer is given the identity, so that whatever it does with it then works.
+
+#define SET_TRANSFORM                                                                                                 \
+  "_ZN3tf210BufferCore12setTransformERKN13geometry_msgs17TransformStamped_ISaIvEEE" STRING "b"
+
+std::string frames(const std::string& target, const std::string& source) { return target + " <- " + source; }
+
+bool give_transform(const char* kind, const void* core, const std::string& target, const std::string& source) {
+  bool given = false;
+  quietly([&] {
+    auto* set = REAL_IF_ANY(SET_TRANSFORM, bool(const void*, const Transform&, const std::string&, bool));
+    if (set == nullptr) return;
+    Transform identity;
+    identity.frame = target;
+    identity.child = source;
+    given = set(core, identity, "preflight", true);
+    if (given) tell_answered(kind, frames(target, source));
+  });
+  return given;
+}
+
+// A transform that was not there, and is asked for again from the same place.
+bool polled_transform(const void* core, const std::string& target, const std::string& source, void* place) {
+  bool again = false;
+  quietly([&] { again = asks_again(frames(target, source), place); });
+  return again && give_transform("transforms", core, target, source);
+}
+
+// tf2_ros::Buffer is a BufferInterface, which has nothing but its table, and then a tf2::BufferCore.
+const void* core_of(const void* buffer) { return static_cast<const char*>(buffer) + sizeof(void*); }
+
+// `wait(timeout)` with the time that somebody in the sandbox may need. Simulated time does not pass.
+template <typename Ask>
+bool wait_for_transform(const void* buffer, const std::string& target, const std::string& source, int64_t timeout,
+                        void* place, Ask ask) {
+  const void* core = core_of(buffer);
+  auto seconds = static_cast<int32_t>(timeout), nanoseconds = static_cast<int32_t>(timeout >> 32);
+  if (seconds < 0 || (seconds == 0 && nanoseconds <= 0)) {
+    return ask(timeout) || polled_transform(core, target, source, place);
+  }
+  give_time();
+  Wait told("transform", frames(target, source));
+  double most = grace() * 1e-3, began = now();
+  if (seconds > 0 || nanoseconds > most * 1e9) timeout = static_cast<int64_t>(most * 1e9) << 32;
+  if (ask(timeout)) return true;
+  // Who listens in no thread of its own is refused at once.
+  return now() - began > 0.01 && give_transform("transform", core, target, source);
 }
 
 }  // namespace preflight
@@ -569,6 +969,7 @@ using namespace preflight;
 HOOK Handle preflight_advertise(NodeHandle* self, TopicOptions& options) __asm__(ADVERTISE);
 HOOK Handle preflight_advertise(NodeHandle* self, TopicOptions& options) {
   tell_topic("publisher", self, options);
+  if (is_transforms(options.type)) quietly([&] { remember_transforms(names_of(self, options.topic).resolved); });
   return REAL(ADVERTISE, Handle(NodeHandle*, TopicOptions&))(self, options);
 }
 
@@ -576,6 +977,7 @@ HOOK Handle preflight_advertise(NodeHandle* self, TopicOptions& options) {
 HOOK Handle preflight_subscribe(NodeHandle* self, TopicOptions& options) __asm__(SUBSCRIBE);
 HOOK Handle preflight_subscribe(NodeHandle* self, TopicOptions& options) {
   tell_topic("subscriber", self, options);
+  if (!from_roscpp(__builtin_return_address(0))) remember_subscription(self, options);
   return REAL(SUBSCRIBE, Handle(NodeHandle*, TopicOptions&))(self, options);
 }
 
@@ -600,49 +1002,50 @@ HOOK Handle preflight_service_client(NodeHandle* self, ClientOptions& options) {
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)
 
-#define METHOD_(id, access, symbol)                                                                          \
-  HOOK bool id(const NodeHandle* self, const std::string& key, void* value) __asm__(symbol);                 \
-  HOOK bool id(const NodeHandle* self, const std::string& key, void* value) {                                \
-    tell_param(access, self, key, __builtin_return_address(0));                                                                           \
-    Depth nested;                                                                                            \
-    return REAL(symbol, bool(const NodeHandle*, const std::string&, void*))(self, key, value);               \
+// `type` is what the value is.
+#define METHOD_(id, access, type, symbol)                                                                        \
+  HOOK bool id(const NodeHandle* self, const std::string& key, type* value) __asm__(symbol);                     \
+  HOOK bool id(const NodeHandle* self, const std::string& key, type* value) {                                    \
+    return ask_param(access, [=, &key] { return names_of(self, key); }, __builtin_return_address(0), value, [&] { \
+      return REAL(symbol, bool(const NodeHandle*, const std::string&, void*))(self, key, value);                 \
+    });                                                                                                          \
   }
-#define METHOD(access, symbol) METHOD_(JOIN(preflight_method_, __COUNTER__), access, symbol)
+#define METHOD(access, type, symbol) METHOD_(JOIN(preflight_method_, __COUNTER__), access, type, symbol)
 
-#define FUNCTION_(id, access, symbol)                                                                        \
-  HOOK bool id(const std::string& key, void* value) __asm__(symbol);                                         \
-  HOOK bool id(const std::string& key, void* value) {                                                        \
-    tell_param(access, key, __builtin_return_address(0));                                                                                 \
-    Depth nested;                                                                                            \
-    return REAL(symbol, bool(const std::string&, void*))(key, value);                                        \
+#define FUNCTION_(id, access, type, symbol)                                                              \
+  HOOK bool id(const std::string& key, type* value) __asm__(symbol);                                     \
+  HOOK bool id(const std::string& key, type* value) {                                                    \
+    return ask_param(access, [&key] { return names_of(key); }, __builtin_return_address(0), value, [&] { \
+      return REAL(symbol, bool(const std::string&, void*))(key, value);                                  \
+    });                                                                                                  \
   }
-#define FUNCTION(access, symbol) FUNCTION_(JOIN(preflight_function_, __COUNTER__), access, symbol)
+#define FUNCTION(access, type, symbol) FUNCTION_(JOIN(preflight_function_, __COUNTER__), access, type, symbol)
 
 #define MAP_OF(type) "RSt3mapIS6_" type "St4lessIS6_ESaISt4pairIS7_" type "EEE"
-#define EACH_TYPE(hook, start)        \
-  hook("get", start "RN6XmlRpc11XmlRpcValueE") \
-  hook("get", start "RS6_")           \
-  hook("get", start "Rb")             \
-  hook("get", start "Rd")             \
-  hook("get", start "Rf")             \
-  hook("get", start "Ri")             \
-  hook("get", start "RSt6vectorIS6_SaIS6_EE") \
-  hook("get", start "RSt6vectorIbSaIbEE") \
-  hook("get", start "RSt6vectorIdSaIdEE") \
-  hook("get", start "RSt6vectorIfSaIfEE") \
-  hook("get", start "RSt6vectorIiSaIiEE") \
-  hook("get", start MAP_OF("S6_"))    \
-  hook("get", start MAP_OF("b"))      \
-  hook("get", start MAP_OF("d"))      \
-  hook("get", start MAP_OF("f"))      \
-  hook("get", start MAP_OF("i"))
+#define EACH_TYPE(hook, start) \
+  hook("get", void, start "RN6XmlRpc11XmlRpcValueE") \
+  hook("get", void, start "RS6_") \
+  hook("get", bool, start "Rb") \
+  hook("get", double, start "Rd") \
+  hook("get", float, start "Rf") \
+  hook("get", int, start "Ri") \
+  hook("get", void, start "RSt6vectorIS6_SaIS6_EE") \
+  hook("get", void, start "RSt6vectorIbSaIbEE") \
+  hook("get", void, start "RSt6vectorIdSaIdEE") \
+  hook("get", void, start "RSt6vectorIfSaIfEE") \
+  hook("get", void, start "RSt6vectorIiSaIiEE") \
+  hook("get", void, start MAP_OF("S6_")) \
+  hook("get", void, start MAP_OF("b")) \
+  hook("get", void, start MAP_OF("d")) \
+  hook("get", void, start MAP_OF("f")) \
+  hook("get", void, start MAP_OF("i"))
 
 EACH_TYPE(METHOD, "_ZNK3ros10NodeHandle8getParamE" STRING)
 EACH_TYPE(METHOD, "_ZNK3ros10NodeHandle14getParamCachedE" STRING)
 EACH_TYPE(FUNCTION, "_ZN3ros5param3getE" STRING)
 EACH_TYPE(FUNCTION, "_ZN3ros5param9getCachedE" STRING)
-METHOD("has", "_ZNK3ros10NodeHandle8hasParamE" STRING)
-FUNCTION("has", "_ZN3ros5param3hasE" STRING)
+METHOD("has", void, "_ZNK3ros10NodeHandle8hasParamE" STRING)
+FUNCTION("has", void, "_ZN3ros5param3hasE" STRING)
 
 // The event loop.
 
@@ -716,25 +1119,58 @@ HOOK void preflight_spin_once() {
   REAL(SPIN_ONCE, void())();
 }
 
-#define RATE(id, symbol)                             \
+#define RATE(id, simulated, symbol)                             \
   HOOK bool id(void* self) __asm__(symbol);          \
   HOOK bool id(void* self) {                         \
     tell_turn(__builtin_return_address(0), -1);      \
+    if (simulated) give_time();                      \
     Depth nested;                                    \
     return REAL(symbol, bool(void*))(self);          \
   }
-RATE(preflight_rate, "_ZN3ros4Rate5sleepEv")
-RATE(preflight_wall_rate, "_ZN3ros8WallRate5sleepEv")
+RATE(preflight_rate, true, "_ZN3ros4Rate5sleepEv")
+RATE(preflight_wall_rate, false, "_ZN3ros8WallRate5sleepEv")
 
-#define SLEEP(id, symbol)                                                                     \
+#define SLEEP(id, simulated, symbol)                                                                     \
   HOOK bool id(const int32_t* duration) __asm__(symbol);                                      \
   HOOK bool id(const int32_t* duration) {                                                     \
     tell_turn(__builtin_return_address(0), duration[0] > 0 ? duration[0] : duration[1] * 1e-9); \
+    if (simulated) give_time();                                                               \
     Depth nested;                                                                             \
     return REAL(symbol, bool(const int32_t*))(duration);                                      \
   }
-SLEEP(preflight_duration, "_ZNK3ros8Duration5sleepEv")
-SLEEP(preflight_wall_duration, "_ZNK3ros12WallDuration5sleepEv")
+SLEEP(preflight_duration, true, "_ZNK3ros8Duration5sleepEv")
+SLEEP(preflight_wall_duration, false, "_ZNK3ros12WallDuration5sleepEv")
+
+#define TIME_VALID "_ZN3ros4Time12waitForValidEv"
+HOOK bool preflight_wait_for_time() __asm__(TIME_VALID);
+HOOK bool preflight_wait_for_time() {
+  give_time();
+  return REAL(TIME_VALID, bool())();
+}
+
+#define TIME_VALID_FOR "_ZN3ros4Time12waitForValidERKNS_12WallDurationE"
+HOOK bool preflight_wait_for_time_for(const void* timeout) __asm__(TIME_VALID_FOR);
+HOOK bool preflight_wait_for_time_for(const void* timeout) {
+  give_time();
+  return REAL(TIME_VALID_FOR, bool(const void*))(timeout);
+}
+
+#define SLEEP_UNTIL "_ZN3ros4Time10sleepUntilERKS0_"
+HOOK bool preflight_sleep_until(const void* end) __asm__(SLEEP_UNTIL);
+HOOK bool preflight_sleep_until(const void* end) {
+  give_time();
+  return REAL(SLEEP_UNTIL, bool(const void*))(end);
+}
+
+// What the node publishes.
+
+#define PUBLISH "_ZNK3ros9Publisher7publishERKN5boost8functionIFNS_17SerializedMessageEvEEERS3_"
+HOOK void preflight_publish(const void* self, const Serializer& message, void* serialized) __asm__(PUBLISH);
+HOOK void preflight_publish(const void* self, const Serializer& message, void* serialized) {
+  if (in_main_thread()) ++published;
+  if (looks_at_messages) quietly([&] { look_at(self, message); });
+  REAL(PUBLISH, void(const void*, const Serializer&, void*))(self, message, serialized);
+}
 
 // Waits. A ros::Duration by value is two integers in one register; how long the node would wait does not matter.
 
@@ -765,10 +1201,25 @@ HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) {
 HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle, int64_t timeout)
     __asm__(MESSAGE);
 HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle, int64_t timeout) {
-  std::string name;
-  quietly([&] { name = names_of(handle, options.topic).given; });
-  Wait told("message", name);
-  REAL(MESSAGE, void(TopicOptions&, void*, NodeHandle*, int64_t))(options, ready, handle, timeout);
+  auto* wait = REAL(MESSAGE, void(TopicOptions&, void*, NodeHandle*, int64_t));
+  Names names;
+  quietly([&] { names = names_of(handle, options.topic); });
+  if (depth > 0 || names.resolved.empty()) return wait(options, ready, handle, timeout);
+  give_time();
+  Wait told("message", names.given);
+  std::string topic = options.topic;  // the library resolves it in its place
+  double most = grace() * 1e-3, began = now();
+  auto seconds = static_cast<int32_t>(timeout), nanoseconds = static_cast<int32_t>(timeout >> 32);
+  bool shorter = (seconds == 0 && nanoseconds == 0) || seconds > 0 || nanoseconds > most * 1e9;
+  wait(options, ready, handle, shorter ? static_cast<int64_t>(most * 1e9) << 32 : timeout);
+  // It ends early with a message, and when the node is shut down.
+  if (now() - began < 0.9 * most) return;
+  quietly([&] {
+    tell_answered("message", names.given);
+    ask_for_food(names.resolved);
+    options.topic = topic;
+  });
+  wait(options, ready, handle, 0);
 }
 
 // Once a wait was answered, so is the call of a service that nobody offers: with zeros, which are a response of any type,
@@ -778,8 +1229,9 @@ HOOK bool preflight_call(void* self, const void* request, Serialized& response, 
 HOOK bool preflight_call(void* self, const void* request, Serialized& response, const std::string& md5) {
   if (REAL(CALL, bool(void*, const void*, Serialized&, const std::string&))(self, request, response, md5)) return true;
   bool made_up = false;
-  if (!answered && !answered_here) return false;
+  void* place = __builtin_return_address(0);
   quietly([&] {
+    if (!answered && !answered_here && !asks_again(name_of_client(self), place)) return;
     static const unsigned char zeros[65536] = {1};
     auto* exists = REAL_IF_ANY("_ZN3ros13ServiceClient6existsEv", bool(void*));
     if (exists == nullptr || exists(self) || response.buffer != nullptr) return;
@@ -792,13 +1244,93 @@ HOOK bool preflight_call(void* self, const void* request, Serialized& response, 
   return made_up;
 }
 
-// actionlib's clients. Which action one waits for, its result topic tells.
-
-std::mutex monitors_mutex;
-std::map<const void*, std::string>& monitors() {
-  static auto* all = new std::map<const void*, std::string>;  // never destroyed: nodes end in any order
-  return *all;
+// Whether a service is there, which nobody says it is: for who asks again it is.
+bool polled_service(const std::string& name, void* place) {
+  bool again = false;
+  quietly([&] {
+    again = asks_again(name, place);
+    if (again) tell_answered("service", name);
+  });
+  return again;
 }
+
+#define EXISTS "_ZN3ros13ServiceClient6existsEv"
+HOOK bool preflight_client_exists(void* self) __asm__(EXISTS);
+HOOK bool preflight_client_exists(void* self) {
+  if (REAL(EXISTS, bool(void*))(self)) return true;
+  return depth == 0 && !from_roscpp(__builtin_return_address(0)) &&
+         polled_service(name_of_client(self), __builtin_return_address(0));
+}
+
+#define SERVICE_EXISTS "_ZN3ros7service6existsE" STRING "b"
+HOOK bool preflight_service_exists(const std::string& name, bool print) __asm__(SERVICE_EXISTS);
+HOOK bool preflight_service_exists(const std::string& name, bool print) {
+  if (REAL(SERVICE_EXISTS, bool(const std::string&, bool))(name, print)) return true;
+  return depth == 0 && !from_roscpp(__builtin_return_address(0)) && polled_service(name, __builtin_return_address(0));
+}
+
+// Transforms, with a fixed frame between two times or without. tf asks tf2_ros for them.
+
+#define FRAME_PAIR "KNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
+#define CAN_WAIT "_ZNK7tf2_ros6Buffer12canTransformER" FRAME_PAIR "S8_RKN3ros4TimeENS9_8DurationEPS6_"
+HOOK bool preflight_can_wait(const void* self, const std::string& target, const std::string& source, const void* time,
+                             int64_t timeout, void* error) __asm__(CAN_WAIT);
+HOOK bool preflight_can_wait(const void* self, const std::string& target, const std::string& source, const void* time,
+                             int64_t timeout, void* error) {
+  auto* can = REAL(CAN_WAIT, bool(const void*, const std::string&, const std::string&, const void*, int64_t, void*));
+  if (depth > 0) return can(self, target, source, time, timeout, error);
+  return wait_for_transform(self, target, source, timeout, __builtin_return_address(0), [&](int64_t longest) {
+    Depth nested;
+    return can(self, target, source, time, longest, error);
+  });
+}
+
+#define CAN_WAIT_FIXED                                                                                        \
+  "_ZNK7tf2_ros6Buffer12canTransformER" FRAME_PAIR "RKN3ros4TimeES8_SC_S8_NS9_8DurationEPS6_"
+HOOK bool preflight_can_wait_fixed(const void* self, const std::string& target, const void* target_time,
+                                   const std::string& source, const void* source_time, const std::string& fixed,
+                                   int64_t timeout, void* error) __asm__(CAN_WAIT_FIXED);
+HOOK bool preflight_can_wait_fixed(const void* self, const std::string& target, const void* target_time,
+                                   const std::string& source, const void* source_time, const std::string& fixed,
+                                   int64_t timeout, void* error) {
+  auto* can = REAL(CAN_WAIT_FIXED, bool(const void*, const std::string&, const void*, const std::string&, const void*,
+                                        const std::string&, int64_t, void*));
+  if (depth > 0) return can(self, target, target_time, source, source_time, fixed, timeout, error);
+  // From the source through the fixed frame to the target.
+  auto ask = [&](int64_t longest) {
+    Depth nested;
+    return can(self, target, target_time, source, source_time, fixed, longest, error);
+  };
+  void* place = __builtin_return_address(0);
+  if (!wait_for_transform(self, fixed, source, timeout, place, ask)) return false;
+  return ask(0) || wait_for_transform(self, target, fixed, timeout, place, ask);
+}
+
+#define CAN "_ZNK3tf210BufferCore12canTransformER" FRAME_PAIR "S8_RKN3ros4TimeEPS6_"
+HOOK bool preflight_can(const void* self, const std::string& target, const std::string& source, const void* time,
+                        void* error) __asm__(CAN);
+HOOK bool preflight_can(const void* self, const std::string& target, const std::string& source, const void* time,
+                        void* error) {
+  auto* can = REAL(CAN, bool(const void*, const std::string&, const std::string&, const void*, void*));
+  if (can(self, target, source, time, error)) return true;
+  return depth == 0 && polled_transform(self, target, source, __builtin_return_address(0));
+}
+
+#define LOOK_UP "_ZNK3tf210BufferCore15lookupTransformER" FRAME_PAIR "S8_RKN3ros4TimeE"
+HOOK Transform preflight_look_up(const void* self, const std::string& target, const std::string& source,
+                                 const void* time) __asm__(LOOK_UP);
+HOOK Transform preflight_look_up(const void* self, const std::string& target, const std::string& source,
+                                 const void* time) {
+  auto* look_up = REAL(LOOK_UP, Transform(const void*, const std::string&, const std::string&, const void*));
+  try {
+    return look_up(self, target, source, time);
+  } catch (...) {
+    if (depth > 0 || !polled_transform(self, target, source, __builtin_return_address(0))) throw;
+  }
+  return look_up(self, target, source, time);
+}
+
+// actionlib's clients. Which action one waits for, its result topic tells.
 
 #define MONITOR(id, symbol)                                                          \
   HOOK void id(void* self, void* feedback, void* result) __asm__(symbol);            \
@@ -824,8 +1356,13 @@ HOOK bool preflight_wait_for_action(void* self, const int32_t* timeout, NodeHand
   });
   if (name.empty()) return wait(self, timeout, handle);
   Wait told("action", name);
-  const int32_t grace[2] = {0, (answered || answered_here ? kLaterGrace : kGrace) * 1000000};
-  if (wait(self, grace, handle)) return true;
-  quietly([&] { tell_answered("action", name); });
+  const int32_t shorter[2] = {0, grace() * 1000000};
+  if (wait(self, shorter, handle)) return true;
+  quietly([&] {
+    tell_answered("action", name);
+    std::lock_guard<std::mutex> locked(monitors_mutex);
+    answered_actions().insert(name);
+    looks_at_messages = true;
+  });
   return true;
 }

@@ -34,6 +34,7 @@ class Master:
         self._sides: dict[str, dict[str, dict[str, str]]] = {"publisher": {}, "subscriber": {}, "service": {}}
         self._apis: dict[str, str] = {}
         self._param_subscribers: dict[str, set[str]] = {}
+        self._offers: dict[str, int] = {}
 
     def call(self, method: str, arguments: tuple[Any, ...]) -> list[Any]:
         """Answer one call; what is not in the API is an error answer, as in rosmaster."""
@@ -46,6 +47,18 @@ class Master:
                 return result
             except (TypeError, KeyError, ValueError, AttributeError) as error:
                 return [-1, str(error), 0]
+
+    def offer(self, topic: str, port: int) -> None:
+        """Be a publisher of the topic, at this port of the loopback."""
+        with self._lock:
+            self._offers[topic] = port
+            self._topics.setdefault(topic, "*")
+            publishers = self._sides["publisher"].setdefault(topic, {})
+            publishers[""] = self._uri
+            uris = list(publishers.values())
+            subscribers = list(self._sides["subscriber"].get(topic, {}).values())
+        for subscriber in subscribers:
+            _in_background(subscriber, "publisherUpdate", "/master", topic, uris)
 
     # registrations
 
@@ -92,6 +105,11 @@ class Master:
             return [1, f"rosrpc URI: [{providers}]"[-1], providers[-1]]
         self._report("m-lookup", name=service)
         return [-1, "no provider", ""]
+
+    def api_requestTopic(self, caller: str, topic: str, protocols: list[Any]) -> list[Any]:
+        if topic not in self._offers:
+            return [0, f"[{topic}] is not published here", []]
+        return [1, "ready", ["TCPROS", "127.0.0.1", self._offers[topic]]]
 
     # state
 
@@ -251,7 +269,7 @@ def _converse(connection: socket.socket, master: Master) -> None:
         pass  # a connection that a node broke off, or on which it says something else, is of no interest
 
 
-def serve(listening: socket.socket, params: ParamTree, report: Report) -> None:
+def serve(listening: socket.socket, params: ParamTree, report: Report) -> Master:
     """Answer calls in the background for as long as this process lives."""
     host, port = listening.getsockname()[:2]
     master = Master(f"http://{host}:{port}/", params, report)
@@ -266,3 +284,4 @@ def serve(listening: socket.socket, params: ParamTree, report: Report) -> None:
             threading.Thread(target=_converse, args=(connection, master), daemon=True).start()
 
     threading.Thread(target=accept, daemon=True).start()
+    return master

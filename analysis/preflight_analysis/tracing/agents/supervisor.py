@@ -27,7 +27,7 @@ FIFO = "/run/preflight/events"
 MAX_LINE = 64_000
 MAX_EVENTS = 20_000
 EVENTS = frozenset(
-    ("endpoint", "frame", "param", "asked", "answered", "state", "files", "wrote", "woven", "weave-failed")
+    ("endpoint", "frame", "param", "asked", "answered", "feed", "state", "files", "wrote", "woven", "weave-failed")
 )
 TICK = 0.02
 """Seconds between looks at the clock."""
@@ -59,6 +59,8 @@ class Run:
         self.pid = -1
         self.screen: Optional[int] = None
         """The process of the node's X server."""
+        self.master: Any = None
+        self.feeder: Any = None
 
     def emit(self, record: dict[str, Any]) -> bool:
         """One line to the host; repetitions are left out. Whether it was new."""
@@ -98,9 +100,21 @@ class Run:
             return
         if event["ev"] == "state":
             self._state(event)
+        elif event["ev"] == "feed":
+            self._feed(event)
         elif self.emit({"node": event}) and event["ev"] in ("endpoint", "param"):
             # Only what is new: a parameter that a loop reads in each turn would keep the node from ever being quiet.
             self.active = time.monotonic()
+
+    def _feed(self, event: dict[str, Any]) -> None:
+        """The node gets made-up messages. Most need none, so it is imported only now."""
+        if self.master is None:
+            return
+        if self.feeder is None:
+            from . import feeder  # noqa: PLC0415
+
+            self.feeder = feeder.Feeder(self.master)
+        self.feeder.feed(str(event.get("topic"))[:300], str(event.get("goal") or "")[:300])
 
     def _state(self, event: dict[str, Any]) -> None:
         state, now = event.get("state"), time.monotonic()
@@ -118,9 +132,8 @@ class Run:
             # Whatever loop it was in, it may leave now: it has to show one again.
             self.idle = self.looped = self.starving = False
             self.active = now
-            self.fed_until = now + 0.3
-            if isinstance(event.get("seconds"), (int, float)):
-                self.pause_until = now + min(float(event["seconds"]), 2.0)
+            seconds = event.get("seconds")
+            self.fed_until = now + max(0.3, min(float(seconds), 2.0) if isinstance(seconds, (int, float)) else 0.0)
         elif state == "init":
             self.initialised = True
             self.active = now
@@ -151,6 +164,8 @@ class Run:
             return "spinning"
         if now - self.started > self.job["limits"]["wall"]:
             return "timed-out"
+        if self.feeder is not None and self.feeder.busy():
+            self.fed_until = max(self.fed_until, now + 0.3)
         if self.waits or now < max(self.pause_until, self.fed_until) or self._polls():
             return None
         quiet = now - max(self.active, self.pause_until)
@@ -281,7 +296,7 @@ def _main() -> None:
 
     params = ParamTree()
     _load(params, job["params"])
-    stub_master.serve(listening, params, run.master_report)
+    run.master = stub_master.serve(listening, params, run.master_report)
 
     status, code, why = _watch(run, events, wake_read)
     if status == "ended" and code == 127:

@@ -1,0 +1,142 @@
+"""A publisher of messages that are made up, for nodes in other languages than Python: they say when they need some.
+
+The master names itself as a publisher of the topic. Whoever connects gets messages of the type that it asks for,
+whatever that is: zeros are a message of any type, since numbers are 0 and strings and arrays empty, and what is too much of them
+is ignored. http://wiki.ros.org/ROS/TCPROS tells the protocol.
+"""
+
+from __future__ import annotations
+
+import socket
+import struct
+import threading
+import time
+from typing import Optional
+
+from .stub_master import Master
+
+MESSAGES = 20
+SECONDS_BETWEEN = 0.01
+"""Each topic gets so many messages, so far apart: some nodes collect a few."""
+MAX_TOPICS = 50
+CLOCK = "/clock"
+_ZEROS = bytes(65536)
+_ONE = b"\1" + _ZEROS[1:]
+"""What comes first is often a yes or no, or the count in a header."""
+_MAX_HEADER = 65536
+_SUCCEEDED = 3
+_UNTYPED = {"type": "std_msgs/String", "md5sum": "992ce8a1687cec8c8bd883ec73ca41d1"}
+"""For those who take any type."""
+_LONGEST = 3.0
+"""Seconds until somebody who was to be fed is given up."""
+
+
+class Feeder:
+    """Feeds the topics that it is told to."""
+
+    def __init__(self, master: Master) -> None:
+        self._master = master
+        self._lock = threading.Lock()
+        self._goals: dict[str, str] = {}
+        self._hungry: dict[str, float] = {}
+        """Since when they wait for the last message."""
+        self._listening = socket.socket()
+        self._listening.bind(("127.0.0.1", 0))
+        self._listening.listen(16)
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def feed(self, topic: str, goal: Optional[str] = None) -> None:
+        """Send messages to who subscribes to `topic`, now or later; the result of `goal` if that is an action's."""
+        with self._lock:
+            if topic in self._goals or len(self._goals) >= MAX_TOPICS:
+                return
+            self._goals[topic] = goal or ""
+            self._hungry[topic] = time.monotonic()
+        self._master.offer(topic, self._listening.getsockname()[1])
+
+    def busy(self) -> bool:
+        """Whether something is still on its way."""
+        with self._lock:
+            return any(time.monotonic() - since < _LONGEST for since in self._hungry.values())
+
+    def _accept(self) -> None:
+        while True:
+            connection = self._listening.accept()[0]
+            threading.Thread(target=self._serve, args=(connection,), daemon=True).start()
+
+    def _serve(self, connection: socket.socket) -> None:
+        topic = ""
+        try:
+            with connection:
+                asked = _read_header(connection)
+                topic = asked.get("topic", "")
+                if topic not in self._goals:
+                    return
+                described = _UNTYPED if asked.get("md5sum") == "*" else asked
+                answer = {"callerid": "/master", "latching": "0", "message_definition": "string data"}
+                answer.update({key: described.get(key, "*") for key in ("type", "md5sum")})
+                connection.sendall(_header(answer))
+                self._send(connection, topic)
+        except (OSError, ValueError, struct.error):
+            pass
+        finally:
+            with self._lock:
+                self._hungry.pop(topic, None)
+
+    def _send(self, connection: socket.socket, topic: str) -> None:
+        if topic == CLOCK:
+            while True:
+                now = time.time()
+                _message(connection, struct.pack("<II", int(now), int(now % 1 * 1e9)))
+                with self._lock:
+                    self._hungry.pop(topic, None)
+                time.sleep(SECONDS_BETWEEN)
+        if self._goals[topic]:
+            _message(connection, _result(self._goals[topic]))
+        else:
+            for turn in range(MESSAGES):
+                _message(connection, _ONE if turn % 2 else _ZEROS)
+                time.sleep(SECONDS_BETWEEN)
+        with self._lock:
+            self._hungry.pop(topic, None)
+        # The connection stays: one that ends is made anew.
+        connection.recv(1)
+
+
+def _result(goal: str) -> bytes:
+    """Any `...ActionResult`: a header, the status with the goal's id, and a result of zeros."""
+    name = goal.encode(errors="replace")
+    return bytes(16) + bytes(8) + struct.pack("<I", len(name)) + name + bytes([_SUCCEEDED]) + bytes(4) + _ZEROS
+
+
+def _message(connection: socket.socket, content: bytes) -> None:
+    connection.sendall(struct.pack("<I", len(content)) + content)
+
+
+def _header(fields: dict[str, str]) -> bytes:
+    lines = [f"{key}={value}".encode() for key, value in fields.items()]
+    content = b"".join(struct.pack("<I", len(line)) + line for line in lines)
+    return struct.pack("<I", len(content)) + content
+
+
+def _exactly(connection: socket.socket, size: int) -> bytes:
+    data = b""
+    while len(data) < size:
+        more = connection.recv(size - len(data))
+        if not more:
+            raise OSError("closed")
+        data += more
+    return data
+
+
+def _read_header(connection: socket.socket) -> dict[str, str]:
+    (size,) = struct.unpack("<I", _exactly(connection, 4))
+    if size > _MAX_HEADER:
+        raise ValueError(size)
+    content, fields, at = _exactly(connection, size), {}, 0
+    while at < size:
+        (length,) = struct.unpack_from("<I", content, at)
+        key, _, value = content[at + 4 : at + 4 + length].decode(errors="replace").partition("=")
+        fields[key] = value
+        at += 4 + length
+    return fields
