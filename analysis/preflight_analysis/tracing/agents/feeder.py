@@ -1,8 +1,8 @@
 """A publisher of messages that are made up, for nodes in other languages than Python: they say when they need some.
 
 The master names itself as a publisher of the topic. Whoever connects gets messages of the type that it asks for,
-whatever that is: zeros are a message of any type, since numbers are 0 and strings and arrays empty, and what is too much of them
-is ignored. http://wiki.ros.org/ROS/TCPROS tells the protocol.
+whatever that is: zeros are a message of any type, since numbers are 0 and strings and arrays empty, and what is too
+much of them is ignored. http://wiki.ros.org/ROS/TCPROS tells the protocol.
 """
 
 from __future__ import annotations
