@@ -57,14 +57,14 @@ def test_the_tree_has_what_roslaunch_would_set(desk: Desk, robot: Path, prefligh
 
 def test_a_second_time_nothing_is_started(desk: Desk, robot: Path, preflight: Run) -> None:
     first = preflight("tree", robot, "--format", "json").json
-    assert desk.sandbox_starts() == 2, "the probe and one command"
+    assert desk.sandbox_starts() == 3, "the probe, our own code to be compiled and one command"
     assert preflight("tree", robot, "--format", "json").json == first
-    assert desk.sandbox_starts() == 2
+    assert desk.sandbox_starts() == 3
     macros = robot.parents[1] / "urdf/macros.xacro"
     macros.write_text(macros.read_text().replace("link", "joint"))
     again = preflight("tree", robot, "--format", "json").json
     assert again["params"]["/robot_description"] == first["params"]["/robot_description"].replace("link", "joint")
-    assert desk.sandbox_starts() == 4
+    assert desk.sandbox_starts() == 5
 
 
 def test_nothing_is_run_with_no_run_or_in_a_batch(desk: Desk, robot: Path, preflight: Run) -> None:

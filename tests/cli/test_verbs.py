@@ -80,7 +80,7 @@ def test_trace_of_one_node(desk: Desk, preflight: Run) -> None:
     done = preflight("trace", desk.launch_file, "--node", "listener")
     assert "subscriber chatter  std_msgs/String" in done.out
     assert "/talker" not in done.out
-    assert desk.sandbox_starts() == 2, "the probe and one node"
+    assert desk.sandbox_starts() == 3, "the probe, our own code to be compiled and one node"
     done = preflight("trace", desk.launch_file, "--node", "speaker")
     assert done.code == 2
     assert "/talker, /listener" in done.err
@@ -165,7 +165,7 @@ def test_an_interrupt_ends_the_runs(desk: Desk) -> None:
         # Tests that a shell started in the background inherit that the signal is ignored, and so would the command.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as process:
-        while desk.sandbox_starts() < 2:
+        while desk.sandbox_starts() < 3:
             time.sleep(0.05)
         started = time.monotonic()
         os.kill(process.pid, signal.SIGINT)

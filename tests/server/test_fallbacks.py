@@ -110,3 +110,23 @@ async def test_annotations_can_be_made_of_whatever_is_known(desk: Desk) -> None:
         editor.apply(actions[from_elsewhere].edit)
         assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[other]
         assert '<param name="~rate"/>' in editor.texts[other]
+
+
+async def test_the_sources_of_many_nodes_that_were_not_run_are_read(desk: Desk) -> None:
+    """And what one of them says is brought up to date when its parameters or its source change."""
+    path = desk.launch_file.with_name("many.launch")
+    node = '  <node pkg="preflight_demo" type="{0}.py" name="{0}_{1}"><remap from="chatter" to="words_{1}"/></node>\n'
+    nodes = (node.format(script, number) for number in range(100) for script in ("talker", "listener"))
+    async with editing(desk) as editor:
+        text = editor.open(path, "<launch>\n" + "".join(nodes) + "</launch>\n")
+        await editor.having(path, "TRC004")
+        assert editor.rules(path) == ["TRC004"], "each of the topics has both ends"
+        at = text.index("words_70")
+        editor.replace(path, at, at + len("words_70"), "world_70")
+        hint = await editor.having(path, "TOP001")
+        assert "/words_70" in hint.message
+        script = desk.launch_file.parents[1] / "scripts/talker.py"
+        script.write_text(script.read_text().replace('"chatter"', '"chatters"'))
+        editor.watched(script)
+        editor.replace(path, 0, 0, "<!-- an edit -->\n")
+        await editor.until(lambda: (editor.rules(path) or []).count("TOP001") == 100)

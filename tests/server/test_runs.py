@@ -39,9 +39,9 @@ def sandboxes(desk: Desk) -> list[str]:
 
 
 async def running(editor: Editor, desk: Desk) -> types.ProgressToken:
-    """Wait until a node runs and its progress is shown."""
+    """Wait until a node runs and its progress is shown. Before it come the probe, and our own code to be compiled."""
     token = await editor.until(lambda: next(iter(editor.runs), None))
-    await editor.until(lambda: desk.sandbox_starts() >= 2)
+    await editor.until(lambda: desk.sandbox_starts() >= 3)
     return token
 
 

@@ -2,45 +2,70 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import Any
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
-from preflight_analysis.source.analyse import SourceAnalysis
+from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.similar import SimilarTraces
 
+_MAX_REMEMBERED = 4096
 
-def fill_in(
-    tree: LaunchTree,
-    interfaces: Sequence[Interface],
-    sources: SourceAnalysis,
-    similar: SimilarTraces | None = None,
-    most: int | None = None,
-) -> tuple[Interface, ...]:
-    """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end is added what a run of the
-    same executable elsewhere told, or else its source.
 
-    A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it. Where
-    more than `most` nodes lack something nothing is added.
-    """
-    lacking = sum(_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True))
-    if not lacking or (most is not None and lacking > most):
-        return tuple(interfaces)
-    values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
-    params = LaunchParams(values)
-    return tuple(
-        (
-            (_from_similar(node, interface, values, similar) if similar is not None else None)
-            or _from_source(node, interface, params, sources)
-        )
-        if _lacks(node, interface)
-        else interface
-        for node, interface in zip(tree.nodes, interfaces, strict=True)
-    )
+@dataclass(frozen=True, slots=True)
+class _Filled:
+    """What was added to a node's interface, and what came of it."""
+
+    interface: Interface
+    found: Interface | SourceInterface
+    whole: Interface
+
+
+class Fallback:
+    """Adds to interfaces what is known from elsewhere. Asked at each keystroke: what did not change is not made anew.
+    Thread-safe."""
+
+    def __init__(self, sources: SourceAnalysis, similar: SimilarTraces | None = None) -> None:
+        self._sources = sources
+        self._similar = similar
+        self._lock = threading.Lock()
+        self._filled: dict[tuple[str, str | None], _Filled] = {}
+
+    def fill_in(self, tree: LaunchTree, interfaces: Sequence[Interface]) -> tuple[Interface, ...]:
+        """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end is added what a run of
+        the same executable elsewhere told, or else its source.
+
+        A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
+        """
+        lacking = [_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True)]
+        if not any(lacking):
+            return tuple(interfaces)
+        values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
+        params = LaunchParams(values)
+        similar = self._similar.looking(values) if self._similar is not None else None
+        whole = list(interfaces)
+        for at, node in enumerate(tree.nodes):
+            if lacking[at]:
+                found = (similar(node) if similar is not None else None) or self._sources.read(node, params)
+                if found is not None:
+                    key = node.name, node.resolved.path
+                    known = self._filled.get(key)
+                    if known is None or known.found is not found or known.interface != interfaces[at]:
+                        known = _Filled(interfaces[at], found, _with_more(interfaces[at], found))
+                        self._remember(key, known)
+                    whole[at] = known.whole
+        return tuple(whole)
+
+    def _remember(self, key: tuple[str, str | None], filled: _Filled) -> None:
+        with self._lock:
+            self._filled.pop(key, None)
+            self._filled[key] = filled
+            if len(self._filled) > _MAX_REMEMBERED:
+                del self._filled[next(iter(self._filled))]
 
 
 def _lacks(node: LaunchNode, interface: Interface) -> bool:
@@ -49,20 +74,10 @@ def _lacks(node: LaunchNode, interface: Interface) -> bool:
     return not (interface.complete or ended_well or interface.pending) and read_annotation(node.action)[0] is None
 
 
-def _from_similar(
-    node: LaunchNode, interface: Interface, params: Mapping[str, Any], similar: SimilarTraces
-) -> Interface | None:
-    found = similar.of(node, params)
-    if found is None:
-        return None
-    more = interface.with_more("similar", found.endpoints, found.params)
-    return replace(more, elsewhere=found.elsewhere)
-
-
-def _from_source(node: LaunchNode, interface: Interface, params: LaunchParams, sources: SourceAnalysis) -> Interface:
-    found = sources.read(node, params)
-    if found is None:
-        return interface
+def _with_more(interface: Interface, found: Interface | SourceInterface) -> Interface:
+    if isinstance(found, Interface):
+        more = interface.with_more("similar", found.endpoints, found.params)
+        return replace(more, elsewhere=found.elsewhere)
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
-    params_used = tuple(replace(use, inferred=True) for use in found.params)
-    return interface.with_more("source", endpoints, params_used)
+    params = tuple(replace(use, inferred=True) for use in found.params)
+    return interface.with_more("source", endpoints, params)

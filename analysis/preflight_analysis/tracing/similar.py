@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -21,9 +21,22 @@ from preflight_analysis.tracing.interface import Elsewhere, Interface
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.store import fingerprint
 
-_MAX_REMEMBERED = 1024
+_MAX_REMEMBERED = 4096
 
 _Key = tuple[str, str, "str | None"]
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What was told of one node, and all that it rests on."""
+
+    traces: tuple[Kept, ...]
+    build: str
+    given: frozenset[str]
+    """Texts that the names of the run came with."""
+    strange: frozenset[str]
+    """Those of them that this node is not given."""
+    found: Interface | None
 
 
 class SimilarTraces:
@@ -33,30 +46,64 @@ class SimilarTraces:
         self._cache = cache
         self._lock = threading.Lock()
         self._remembered: dict[_Key, tuple[object, tuple[Kept, ...]]] = {}
+        self._told: dict[tuple[str, str, str, str], _Told] = {}
 
-    def of(self, node: LaunchNode, params: Mapping[str, Any]) -> Interface | None:
-        """What the executable of the node did in the most similar run; None where none is known. `params` is the
-        parameter server of the launch. The names are as this node would give them, everything is marked `similar`.
+    def looking(self, params: Mapping[str, Any]) -> Callable[[LaunchNode], Interface | None]:
+        """What the executable of a node did in the most similar run; None where none is known. `params` is the
+        parameter server of the launch. The names are as the node would give them, everything is marked `similar`.
+
+        For the nodes of one launch: the disk is asked once for each executable.
         """
+        said: list[frozenset[str]] = []
+        known: dict[_Key, tuple[Kept, ...]] = {}
+        builds: dict[str, str] = {}
+
+        def of(node: LaunchNode) -> Interface | None:
+            path = node.resolved.path or ""
+            executable = path or node.executable
+            request = nodelets.standalone(
+                TraceRequest(node.name, node.package, executable, split_args(node.args), params=params)
+            )
+            key = (node.package, os.path.basename(executable), nodelets.plugin(request))
+            if key not in known:
+                known[key] = self._traces(key)
+            if path not in builds:
+                builds[path] = fingerprint(path)
+            if not said and any(kept.given for kept in known[key]):
+                said.append(frozenset(map(bare, texts(params))))
+            return self._of(node, request, known[key], builds[path], said[0] if said else frozenset())
+
+        return of
+
+    def _of(
+        self, node: LaunchNode, request: TraceRequest, traces: tuple[Kept, ...], build: str, said: frozenset[str]
+    ) -> Interface | None:
         path = node.resolved.path or ""
-        request = nodelets.standalone(
-            TraceRequest(node.name, node.package, path or node.executable, split_args(node.args), params=params)
-        )
-        build = fingerprint(path)
+        key = (node.name, node.package, request.executable, node.args)
+        told = self._told.get(key)
+        if told is not None and told.traces is traces and told.build == build and told.strange == told.given - said:
+            return told.found
         candidates = [
             kept
-            for kept in self._traces(request)
+            for kept in traces
             if kept.interface.outcome.status in ("spinning", "exited")
             and (not path or kept.executable == path or kept.build == build)
         ]
-        if not candidates:
-            return None
-        best = max(candidates, key=lambda kept: _likeness(kept, request, build))
-        found = replace(_as_of(best, request), elsewhere=Elsewhere(best.node, best.launch, best.build != build))
-        return found if found.endpoints or found.params else None
+        given: frozenset[str] = frozenset()
+        found = None
+        if candidates:
+            best = max(candidates, key=lambda kept: _likeness(kept, request, build))
+            given = best.given - frozenset(map(bare, request.args))
+            elsewhere = Elsewhere(best.node, best.launch, best.build != build)
+            as_of = replace(_as_of(best, request, given - said), elsewhere=elsewhere)
+            found = as_of if as_of.endpoints or as_of.params else None
+        with self._lock:
+            self._told[key] = _Told(traces, build, given, given - said, found)
+            if len(self._told) > _MAX_REMEMBERED:
+                del self._told[next(iter(self._told))]
+        return found
 
-    def _traces(self, request: TraceRequest) -> tuple[Kept, ...]:
-        key = (request.package, os.path.basename(request.executable), nodelets.plugin(request))
+    def _traces(self, key: _Key) -> tuple[Kept, ...]:
         known = self._remembered.get(key)
         if known is None or known[0] != self._cache.state_of(*key):
             known = self._cache.traces_of(*key)
@@ -78,12 +125,9 @@ def _likeness(kept: Kept, request: TraceRequest, build: str) -> tuple[bool, bool
     )
 
 
-def _as_of(kept: Kept, request: TraceRequest) -> Interface:
-    """The trace as one of this node."""
-    strange: list[str] = []
-    if kept.given:
-        said = {bare(text) for text in (*request.args, *texts(request.params))}
-        strange = [f"/{text}/" for text in kept.given - said]
+def _as_of(kept: Kept, request: TraceRequest, unsaid: Iterable[str]) -> Interface:
+    """The trace as one of this node, without names that came with the texts `unsaid`."""
+    strange = [f"/{text}/" for text in unsaid]
     endpoints = tuple(
         replace(endpoint, name=_private(endpoint.name, kept, request), similar=True)
         for endpoint in kept.interface.endpoints

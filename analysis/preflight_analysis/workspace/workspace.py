@@ -24,7 +24,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
-from preflight_analysis.source.fallback import fill_in
+from preflight_analysis.source.fallback import Fallback
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
@@ -96,8 +96,8 @@ class Workspace:
         self.commands = commands or NoResults()
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
-        self._source_analysis = SourceAnalysis(environment, sources)
         self._similar = similar
+        self._fallback = Fallback(SourceAnalysis(environment, sources), similar)
         self._project: tuple[str, ProjectSettings] | None = None
         self._lock = threading.Lock()
         self._memo = Memo()
@@ -159,7 +159,7 @@ class Workspace:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
         with self._lock:
             self._executables = ExecutableIndex(self.environment)
-            self._source_analysis = SourceAnalysis(self.environment, self.sources)
+            self._fallback = Fallback(SourceAnalysis(self.environment, self.sources), self._similar)
             self._memo = Memo()
             self._static.clear()
 
@@ -170,22 +170,14 @@ class Workspace:
         params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
-    def with_interfaces(
-        self,
-        analysis: Analysis,
-        interfaces: Sequence[Interface],
-        why_not_run: str | None,
-        *,
-        most_from_source: int | None = None,
-    ) -> Analysis:
+    def with_interfaces(self, analysis: Analysis, interfaces: Sequence[Interface], why_not_run: str | None) -> Analysis:
         """The analysis with the graph that the interfaces (one a node of the tree, in order) make, and all findings.
 
-        `why_not_run` says why nothing was executed, None where it was. Where more than `most_from_source` nodes were
-        not run to their end, their sources are not looked at.
+        `why_not_run` says why nothing was executed, None where it was.
         """
         project = self._project_settings()
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
-        interfaces = fill_in(analysis.tree, interfaces, self._source_analysis, self._similar, most_from_source)
+        interfaces = self._fallback.fill_in(analysis.tree, interfaces)
         graph = build_graph(analysis.tree, interfaces, project.external_topics)
         document, problems = located_problems(project)
         context = replace(

@@ -40,9 +40,6 @@ NodeKey = tuple[str, int]
 
 SWITCHED_OFF = "running nodes is switched off in the settings (rosPreflight.runNodes)"
 NOT_TRUSTED = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
-MOST_FROM_SOURCE = 60
-"""How many nodes that were not run are told by their sources here. That happens at each keystroke, and what hundreds of
-sources tell is hundreds of hints; the command line looks at all of them."""
 CANCELLED = "the runs were cancelled; save the file to start them again"
 
 
@@ -83,7 +80,7 @@ def with_known(
         return static
     if all(key in known for key in keys):
         why_not_run = None
-    return workspace.with_interfaces(static, interfaces, why_not_run, most_from_source=MOST_FROM_SOURCE)
+    return workspace.with_interfaces(static, interfaces, why_not_run)
 
 
 def tell(loop: asyncio.AbstractEventLoop, told: Callable[[int, Interface], None], index: int, what: Interface) -> None:
