@@ -457,3 +457,33 @@ def test_several_publishers_are_fine_where_many_are_meant() -> None:
                                "state": "x/S"}, "latched": ["m", "/tf_static"]},
          "/c": {"subscribers": {"m": "visualization_msgs/Marker", "cmd": "x/T", "state": "x/S"}}}
     """)
+
+
+def test_a_name_of_which_the_node_uses_both_is_no_slip() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch><node pkg="p" type="t" name="source"/><node pkg="p" type="t" name="sink"/></launch>
+            //- interfaces
+            {"/source": {"publishers": {"status": "std_msgs/String"}},
+             "/sink": {"subscribers": {"status": "std_msgs/String", "stats": "std_msgs/String"}}}
+        """)
+        if f.rule == "TOP001"
+    ]
+    assert finding.severity == "hint"
+    assert "did you mean" not in finding.message
+
+
+def test_of_several_cameras_none_is_the_one_elsewhere() -> None:
+    def severities(cameras: list[str]) -> set[str]:
+        nodes = "".join(f'<group ns="{name}"><node pkg="p" type="t" name="cam"/></group>' for name in cameras)
+        made = ", ".join(f'"/{name}/cam": {{"publishers": {{"image_raw": "sensor_msgs/Image"}}}}' for name in cameras)
+        found = findings_of(f"""
+            <launch>{nodes}<node pkg="p" type="t" name="stream"/></launch>
+            //- interfaces
+            {{{made}, "/stream": {{"subscribers": {{"external/image_raw": "sensor_msgs/Image"}}}}}}
+        """)
+        return {f.severity for f in found if f.rule == "TOP001"}
+
+    assert severities(["left"]) == {"warning"}
+    assert severities(["left", "right"]) == {"hint"}

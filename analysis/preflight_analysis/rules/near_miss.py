@@ -14,7 +14,7 @@ from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.nearest import likeness, numbers_in
+from preflight_analysis.rules.nearest import likeness, numbers_in, share_words
 from preflight_analysis.rules.nearest_memory import Hit, Nearest
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
@@ -100,6 +100,7 @@ class _Index:
         self.pools: dict[Hashable, list[Hashable]] = {pool: [] for pools in self.seekers.values() for pool in pools}
         self._channels: dict[Hashable, Channel] = {}
         self._lone: Counter[tuple[str, str | None, str]] = Counter()
+        self._offered: Counter[tuple[str | None, str]] = Counter()
         for channel in channels.values():
             leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
             if not channel.offers or not channel.wants:
@@ -107,9 +108,11 @@ class _Index:
                 ends = channel.offers or channel.wants
                 self._lone.update((side, end.endpoint.type, leaf) for end in ends)
             if channel.offers:
-                key = channel.name, _dangles(channel), *(map(self._end, channel.offers))
+                wanted_by = tuple(map(self._node, channel.wants))
+                key = channel.name, _dangles(channel), wanted_by, *(map(self._end, channel.offers))
                 self._channels[key] = channel
                 for type_ in {_known_type(end) for end in channel.offers}:
+                    self._offered[type_, leaf] += 1
                     for pool in ((), (type_,), (type_, numbers), (type_, leaf)):
                         if pool in self.pools:
                             self.pools[pool].append(key)
@@ -149,11 +152,16 @@ class _Index:
         return NearMiss(wanting, offering, _EVIDENCE[hit.rank[2]], known, _dangles(channel))
 
     def ambiguous(self, near: NearMiss) -> bool:
-        """Whether a namespace alone speaks for it, and others of the type have this last name: which was meant?"""
+        """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
+        was meant, if any?"""
         type_ = near.wanting.endpoint.type or ""
+        leaf = _leaf(near.wanting.name)
+        if near.likeness == "words" and leaf == _leaf(near.offering.name):
+            return self._offered[type_, leaf] > 1 and not share_words(
+                *map(names.parent, (near.wanting.name, near.offering.name))
+            )
         if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
             return False
-        leaf = _leaf(near.wanting.name)
         return any(self._lone[side, type_, leaf] > 1 for side in ("offers", "wants"))
 
 
@@ -259,6 +267,8 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[int, Ev
     """Which of the channel's offering ends the wanting one may have been meant for, how they are alike and how far they
     are apart."""
     dangles = _dangles(channel)
+    if any(end.node is wanting.node for end in channel.wants):
+        return  # it knows that name
     alike: tuple[Literal["typo", "words"], int] | None = None
     for number, offering in enumerate(channel.offers):
         if offering.endpoint.builtin or offering.node is wanting.node:

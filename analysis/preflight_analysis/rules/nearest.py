@@ -102,6 +102,11 @@ def _same_words(name: str, other: str) -> bool:
     return common in (mine, theirs) or len(common) / len(mine | theirs) >= 0.6
 
 
+def share_words(name: str, other: str) -> bool:
+    """Whether a word is in both names. Numbers are none."""
+    return not _plain_words(name).isdisjoint(_plain_words(other))
+
+
 # Each name is compared with hundreds of others.
 @lru_cache(maxsize=_NAMES)
 def _words(name: str) -> tuple[str, ...]:
