@@ -9,7 +9,9 @@ import time
 from pathlib import Path
 from typing import Any
 
+import pytest
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.observation import Dependencies
@@ -26,6 +28,17 @@ def environment(*package_path: Path, variables: dict[str, str] | None = None) ->
     paths = tuple(str(p) for p in package_path) or (str(ROS1_FIXTURES),)
     given = {"PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": os.pathsep.join(paths), "ROS_DISTRO": "noetic"}
     return Environment(1, "noetic", given | (variables or {}), paths, {}, {}, (), ("/usr",), SYSTEM_PYTHON)
+
+
+def working_backends() -> list[str]:
+    """The ways to isolate that work on this machine. `test_backends.py` says which must be among them."""
+    found = []
+    with pytest.MonkeyPatch.context() as patch:
+        for backend in sandbox.BACKENDS:
+            patch.setenv(sandbox.CHOICE, backend.name)
+            if sandbox.probe().works:
+                found.append(backend.name)
+    return found
 
 
 def write_node(folder: Path, body: str, name: str = "node.py") -> Path:

@@ -124,16 +124,18 @@ def test_doctor(desk: Desk, preflight: Run) -> None:
 def test_doctor_says_why_there_is_no_sandbox(desk: Desk, preflight: Run) -> None:
     empty = desk.home / "empty"
     empty.mkdir()
-    done = preflight("doctor", environment={"PATH": str(empty)})
+    environment = {"PATH": str(empty), "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
+    done = preflight("doctor", environment=environment)
     assert done.code == 1
     assert "bubblewrap is not installed" in done.out
-    assert preflight("doctor", "--fail-on", "never", environment={"PATH": str(empty)}).code == 0
+    assert preflight("doctor", "--fail-on", "never", environment=environment).code == 0
 
 
 def test_without_a_sandbox_check_runs_nothing_and_says_why(desk: Desk, preflight: Run) -> None:
     empty = desk.home / "empty"
     empty.mkdir()
-    done = preflight("check", desk.launch_file, "--format", "json", environment={"PATH": str(empty)})
+    environment = {"PATH": str(empty), "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
+    done = preflight("check", desk.launch_file, "--format", "json", environment=environment)
     finding, from_source = done.json["findings"]
     assert (finding["rule"], from_source["severity"]) == ("TRC004", "info")
     assert "bubblewrap is not installed" in finding["message"]

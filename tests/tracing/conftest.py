@@ -1,11 +1,14 @@
-"""Nodes in C++, compiled once."""
+"""Nodes in C++, compiled once; and the ways to isolate that work on this machine, for tests that hold with each."""
 
 from __future__ import annotations
 
+import os
 import subprocess
 from pathlib import Path
 
 import pytest
+from preflight_analysis.tracing import sandbox
+from tracing_desk import working_backends
 
 LIBRARIES = (
     "actionlib",
@@ -38,3 +41,18 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def node(package: Path) -> Path:
     """The first of them."""
     return package / "node"
+
+
+@pytest.fixture(params=working_backends())
+def each_backend(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Has runs isolated by one of them."""
+    name: str = request.param
+    monkeypatch.setenv(sandbox.CHOICE, name)
+    return name
+
+
+@pytest.fixture(autouse=True)
+def first_choice(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Has runs isolated by what is tried first, whatever the user's environment says."""
+    if "each_backend" not in request.fixturenames and sandbox.CHOICE in os.environ:
+        monkeypatch.delenv(sandbox.CHOICE)

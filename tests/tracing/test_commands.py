@@ -235,7 +235,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (folder / ".ssh").mkdir(parents=True)
     (folder / ".ssh/id").write_text("hunter2")
     monkeypatch.setenv("HOME", str(folder))
-    sandbox.probe.cache_clear()
+    sandbox.forget()
     return folder
 
 

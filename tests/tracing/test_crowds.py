@@ -40,6 +40,7 @@ def few(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sandbox, "PROCESSES", FEW)
 
 
+@pytest.mark.usefixtures("each_backend")
 def test_the_number_of_processes_is_bounded(tmp_path: Path, few: None) -> None:
     """By whatever there is on this machine; with a control group or RLIMIT_NPROC the node sees its forks fail."""
     found = trace(write_node(tmp_path, CROWD))
@@ -52,6 +53,7 @@ def test_the_number_of_processes_is_bounded(tmp_path: Path, few: None) -> None:
         assert int(count) < FEW
 
 
+@pytest.mark.usefixtures("each_backend")
 def test_without_a_limit_from_outside_the_supervisor_ends_a_crowd(
     tmp_path: Path, few: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -68,6 +70,7 @@ def test_without_a_limit_from_outside_the_supervisor_ends_a_crowd(
         assert found.outcome.exit_code == 3, "RLIMIT_NPROC came first"
 
 
+@pytest.mark.usefixtures("each_backend")
 def test_threads_count_too(tmp_path: Path, few: None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cgroup, "place", lambda: None)
     monkeypatch.setattr(os, "geteuid", lambda: 0)
@@ -97,6 +100,7 @@ sys.exit(4)
 """
 
 
+@pytest.mark.usefixtures("each_backend")
 def test_memory_of_all_processes_together_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Three of 50 MB each, none of them too large by itself."""
     monkeypatch.setattr(sandbox, "MEMORY_BYTES", 100 << 20)
@@ -111,11 +115,13 @@ def test_memory_that_processes_share_counts_once(tmp_path: Path, monkeypatch: py
     assert trace(write_node(tmp_path, SHARES.format(before=50, after=0))).outcome.exit_code == 4
 
 
+@pytest.mark.usefixtures("each_backend")
 def test_the_node_is_the_first_to_go_when_memory_ends(tmp_path: Path) -> None:
     body = "import sys\nprint(open('/proc/self/oom_score_adj').read(), file=sys.stderr)\n"
     assert trace(write_node(tmp_path, body)).outcome.stderr_tail[-1] == "1000"
 
 
+@pytest.mark.usefixtures("each_backend")
 def test_no_group_is_left_behind(tmp_path: Path) -> None:
     place = cgroup.place()
     trace(write_node(tmp_path, "pass\n"))

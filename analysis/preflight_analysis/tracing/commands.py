@@ -228,7 +228,7 @@ def _result(raw: run.RawRun, ended: _Ended) -> CommandResult:
     if ended.status == "too-long" or raw.dropped:
         limit = f"{run.COMMAND_BYTES >> 20} MiB"
         return CommandResult("not-run", reason=f"it printed more than {limit}", stderr_tail=tail)
-    if ended.status in ("crowded", "heavy"):
+    if ended.status in ("crowded", "heavy", "full"):
         return CommandResult("not-run", reason="it needed more than the sandbox gives it", stderr_tail=tail)
     if ended.status == "exec-failed":
         return CommandResult("failed", reason=f"it cannot be started: {ended.why}", stderr_tail=tail)

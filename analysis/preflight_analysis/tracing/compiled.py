@@ -23,9 +23,9 @@ from typing import Any
 
 import platformdirs
 
-from preflight_analysis.tracing import run, sandbox
+from preflight_analysis.tracing import run
 from preflight_analysis.tracing.agents.compiling import FOLDERS
-from preflight_analysis.tracing.sandbox import Agents
+from preflight_analysis.tracing.backend import AGENTS, Agents
 
 _log = logging.getLogger(__name__)
 
@@ -50,7 +50,7 @@ class Copies:
                     found = self._copy(interpreter, visible)
                 except (OSError, ValueError) as error:
                     _log.warning("our code in the sandbox is not kept compiled: %s", error)
-                    found = sandbox.AGENTS
+                    found = AGENTS
                 self._found[interpreter] = found
             return found
 
@@ -105,8 +105,8 @@ def _within(place: Path) -> Agents:
 
 def _sources() -> list[tuple[str, Path]]:
     """Our modules, each with the folder of the copy that it goes to."""
-    ours, woven = sandbox.AGENTS.library, sandbox.AGENTS.aspectlib
-    paths = (sorted(ours.glob("*.py")), sorted(woven.glob("*.py")), [sandbox.AGENTS.site / "sitecustomize.py"])
+    ours, woven = AGENTS.library, AGENTS.aspectlib
+    paths = (sorted(ours.glob("*.py")), sorted(woven.glob("*.py")), [AGENTS.site / "sitecustomize.py"])
     return [(name, path) for name, found in zip(FOLDERS, paths, strict=True) for path in found]
 
 

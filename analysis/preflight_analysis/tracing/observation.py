@@ -18,7 +18,7 @@ from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse, Role
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.run import RLIMITS, WALL_SECONDS, RawRun
+from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, RawRun
 
 MAX_ENDPOINTS = 2_000
 MAX_PARAMS = 5_000
@@ -418,6 +418,9 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...], request: Trac
             return Outcome("crashed", None, None, tail, reason, spent)
         case "heavy":
             reason = f"it took more than {sandbox.most_memory() / (1 << 30):.1f} GiB of memory and was stopped"
+            return Outcome("crashed", None, None, tail, reason, spent)
+        case "full":
+            reason = f"it wrote more than {DISK_BYTES >> 20} MiB and was stopped"
             return Outcome("crashed", None, None, tail, reason, spent)
         case "exec-failed":
             why = _CONTROL.sub("", str(end.get("why")))[:300]

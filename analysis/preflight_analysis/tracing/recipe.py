@@ -22,6 +22,9 @@ ROS_HOME = "/tmp/ros_home"  # noqa: S108
 LOG_FOLDER = "/tmp/ros_log"  # noqa: S108
 MASTER_URI = "http://127.0.0.1:11311/"
 
+OURS = ("HOME", "ROS_HOME", "ROS_LOG_DIR", "TMPDIR", "PREFLIGHT_EVENTS")
+"""The variables that name folders and files of the sandbox's own."""
+
 _SEARCH_PATHS = ("PYTHONPATH", "LD_LIBRARY_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH", "GAZEBO_PLUGIN_PATH")
 _PASSED = frozenset(
     (*_SEARCH_PATHS, "PATH", "LANG", "LANGUAGE", "TZ", "PYTHONUNBUFFERED", "PYTHONIOENCODING", "CMAKE_PREFIX_PATH")

@@ -7,6 +7,7 @@ process: nothing is forked for it, so that a machine out of processes does not k
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import selectors
@@ -15,11 +16,11 @@ import threading
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import IO, Any
 
+from preflight_analysis.tracing import backend, sandbox
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing import sandbox
-from preflight_analysis.tracing.sandbox import AGENTS, Agents
+from preflight_analysis.tracing.backend import AGENTS, Agents
 
 WALL_SECONDS = 5.0
 """From exec to the end, at most."""
@@ -55,6 +56,11 @@ RLIMITS = {
 _PROCESSES_SHARED = 8192
 """Before Linux 5.14 the limit counts all of the user's processes, not only those of the sandbox."""
 
+DISK_BYTES = 256 << 20
+"""What a run may write where that goes to the disk."""
+
+_LEASH_SECONDS = 8.0
+"""How long a run that is let go may take to end."""
 _POLL = 0.05
 _START_SECONDS = 2.0
 """How long a cancelled run may take to start. bubblewrap killed while it sets up its name spaces leaves their first
@@ -85,7 +91,7 @@ def execute(
     screen: str | None = None,
 ) -> RawRun:
     """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in, `agents` our code for it,
-    `screen` an X server for the node's windows. Raises `OSError` if bubblewrap cannot be started."""
+    `screen` an X server for the node's windows. Raises `OSError` if the sandbox cannot be started."""
     job = {
         "screen": screen,
         "params": encode_params(params),
@@ -97,7 +103,7 @@ def execute(
             "starving": STARVING_SECONDS,
         },
     }
-    return _execute(_process(recipe) | job, WALL_SECONDS, visible, interpreter, cancel, agents)
+    return _execute(recipe, job, WALL_SECONDS, visible, interpreter, cancel, agents)
 
 
 def execute_command(
@@ -105,26 +111,16 @@ def execute_command(
 ) -> RawRun:
     """Run a command to its end; what it prints is among the records. Otherwise as `execute`."""
     job = {"output": {"wall": COMMAND_SECONDS, "bytes": COMMAND_BYTES}}
-    return _execute(_process(recipe) | job, COMMAND_SECONDS, visible, interpreter, cancel, agents)
+    return _execute(recipe, job, COMMAND_SECONDS, visible, interpreter, cancel, agents)
 
 
 def compile_agents(interpreter: str, visible: list[str], agents: Agents) -> RawRun:
     """Have our own code compiled: one record a module. Raises `OSError` as `execute`."""
-    return _execute({"compile": sandbox.ROOT}, COMMAND_SECONDS, visible, interpreter, threading.Event(), agents)
-
-
-def _process(recipe: recipes.Recipe) -> dict[str, Any]:
-    """How the supervisor starts it."""
-    return {
-        "argv": list(recipe.argv),
-        "env": dict(recipe.env),
-        "cwd": recipe.cwd,
-        "folders": [recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home()],
-        "rlimits": RLIMITS | {"NPROC": sandbox.PROCESSES if _own_process_count() else _PROCESSES_SHARED},
-    }
+    return _execute(None, {}, COMMAND_SECONDS, visible, interpreter, threading.Event(), agents)
 
 
 def _execute(
+    recipe: recipes.Recipe | None,
     job: Mapping[str, Any],
     seconds: float,
     visible: list[str],
@@ -132,13 +128,11 @@ def _execute(
     cancel: threading.Event,
     agents: Agents,
 ) -> RawRun:
-    whole = dict(job)
     start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
     argv = [interpreter, "-I", "-S", "-c", start]
     with sandbox.prepared(argv, visible, agents) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
-        whole["most_processes"] = sandbox.PROCESSES if prepared.counting else None
-        whole["most_memory"] = sandbox.most_memory()
-        handed.write(json.dumps(whole).encode())
+        what = _process(recipe, prepared) if recipe is not None else {"compile": True}
+        handed.write(json.dumps({**_sandbox(prepared), **what, **job}).encode())
         handed.seek(0)
         raw = RawRun(started=time.time())
         process = subprocess.Popen(
@@ -149,17 +143,62 @@ def _execute(
             env={},
             cwd="/",
             start_new_session=True,
-            pass_fds=prepared.descriptors,
+            pass_fds=prepared.isolated.descriptors,
         )
         try:
-            _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS)
+            _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS, prepared.isolated.moved)
         finally:
-            process.kill()
+            _end(process, prepared.isolated.leash)
             process.wait()
             for pipe in (process.stdout, process.stderr):
                 if pipe is not None:
                     pipe.close()
     return raw
+
+
+def _sandbox(start: sandbox.Start) -> dict[str, Any]:
+    """What the supervisor has to know of where it is."""
+    isolated = start.isolated
+    return {
+        "root": backend.place(sandbox.ROOT, isolated.moved),
+        "temporary": backend.place("/tmp", isolated.moved),  # noqa: S108
+        "most_processes": sandbox.PROCESSES if start.counting else None,
+        "most_memory": sandbox.most_memory(),
+        "most_disk": DISK_BYTES,
+        "written": isolated.written,
+        "alone": isolated.alone,
+        "filter": isolated.filter.hex(),
+    }
+
+
+def _process(recipe: recipes.Recipe, start: sandbox.Start) -> dict[str, Any]:
+    """How the supervisor starts it, with what is ours inside where this run has it."""
+
+    def place(path: str) -> str:
+        return backend.place(path, start.isolated.moved)
+
+    env = dict(recipe.env)
+    for name in recipes.OURS:
+        env[name] = place(env[name])
+    entries = env["PYTHONPATH"].split(os.pathsep)
+    env["PYTHONPATH"] = os.pathsep.join(place(entry) if entry == sandbox.SITE else entry for entry in entries)
+    log = "__log:=" + recipes.LOG_FOLDER
+    own_count = start.isolated.own_users and _own_process_count()
+    return {
+        "argv": [log[:7] + place(word[7:]) if word.startswith(log) else word for word in recipe.argv],
+        "env": env,
+        "cwd": place(recipe.cwd) if recipe.cwd == recipes.ROS_HOME else recipe.cwd,
+        "folders": [place(folder) for folder in (recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home())],
+        "rlimits": RLIMITS | {"NPROC": sandbox.PROCESSES if own_count else _PROCESSES_SHARED},
+    }
+
+
+def _end(process: subprocess.Popen[bytes], leash: IO[bytes] | None) -> None:
+    if leash is not None:
+        leash.close()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(_LEASH_SECONDS)
+    process.kill()
 
 
 def encode_params(params: Mapping[str, Any]) -> list[list[Any]]:
@@ -199,7 +238,13 @@ def _own_process_count() -> bool:
         return False
 
 
-def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event, deadline: float) -> None:
+def _read(
+    process: subprocess.Popen[bytes],
+    raw: RawRun,
+    cancel: threading.Event,
+    deadline: float,
+    moved: Mapping[str, str],
+) -> None:
     assert process.stdout is not None
     assert process.stderr is not None
     rest, total = b"", 0
@@ -229,9 +274,17 @@ def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event
                         continue
                     *lines, rest = (rest + data).split(b"\n")
                     for line in lines:
-                        _take(line, raw)
+                        _take(_moved_back(line, moved), raw)
                     # Too long already: its end is let go by, and the line counted once when it comes.
                     rest = rest[: MAX_LINE + 1]
+    raw.stderr = _moved_back(raw.stderr, moved)
+
+
+def _moved_back(said: bytes, moved: Mapping[str, str]) -> bytes:
+    """With the names of what is ours inside that all runs have: what it was called in this one means nothing later."""
+    for inside, elsewhere in moved.items():
+        said = said.replace(elsewhere.encode(), inside.encode())
+    return said
 
 
 def _take(line: bytes, raw: RawRun) -> None:

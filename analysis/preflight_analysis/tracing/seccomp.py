@@ -21,12 +21,14 @@ from dataclasses import dataclass
 _ALLOW = 0x7FFF0000
 _KILL = 0x80000000
 _ERRNO = 0x00050000
+_ASK = 0x7FC00000
 
 _LOAD = 0x20  # BPF_LD | BPF_W | BPF_ABS
 _EQUAL = 0x15  # BPF_JMP | BPF_JEQ | BPF_K
 _AT_LEAST = 0x35  # BPF_JMP | BPF_JGE | BPF_K
 _ANY_BIT = 0x45  # BPF_JMP | BPF_JSET | BPF_K
 _RETURN = 0x06  # BPF_RET | BPF_K
+_AND = 0x54  # BPF_ALU | BPF_AND | BPF_K
 
 _NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16
 """Offsets in `struct seccomp_data`; of an argument the lower half comes first on both processors."""
@@ -137,10 +139,85 @@ _LOOKED_AT = (
     _Argument((135, 92), 0, _EQUAL, _PERSONALITIES, _ALLOW, _EPERM),  # personality
 )
 
+# Where processes, IPC and network are the host's (no name spaces of their own), besides all of the above.
+_REFUSED_SHARED: dict[str, tuple[int | None, int | None]] = {
+    # Landlock looks at what is opened, not at a file's mode, owner, times and attributes; nor, at first, at its length.
+    "chmod": (90, None),
+    "fchmod": (91, 52),
+    "fchmodat": (268, 53),
+    "fchmodat2": (452, 452),
+    "chown": (92, None),
+    "fchown": (93, 55),
+    "lchown": (94, None),
+    "fchownat": (260, 54),
+    "utime": (132, None),
+    "utimes": (235, None),
+    "futimesat": (261, None),
+    "utimensat": (280, 88),
+    "setxattr": (188, 5),
+    "lsetxattr": (189, 6),
+    "fsetxattr": (190, 7),
+    "removexattr": (197, 14),
+    "lremovexattr": (198, 15),
+    "fremovexattr": (199, 16),
+    "setxattrat": (463, 463),
+    "removexattrat": (466, 466),
+    "file_setattr": (469, 469),
+    "truncate": (76, 45),
+    # Memory, semaphores and queues that have a name for all.
+    "shmget": (29, 194),
+    "shmat": (30, 196),
+    "shmctl": (31, 195),
+    "semget": (64, 190),
+    "semop": (65, 193),
+    "semctl": (66, 191),
+    "semtimedop": (220, 192),
+    "msgget": (68, 186),
+    "msgsnd": (69, 189),
+    "msgrcv": (70, 188),
+    "msgctl": (71, 187),
+    "mq_open": (240, 180),
+    "mq_unlink": (241, 181),
+    # What changes other processes in ways that nobody needs to change its own.
+    "pidfd_send_signal": (424, 424),
+    "setpriority": (141, 140),
+    "ioprio_set": (251, 30),
+    "migrate_pages": (256, 238),
+    "move_pages": (279, 239),
+    "process_madvise": (440, 440),
+    "process_mrelease": (448, 448),
+}
+_ASKED = {
+    "connect": (42, 203),
+    "bind": (49, 200),
+    "listen": (50, 201),
+    "kill": (62, 129),
+    "tkill": (200, 130),
+    "tgkill": (234, 131),
+    "rt_sigqueueinfo": (129, 138),
+    "rt_tgsigqueueinfo": (297, 240),
+    "sched_setparam": (142, 118),
+    "sched_setscheduler": (144, 119),
+    "sched_setaffinity": (203, 122),
+    "sched_setattr": (314, 274),
+    "prlimit64": (302, 261),
+}
+"""What the process that holds the filter's listener decides (`landlock_launcher`): where to, or whom."""
+_SOCKET, _SOCKETPAIR = (41, 198), (53, 199)
+_MSG_FASTOPEN = 0x20000000
+_SENDS = (((44, 206), 3), ((46, 211), 2), ((307, 269), 3))
+"""sendto, sendmsg, sendmmsg, and which argument has the flags: with one of them TCP connects in passing."""
+_F_SETOWN, _F_SETOWN_EX, _FIOSETOWN, _SIOCSPGRP = 8, 15, 0x8901, 0x8902
+"""Whom the kernel signals when something can be read."""
+_STREAM, _RAW, _SEQPACKET, _TYPE = 1, 3, 5, 0xF
+_TCP = 6
 
-@functools.lru_cache(maxsize=2)
-def program(machine: str) -> bytes | None:
+
+@functools.lru_cache(maxsize=4)
+def program(machine: str, shared: bool = False) -> bytes | None:
     """The filter for a processor (`os.uname().machine`) as an array of `struct sock_filter`, None where none is known.
+    `shared`: the one for processes that share the host's name spaces. It needs a listener that answers what `asked`
+    says.
 
     The order does not matter for speed: since Linux 5.11 the kernel remembers which calls are always allowed.
     """
@@ -156,6 +233,8 @@ def program(machine: str) -> bytes | None:
             number = numbers[column]
             if number is not None:
                 code += [(_EQUAL, 0, 1, number), (_RETURN, 0, 0, answer)]
+    if shared:
+        code += _shared(column)
     for call in _LOOKED_AT:
         count = len(call.values)
         code += [(_EQUAL, 0, count + 3, call.numbers[column]), (_LOAD, 0, 0, _ARGUMENTS + 8 * call.index)]
@@ -163,6 +242,71 @@ def program(machine: str) -> bytes | None:
         code += [(_RETURN, 0, 0, call.otherwise), (_RETURN, 0, 0, call.holds)]
     code.append((_RETURN, 0, 0, _ALLOW))
     return b"".join(struct.pack("=HBBI", *instruction) for instruction in code)
+
+
+def _shared(column: int) -> list[tuple[int, int, int, int]]:
+    """The part for processes in the host's name spaces; what it lets pass goes on to what follows."""
+    code: list[tuple[int, int, int, int]] = []
+    for number in (numbers[column] for numbers in _REFUSED_SHARED.values()):
+        if number is not None:
+            code += [(_EQUAL, 0, 1, number), (_RETURN, 0, 0, _EPERM)]
+    for numbers in _ASKED.values():
+        code += [(_EQUAL, 0, 1, numbers[column]), (_RETURN, 0, 0, _ASK)]
+    for numbers, at in _SENDS:
+        code += _refused_if(numbers[column], at, _ANY_BIT, (_MSG_FASTOPEN,), _ERRNO | errno.EOPNOTSUPP)
+    code += _refused_if((72, 25)[column], 1, _EQUAL, (_F_SETOWN, _F_SETOWN_EX), _EPERM)  # fcntl
+    code += _refused_if((16, 29)[column], 1, _EQUAL, (_FIOSETOWN, _SIOCSPGRP), _EPERM)  # ioctl
+    family, kind, protocol = (_ARGUMENTS + 8 * index for index in range(3))
+    refused = (_RETURN, 0, 0, _ERRNO | errno.EPROTONOSUPPORT)
+    # Streams; messages in order between Unix sockets; netlink. No datagrams: those need no connection to be refused.
+    block = [
+        (_LOAD, 0, 0, kind),
+        (_AND, 0, 0, _TYPE),
+        (_EQUAL, 7, 0, _STREAM),
+        (_EQUAL, 3, 0, _SEQPACKET),
+        (_EQUAL, 0, 4, _RAW),
+        (_LOAD, 0, 0, family),
+        (_EQUAL, 3, 2, 16),
+        (_LOAD, 0, 0, family),
+        (_EQUAL, 1, 0, 1),
+        refused,
+        (_LOAD, 0, 0, protocol),
+        (_EQUAL, 2, 0, 0),
+        (_EQUAL, 1, 0, _TCP),
+        refused,
+        (_LOAD, 0, 0, _NUMBER),
+    ]
+    code += [(_EQUAL, 0, len(block), _SOCKET[column]), *block]
+    block = [
+        (_LOAD, 0, 0, kind),
+        (_AND, 0, 0, _TYPE),
+        (_EQUAL, 2, 0, _STREAM),
+        (_EQUAL, 1, 0, _SEQPACKET),
+        refused,
+        (_LOAD, 0, 0, _NUMBER),
+    ]
+    return [*code, (_EQUAL, 0, len(block), _SOCKETPAIR[column]), *block]
+
+
+def _refused_if(
+    number: int, index: int, test: int, values: Sequence[int], answer: int
+) -> list[tuple[int, int, int, int]]:
+    """Refuse a call if one of the tests of an argument holds, else go on."""
+    count = len(values)
+    return [
+        (_EQUAL, 0, count + 4, number),
+        (_LOAD, 0, 0, _ARGUMENTS + 8 * index),
+        *((test, count - at, 0, value) for at, value in enumerate(values)),
+        (_EQUAL, 1, 1, 0),  # none holds
+        (_RETURN, 0, 0, answer),
+        (_LOAD, 0, 0, _NUMBER),
+    ]
+
+
+def asked(machine: str) -> dict[int, str]:
+    """The calls that the shared filter asks about, by their numbers on this processor."""
+    column = _MACHINES[machine][0]
+    return {numbers[column]: name for name, numbers in _ASKED.items()}
 
 
 def this_machine() -> str | None:

@@ -51,7 +51,7 @@ def _sandbox(status: SandboxStatus | None) -> list[tuple[str, str]]:
         return [("sandbox", "not tried: --no-run was given")]
     if not status.works:
         return [("sandbox", f"does not work: {status.reason}")]
-    return [("sandbox", "works: bubblewrap"), *(("sandbox", guarantee) for guarantee in status.guarantees)]
+    return [("sandbox", f"works: {status.backend}"), *(("sandbox", guarantee) for guarantee in status.guarantees)]
 
 
 def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, Any]:
@@ -68,6 +68,11 @@ def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, A
         "problems": list(environment.problems),
         "sandbox": None
         if status is None
-        else {"works": status.works, "reason": status.reason, "guarantees": list(status.guarantees)},
+        else {
+            "works": status.works,
+            "backend": status.backend,
+            "reason": status.reason,
+            "guarantees": list(status.guarantees),
+        },
         "traces": str(TraceCache().folder),
     }

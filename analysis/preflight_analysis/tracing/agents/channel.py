@@ -10,7 +10,8 @@ VARIABLE = "PREFLIGHT_EVENTS"
 MAX_LINE = 32_000
 """Bytes; longer events are left out, the supervisor would drop them anyway."""
 
-_path = os.environ.get(VARIABLE, "")
+PATH = os.environ.get(VARIABLE, "")
+"""The FIFO."""
 _lock = threading.Lock()
 
 
@@ -22,10 +23,10 @@ def send(event: str, **fields: object) -> None:
     """
     try:
         line = json.dumps(dict(fields, ev=event), default=repr).encode() + b"\n"
-        if not _path or len(line) > MAX_LINE:
+        if not PATH or len(line) > MAX_LINE:
             return
         with _lock:
-            descriptor = os.open(_path, os.O_WRONLY | os.O_CLOEXEC)
+            descriptor = os.open(PATH, os.O_WRONLY | os.O_CLOEXEC)
             try:
                 while line:
                     line = line[os.write(descriptor, line) :]

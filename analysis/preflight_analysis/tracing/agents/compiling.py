@@ -11,9 +11,10 @@ from typing import Any, Callable
 FOLDERS = ("lib/preflight_agents", "lib/aspectlib", "site")
 
 
-def tell(root: str, emit: Callable[[dict[str, Any]], Any]) -> None:
-    """`emit` each module below `root` as `{"ev": "compiled", "path": ..., "data": base64}`."""
-    made = os.path.join("/tmp", "made.pyc")  # noqa: S108
+def tell(root: str, temporary: str, emit: Callable[[dict[str, Any]], Any]) -> None:
+    """`emit` each module below `root` as `{"ev": "compiled", "path": ..., "data": base64}`. `temporary` is a folder to
+    write to."""
+    made = os.path.join(temporary, "made.pyc")
     for folder in FOLDERS:
         for name in sorted(os.listdir(os.path.join(root, folder))):
             if name.endswith(".py"):

@@ -18,7 +18,7 @@ _BATCH = 200
 _MAX_FILES = 5_000
 _MAX_WRITES = 20
 _WRITE_FLAGS = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
-_PRIVATE = ("/proc/", "/sys/", "/dev/", "/run/preflight/")
+_PRIVATE = ("/proc/", "/sys/", "/dev/", os.path.dirname(channel.PATH) + "/")
 
 
 class Files:

@@ -2,7 +2,7 @@
 
 The job comes on standard input as JSON; what is seen goes to standard output as JSON lines. The host treats those as
 coming from the node itself, which could write them as well. When this process ends, the kernel ends every other
-process of the sandbox's pid namespace with it.
+process of the sandbox's pid namespace with it, or where there is none, the keeper does (`landlock_launcher`).
 """
 
 from __future__ import annotations
@@ -14,21 +14,22 @@ import resource
 import select
 import signal
 import socket
+import struct
 import sys
 import threading
 import time
 from typing import Any, Optional
 
-from .census import Census, left_behind
+from .census import Census
 from .params import ParamTree
 
 MASTER_PORT = 11311
-FIFO = "/run/preflight/events"
 MAX_LINE = 64_000
 MAX_EVENTS = 20_000
 EVENTS = frozenset(
     ("endpoint", "frame", "param", "asked", "answered", "feed", "state", "files", "wrote", "woven", "weave-failed")
 )
+_SET_SECCOMP = 22
 TICK = 0.02
 """Seconds between looks at the clock."""
 
@@ -38,7 +39,7 @@ class Run:
 
     def __init__(self, job: dict[str, Any]) -> None:
         self.job = job
-        self.census = Census(job["most_processes"], job["most_memory"])
+        self.census = Census(job["most_processes"], job["most_memory"], job["alone"], job["written"], job["most_disk"])
         self.lock = threading.Lock()
         self.told: set[str] = set()
         self.count = 0
@@ -251,13 +252,16 @@ def _exec(job: dict[str, Any], failure: int, output: Optional[int]) -> None:
 
 def main() -> None:
     """Run the job and end, and with it everything in the sandbox, whatever happens."""
+    job: dict[str, Any] = {}
     try:
-        _main()
+        job = json.load(sys.stdin)
+        _refuse(job["filter"])
+        _main(job)
     finally:
-        # bubblewrap's process 1 stays for as long as it has children, and dies with its own parent only once it has
+        # Process 1 stays for as long as it has children, and bubblewrap's dies with its own parent only once it has
         # asked for that: a host that was killed while the sandbox started would leave the node behind.
         try:
-            if os.getpid() == 2:
+            if job.get("alone") or os.getpid() == 2:
                 os.kill(-1, signal.SIGKILL)
         except ProcessLookupError:
             pass
@@ -265,19 +269,20 @@ def main() -> None:
             os._exit(0)
 
 
-def _main() -> None:
-    job = json.load(sys.stdin)
+def _main(job: dict[str, Any]) -> None:
     if host_is_gone():
         return
     if "compile" in job:
         from . import compiling  # noqa: PLC0415
 
-        compiling.tell(job["compile"], Run(job).emit)
+        compiling.tell(job["root"], job["temporary"], Run(job).emit)
         return
     for folder in job["folders"]:
         os.makedirs(folder, exist_ok=True)
-    os.mkfifo(FIFO, 0o600)
-    events = os.open(FIFO, os.O_RDWR | os.O_NONBLOCK | os.O_CLOEXEC)
+    fifo = job["env"]["PREFLIGHT_EVENTS"]
+    if not os.path.exists(fifo):
+        os.mkfifo(fifo, 0o600)
+    events = os.open(fifo, os.O_RDWR | os.O_NONBLOCK | os.O_CLOEXEC)
     server = _screen(job) if job.get("screen") else None
     run = Run(job)
     run.screen = server
@@ -346,6 +351,18 @@ def start(run: Run, output: Optional[int] = None) -> tuple[int, int]:
     return wake_read, failure_read
 
 
+def _refuse(program: str) -> None:
+    """Apply a filter of system calls (hexadecimal), where whoever made the sandbox could not."""
+    if not program:
+        return
+    import ctypes  # noqa: PLC0415
+
+    code = ctypes.create_string_buffer(bytes.fromhex(program))
+    described = struct.pack("=HxxxxxxQ", len(program) // 16, ctypes.addressof(code))
+    if ctypes.CDLL(None, use_errno=True).prctl(_SET_SECCOMP, 2, ctypes.c_char_p(described)) != 0:
+        raise OSError(ctypes.get_errno(), "no filter of system calls")
+
+
 def host_is_gone() -> bool:
     """Whether nobody reads our output any more."""
     poll = select.poll()
@@ -372,9 +389,9 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
             os.read(wake, 512)
             ended = exit_code(run.pid)
         elif followed:
-            ended = None if left_behind(run.screen) else 0
+            ended = None if run.census.left_behind(run.screen) else 0
         rest = drain(run, events, rest)
-        if ended == 0 and not run.initialised and not followed and (left := left_behind(run.screen)):
+        if ended == 0 and not run.initialised and not followed and (left := run.census.left_behind(run.screen)):
             # It goes on as a daemon, or was a script that started the node in the background.
             followed, run.pid, ended = True, left[0], None
         if ended is not None:

@@ -1,0 +1,135 @@
+"""What the ways to isolate a run share: what they are given, what they give back. Plain data; `sandbox` chooses."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO
+
+import aspectlib  # type: ignore[import-untyped]
+
+
+@dataclass(frozen=True, slots=True)
+class Agents:
+    """Where our own code for the inside is on the host: the package of agents, aspectlib, and the folder with
+    `sitecustomize.py`.
+
+    They are shown below `PRIVATE`.
+    """
+
+    library: Path
+    aspectlib: Path
+    site: Path
+
+    @property
+    def site_names(self) -> tuple[str, ...]:
+        """What of the folder is shown. As a source it has other modules, which would hide those of the same name."""
+        return ("sitecustomize.py", "__pycache__") if self is not AGENTS else ("sitecustomize.py",)
+
+
+_AGENTS = Path(__file__).parent / "agents"
+AGENTS = Agents(_AGENTS, Path(aspectlib.__file__).parent, _AGENTS)
+"""The sources, as installed."""
+
+PRIVATE = "/run/preflight"
+"""What is ours inside: `lib` with the agents and aspectlib, `site` with `sitecustomize.py`, and the pipe `events`."""
+_LEFT_OVER_SECONDS = 600
+_RUN_FOLDER = "ros-preflight-"
+TEMPORARY_BYTES = 64 << 20
+"""Size of each writable file system inside: /tmp, /dev/shm, the home folder."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """What a run may see: all that the user may read, without what lies below `masks` and without `secrets`, but with
+    `shown`. `home` is the home folder, empty and writable inside. `agents` is our own code."""
+
+    masks: tuple[str, ...]
+    secrets: tuple[str, ...]
+    shown: tuple[str, ...]
+    home: str
+    agents: Agents
+
+
+@dataclass(frozen=True, slots=True)
+class Isolated:
+    """A command line that runs something isolated, and the descriptors that it must inherit.
+
+    `moved`: folders that the run has elsewhere than `sandbox` says, from there to the place on the host. `leash`:
+    what ends the run when it is closed; None if killing the first process does. `own_users`: whether the kernel counts
+    its processes apart from the user's others. `alone`: whether it sees no processes but its own. `written`: the
+    folders that it may write to, where nothing but the supervisor inside bounds them. `filter`: the filter of system
+    calls, where the supervisor has to apply it.
+    """
+
+    command: list[str]
+    descriptors: tuple[int, ...] = ()
+    moved: Mapping[str, str] = field(default_factory=dict)
+    leash: IO[bytes] | None = None
+    own_users: bool = False
+    alone: bool = True
+    written: tuple[str, ...] = ()
+    filter: bytes = b""
+
+
+@dataclass(frozen=True, slots=True)
+class Backend:
+    """One way to isolate. `isolated` raises `OSError` with a sentence where it is not there; `explained` makes a
+    sentence of what it said when an empty run failed; `guarantees` is what holds besides what holds with all, one
+    sentence each."""
+
+    name: str
+    isolated: Callable[[Sequence[str], View], AbstractContextManager[Isolated]]
+    explained: Callable[[str], str]
+    guarantees: tuple[str, ...]
+
+
+@contextlib.contextmanager
+def run_folder(below: str) -> Iterator[str]:
+    """A folder on the host for one run, until the end of the block. Those of processes that were killed before they
+    could remove theirs go with the next."""
+    for left in Path(below).glob(_RUN_FOLDER + "*-*"):
+        owner = left.name[len(_RUN_FOLDER) :].partition("-")[0]
+        with contextlib.suppress(OSError):
+            # Of an age that no run reaches: another container's processes cannot be seen.
+            old = time.time() - left.lstat().st_mtime > _LEFT_OVER_SECONDS
+            if owner.isdigit() and old and not os.path.exists(f"/proc/{owner}"):
+                shutil.rmtree(left, ignore_errors=True)
+    prefix = f"{_RUN_FOLDER}{os.getpid()}-"
+    with tempfile.TemporaryDirectory(prefix=prefix, dir=below, ignore_cleanup_errors=True) as folder:
+        yield folder
+
+
+def lay_agents(folder: str, agents: Agents) -> None:
+    """Make what is ours inside in a folder on the host, for a run that has `PRIVATE` there."""
+    os.makedirs(folder + "/lib")
+    os.makedirs(folder + "/site")
+    os.symlink(agents.library, folder + "/lib/preflight_agents")
+    os.symlink(agents.aspectlib, folder + "/lib/aspectlib")
+    for name in agents.site_names:
+        os.symlink(agents.site / name, f"{folder}/site/{name}")
+
+
+def place(path: str, moved: Mapping[str, str]) -> str:
+    """Where something inside lies for the run: itself, or below a folder that was moved."""
+    for folder, elsewhere in moved.items():
+        if path == folder or path.startswith(folder + "/"):
+            return elsewhere + path[len(folder) :]
+    return path
+
+
+def within(path: str, folder: str) -> bool:
+    """Whether `path` is `folder` or lies below it."""
+    return path == folder or path.startswith(folder.rstrip("/") + "/")
+
+
+def any_within(paths: Iterable[str], folder: str) -> bool:
+    """Whether one of `paths` lies at or below `folder`."""
+    return any(within(path, folder) for path in paths)
