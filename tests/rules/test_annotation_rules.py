@@ -253,3 +253,25 @@ def test_what_was_not_seen_can_be_removed_with_its_line() -> None:
     (edit,) = fix.edits
     start, end = edit.location.span
     assert text[:start] + edit.text + text[end:] == text.replace(item, "")
+
+
+def test_what_agreed_once_is_compared_again_where_something_changed() -> None:
+    both = """
+        <launch>
+          <include file="/inner.launch"/>
+          <group ns="b" if="%s"><include file="/inner.launch"/></group>
+        </launch>
+        //- /inner.launch
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="own" value="1"/>
+            <!-- <services><service name="rarely" type="x/Y" class="server"/></services> -->
+          </node>
+        </launch>
+        //- interfaces
+        %s
+    """
+    one, other = '"/n": {}', '"/b/n": {"services": {"rarely": "x/Y"}}'
+    for _ in range(2):
+        assert "TRC006" not in [f.rule for f in findings_of(both % (1, f"{{{one}, {other}}}"))]
+        assert "TRC006" in [f.rule for f in findings_of(both % (0, f"{{{one}}}"))]

@@ -12,8 +12,9 @@ An annotation is the user's word for all that a node does. It is used where no r
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from xml.sax.saxutils import quoteattr
 
 from preflight_analysis.documents.document import Document, Element, SpannedText
@@ -88,39 +89,60 @@ class AnnotatedGroup:
     items: tuple[AnnotatedItem, ...]
 
 
-def annotated_groups(action: Action) -> tuple[tuple[AnnotatedGroup, ...], bool]:
-    """The groups of a node's annotation in the order of the file, and whether all in them is well formed."""
-    problems: list[AnnotationProblem] = []
-    groups = [group for group in _groups(action, problems) if group.name in GROUPS]
+def annotated_groups(action: Action) -> tuple[AnnotatedGroup, ...]:
+    """The groups of a node's annotation in the order of the file."""
     found = []
-    for group in groups:
+    for group in _groups(action):
         items = []
         for item in group.children:
-            read = _read_item(group.name, item, problems) if item.name == _ITEMS[group.name] else None
+            read = _read_item(group.name, item, []) if item.name == _ITEMS.get(group.name) else None
             if read is not None:
                 items.append(AnnotatedItem(read, item.span, {name: span for name, _, span in item.attributes}))
-        elements = tuple(item.span for item in group.children)
-        found.append(AnnotatedGroup(group.name, group.head, group.span, elements, tuple(items)))
-    return tuple(sorted(found, key=lambda group: group.span)), not problems
+        if group.name in GROUPS:
+            elements = tuple(item.span for item in group.children)
+            found.append(AnnotatedGroup(group.name, group.head, group.span, elements, tuple(items)))
+    return tuple(sorted(found, key=lambda group: group.span))
 
 
-def _groups(action: Action, problems: list[AnnotationProblem]) -> list[_Tag]:
+def _groups(action: Action) -> list[_Tag]:
     """The tags of an annotation, those in comments last."""
     groups = [_from_action(child) for child in action.children if child.kind in GROUPS]
     for content in action.comments:
         if _STARTS_ANNOTATION.match(content.text):
-            groups.extend(_from_comment(content, problems))
+            groups.extend(_from_comment(content, []))
     return groups
 
 
 def read_annotation(action: Action) -> tuple[Interface | None, tuple[AnnotationProblem, ...]]:
     """The interface that is annotated in a node's tag, None if there is no annotation, and what is malformed in it."""
     problems: list[AnnotationProblem] = []
-    groups = _groups(action, problems)
-    if not groups and not problems:
+    groups = [_from_action(child) for child in action.children if child.kind in GROUPS]
+    there = bool(groups)
+    items = list(_items(groups, problems))
+    for content in action.comments:
+        if _STARTS_ANNOTATION.match(content.text):
+            there = True
+            read, wrong = _read_comment(content.text)
+            items += read
+            problems += (AnnotationProblem(each.message, _in_document(content, each.span)) for each in wrong)
+    if not there:
         return None, ()
-    endpoints: list[Endpoint] = []
-    params: list[ParamUse] = []
+    endpoints = tuple(item for item in items if isinstance(item, Endpoint))
+    params = tuple(item for item in items if isinstance(item, ParamUse))
+    return Interface("annotation", Outcome("not-run"), endpoints, params), tuple(problems)
+
+
+@lru_cache(maxsize=2048)
+def _read_comment(text: str) -> tuple[tuple[Endpoint | ParamUse, ...], tuple[AnnotationProblem, ...]]:
+    """What a comment says and what is malformed in it, with places in its text. It is asked for at each keystroke, by
+    several rules, and once for each node of the tag."""
+    problems: list[AnnotationProblem] = []
+    groups = list(_from_comment(SpannedText(text, Span(0, len(text))), problems))
+    items = tuple(_items(groups, problems))
+    return items, tuple(problems)
+
+
+def _items(groups: Iterable[_Tag], problems: list[AnnotationProblem]) -> Iterator[Endpoint | ParamUse]:
     for group in groups:
         if group.name not in GROUPS:
             problems.append(AnnotationProblem(f"<{group.name}> is no annotation; {_one_of(GROUPS)}", group.name_span))
@@ -131,12 +153,8 @@ def read_annotation(action: Action) -> tuple[Interface | None, tuple[AnnotationP
                 problems.append(AnnotationProblem(message, item.name_span))
                 continue
             read = _read_item(group.name, item, problems)
-            if isinstance(read, Endpoint):
-                endpoints.append(read)
-            elif read is not None:
-                params.append(read)
-    interface = Interface("annotation", Outcome("not-run"), tuple(endpoints), tuple(params))
-    return interface, tuple(problems)
+            if read is not None:
+                yield read
 
 
 def read_item(
@@ -148,7 +166,7 @@ def read_item(
 
 def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
     """What the annotation of a node's tag names, and where: the tag of the item (`topic`), the name, its place."""
-    for group in _groups(action, []):
+    for group in _groups(action):
         for item in group.children:
             for name, value, span in item.attributes:
                 if name == "name" and item.name == _ITEMS.get(group.name):
@@ -245,14 +263,19 @@ def _from_action(action: Action) -> _Tag:
 
 def _from_comment(content: SpannedText, problems: list[AnnotationProblem]) -> Iterator[_Tag]:
     def moved(span: Span) -> Span:
-        ends = (min(max(0, end - len(_WRAPPER)), len(content.text)) for end in span)
-        return Span(*map(content.to_document, ends))
+        return _in_document(content, Span(span.start - len(_WRAPPER), span.end - len(_WRAPPER)))
 
     wrapped = parse_xml("", f"{_WRAPPER}{content.text}</_>")
     problems += (AnnotationProblem(problem.message, moved(problem.span)) for problem in wrapped.problems)
     if wrapped.root is not None:
         for child in wrapped.root.elements:
             yield _from_element(child, moved)
+
+
+def _in_document(content: SpannedText, span: Span) -> Span:
+    """A span of a comment's text as one of the document."""
+    last = len(content.text)
+    return content.slice_span(min(max(0, span.start), last), min(max(0, span.end), last))
 
 
 def _from_element(element: Element, moved: Callable[[Span], Span]) -> _Tag:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import functools
 import hashlib
 import json
 import os
@@ -24,7 +25,7 @@ from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import encode_params
-from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint, listing
+from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, digest_of, fingerprint, listing
 
 SCHEMA = "ros-preflight/trace-cache/3"
 MAX_ENTRY_BYTES = 4 << 20
@@ -152,7 +153,7 @@ class TraceCache(Store):
             return None
 
     def _executable_folder(self, package: str, executable: str, plugin: str | None) -> Path:
-        return self._shared_folder({"package": package, "executable": executable, "plugin": plugin})
+        return self._folder_of(_executable_digest(package, executable, plugin))
 
     def _place(self, recipe: Recipe, request: TraceRequest) -> Place:
         named = {
@@ -207,6 +208,12 @@ class _View:
         if what == "remaps":
             return sorted([source, target] for source, target in self._remaps.items())
         return self._node if what == "name" else names.parent(self._node)
+
+
+@functools.lru_cache(maxsize=4096)
+def _executable_digest(package: str, executable: str, plugin: str | None) -> str:
+    # Whatever version of this program made them: the traces of other versions are not read, but bounded as well.
+    return digest_of({"package": package, "executable": executable, "plugin": plugin})
 
 
 def _valid(known: Mapping[str, Any], view: _View) -> bool:

@@ -96,14 +96,11 @@ class Store:
 
     def _place_of(self, recipe: Mapping[str, Any], folder: Path | None = None) -> Place:
         """Where the entries of a recipe are: in `folder`, which it shares with others, or in one of its own."""
-        digest = _digest_of({"agents": _agents_digest(), "schema": self._schema, **recipe})
+        digest = digest_of({"agents": _agents_digest(), "schema": self._schema, **recipe})
         return Place(folder or self._folder_of(digest), digest[:32])
 
-    def _shared_folder(self, what: Mapping[str, Any]) -> Path:
-        """The folder of all recipes for one thing, whatever version of this program they were made by."""
-        return self._folder_of(_digest_of(what))
-
     def _folder_of(self, digest: str) -> Path:
+        """A folder of entries that belong together, or of those of one recipe."""
         return self.folder / digest[:2] / digest
 
     def _read(self, path: Path) -> dict[str, Any] | None:
@@ -232,7 +229,8 @@ def _agents_digest() -> str:
     return digest.hexdigest()
 
 
-def _digest_of(named: Mapping[str, Any]) -> str:
+def digest_of(named: Mapping[str, Any]) -> str:
+    """What names a recipe, or what entries have in common."""
     return hashlib.sha256(json.dumps(named, sort_keys=True).encode(errors="surrogatepass")).hexdigest()
 
 
