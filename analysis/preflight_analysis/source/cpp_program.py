@@ -125,11 +125,11 @@ class CppProgram:
         """The names of functions and types in whose text one of the words stands, or a name that leads to one."""
         parts: list[tuple[str, frozenset[str]]] = []
         for functions in self.functions.values():
-            parts += [(f.name, _words_in(f.body, f.initializers)) for f in functions if f.body is not None]
+            parts += [(f.name, words_in(f.body, f.initializers)) for f in functions if f.body is not None]
         for cls in self.classes.values():
             nodes = [node for field in cls.fields for node in (field.type, field.value)]
-            parts.append((cls.name, _words_in(*cls.bases, *nodes)))
-        parts += [(path[-1], _words_in(node)) for path, (node, _, _) in self._aliases.items()]
+            parts.append((cls.name, words_in(*cls.bases, *nodes)))
+        parts += [(path[-1], words_in(node)) for path, (node, _, _) in self._aliases.items()]
         found: set[str] = set(words)
         while True:
             more = {name for name, mentioned in parts if name not in found and not mentioned.isdisjoint(found)}
@@ -147,7 +147,8 @@ class CppProgram:
         return next((each for each in found if each.body is not None), None)
 
 
-def _words_in(*nodes: Node | None) -> frozenset[str]:
+def words_in(*nodes: Node | None) -> frozenset[str]:
+    """The words in the text of the nodes."""
     return frozenset(word for node in nodes if node is not None for word in _WORD.findall(text_of(node)))
 
 

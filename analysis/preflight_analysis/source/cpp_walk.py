@@ -26,7 +26,7 @@ from preflight_analysis.source.cpp_operators import (
     truth,
     unary,
 )
-from preflight_analysis.source.cpp_program import CppProgram, template_arguments
+from preflight_analysis.source.cpp_program import CppProgram, template_arguments, words_in
 from preflight_analysis.source.cpp_text import (
     CONDITIONAL,
     FieldText,
@@ -69,6 +69,7 @@ _MAX_NESTING = 150
 _MAX_VISITS = 40
 _MAX_WAITING = 500
 _MAX_TURNS = 64
+_FEW_TURNS = 8
 _PRIMITIVES = frozenset("int bool double float char unsigned long short size_t auto".split())  # noqa: SIM905
 _SMART = frozenset({"shared_ptr", "unique_ptr", "scoped_ptr", "intrusive_ptr", "weak_ptr", "Ptr", "ConstPtr"})
 _LISTS = frozenset({"std::vector", "std::list", "std::set", "std::deque", "std::array", "std::initializer_list"})
@@ -114,8 +115,10 @@ class _Walk:
         self._visits: dict[int, int] = {}
         self._active: set[int] = set()
         self._returns: list[list[Any]] = []
-        self._leading: frozenset[str] | None = None
-        """Callbacks are not gone through but for these functions."""
+        self._leading = program.leading_to(calls.words)
+        self._late = False
+        """Whether only callbacks are left: what leads to no call of a library is left out then."""
+        self._turns: dict[int, int] = {}
         self._steps = 0
         self._depth = 0
         self._nesting = 0
@@ -124,7 +127,7 @@ class _Walk:
         try:
             with contextlib.suppress(ExitError):
                 self._call_text(function, instance, [Argument(arg) for arg in args], {})
-            self._leading = self._program.leading_to(self._calls.words)
+            self._late = True
             for waiting in self._waiting:  # grows while it is gone through
                 body = waiting.text.body if waiting.text is not None else waiting.body
                 if body is not None and not self._visits.get(body.id):
@@ -305,7 +308,7 @@ class _Walk:
             self._value(first, scope)
         if body is None:
             return
-        for _ in range(_MAX_TURNS):
+        for _ in range(self._most_turns(body)):
             known = truth(self._value(condition, scope)) if condition is not None else None
             if known is None:
                 for name in counters:
@@ -316,6 +319,13 @@ class _Walk:
                 return
             if update is not None:
                 self._value(update, scope)
+
+    def _most_turns(self, body: Node) -> int:
+        """How often a loop is gone through: only where a library is called a large number is worth it."""
+        if body.id not in self._turns:
+            leads = any(word in self._leading for word in words_in(body))
+            self._turns[body.id] = _MAX_TURNS if leads else _FEW_TURNS
+        return self._turns[body.id]
 
     def _once(self, body: Node, scope: Scope) -> None:
         """Go through what may be done any number of times."""
@@ -341,7 +351,7 @@ class _Walk:
             return
         first, done = node.type == "do_statement", False
         literal = text_of(condition) in _FOREVER
-        for _ in range(1 if literal else _MAX_TURNS):
+        for _ in range(1 if literal else self._most_turns(body)):
             known = True if first else truth(self._condition(condition, scope))
             first = False
             if known is None and not done:
@@ -898,7 +908,7 @@ class _Walk:
     def _call_text(
         self, text: FunctionText, instance: Instance | None, args: list[Argument], types: dict[str, CppType]
     ) -> Any:
-        if text.body is None or (self._leading is not None and text.name not in self._leading):
+        if text.body is None or (self._late and text.name not in self._leading):
             return UNKNOWN
         scope = Scope({}, text.scope, text.file, self._types(text, instance, types), instance)
         self._bind(text, args, scope)
