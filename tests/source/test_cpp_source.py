@@ -541,6 +541,16 @@ def test_arguments(desk: Desk) -> None:
     assert desk.topics(body, args="a") == []
 
 
+def test_messages_of_any_type(desk: Desk) -> None:
+    assert desk.main(
+        'ros::NodeHandle nh; node = &nh; nh.subscribe<topic_tools::ShapeShifter>("in", 1, boost::bind(heard, _1));',
+        """
+        ros::NodeHandle* node;
+        void heard(const boost::shared_ptr<topic_tools::ShapeShifter const>& m) { m->advertise(*node, "out", 1); }
+        """,
+    ) == [("subscriber", "in", "*"), ("publisher", "out", None)]
+
+
 def test_parameters_that_are_searched_and_counted(desk: Desk) -> None:
     body = """
         ros::NodeHandle pnh("~");

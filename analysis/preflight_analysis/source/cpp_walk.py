@@ -678,8 +678,7 @@ class _Walk:
             self._construct(instance, cls, args)
             return instance
         if last in _SMART or last.endswith("Ptr") or name in _CALLABLE:
-            pointed = type_.args[0] if last in _SMART and type_.args else type_
-            return first if args else Unmade(pointed)
+            return first if args else Unmade(_pointed(type_))
         return self._calls.make(type_, args, place)
 
     def _has_constructor(self, cls: Class, arity: int) -> bool:
@@ -954,7 +953,9 @@ class _Walk:
             elif (default := parameter.default or declared[index].default) is not None:
                 value = self._value(default, scope)
             if value is UNKNOWN and (type_ := self._type(parameter.type, scope)) is not None:
-                value = Unmade(type_) if _standard(type_.name) not in _PRIMITIVES | {"std::string"} else UNKNOWN
+                value = (
+                    Unmade(_pointed(type_)) if _standard(type_.name) not in _PRIMITIVES | {"std::string"} else UNKNOWN
+                )
             if parameter.name:
                 scope.names[parameter.name] = value
 
@@ -965,6 +966,11 @@ class _Walk:
         self._steps += 1
         if self._steps > MAX_STEPS:
             raise _TooLargeError
+
+
+def _pointed(type_: CppType) -> CppType:
+    """What a pointer of that type points to; the type itself if it is none."""
+    return type_.args[0] if type_.args and type_.name.rpartition("::")[2] in _SMART else type_
 
 
 def _standard(name: str) -> str:

@@ -91,6 +91,7 @@ _SUFFIX = re.compile(r"(?<=\w)(?:ConstPtr|Ptr|ConstWeakPtr|_)\Z")
 _HALF = re.compile(r"::(?:Request|Response)\Z|(?<=\w)(?:Request|Response)\Z")
 _TYPE = re.compile(r"(?:::)?([A-Za-z]\w*)::([A-Za-z]\w*)\Z")
 _HEADER = re.compile(r"([A-Za-z]\w*)/([A-Za-z]\w*)\.h\Z")
+_ANY_MESSAGE = frozenset({"topic_tools::ShapeShifter", "ShapeShifter"})
 _MAX_NODELETS = 20
 _NO_PACKAGES = frozenset({"std", "boost", "ros", "Eigen", "cv", "tf", "tf2"})
 
@@ -303,6 +304,10 @@ class RoscppCalls:
             loaded, plugin, remaps = (value_at(args, index) for index in range(3))
             if isinstance(loaded, str) and isinstance(plugin, str) and len(self.nodelets) < _MAX_NODELETS:
                 self.nodelets.append(Loaded(loaded, plugin, self._remaps_of(remaps)))
+        if isinstance(owner, Unmade) and name == "advertise" and owner.type.name in _ANY_MESSAGE:
+            handle = value_at(args, 0)
+            topic = _handle(handle).name(value_at(args, 1)) if _is_handle(handle) else UNKNOWN
+            self._end("publisher", topic, None, place)
         if (
             isinstance(owner, Unmade)
             and owner.type.name == "urdf::Model"
@@ -490,7 +495,7 @@ class RoscppCalls:
         if last in _WRAPPERS:
             name = space
         name = _SUFFIX.sub("", name)
-        if name in ("topic_tools::ShapeShifter", "ShapeShifter"):
+        if name in _ANY_MESSAGE:
             return "*"
         if name == "pcl::PointCloud":
             return "sensor_msgs/PointCloud2"
