@@ -29,7 +29,7 @@ class Desk:
 
     def build(self, text: str) -> Build:
         self.write("CMakeLists.txt", text)
-        return read_build(str(self.folder), read)
+        return read_build(str(self.folder), "demo", read)
 
     def sources(self, build: Build, name: str) -> list[str] | None:
         target = build.executable(name)
@@ -189,4 +189,4 @@ PIECES = [*'()"#[]=${};\\ \nab', "set", "foreach", "endforeach", "macro", "add_e
 @settings(deadline=None)
 @given(st.lists(st.sampled_from(PIECES)).map("".join))
 def test_any_text_is_read(text: str) -> None:
-    read_build("/nowhere", lambda path: text)
+    read_build("/nowhere", "demo", lambda path: text)

@@ -54,6 +54,7 @@ def test_a_script_and_what_is_built(tmp_path: Path) -> None:
           <node pkg="p" type="%sscript.py" name="a"/>
           <node pkg="p" type="%sdriver" name="b"/>
           <node pkg="p" type="%snothing" name="c"/>
+          <node pkg="p" type="%sp_other" name="d"/>
         </launch>
         //- p/package.xml
         <package/>
@@ -64,10 +65,13 @@ def test_a_script_and_what_is_built(tmp_path: Path) -> None:
         add_executable( ${PROJECT_NAME}_other other.cpp)
         add_executable(driver
           driver.cpp)
+        //- p/other.cpp
+        int main() {}
         """
-    expected = [["p/scripts/script.py:1"], ["p/CMakeLists.txt:3 driver"], []]
+    other = ["p/other.cpp:1", "p/CMakeLists.txt:2 ${PROJECT_NAME}_other"]
+    expected = [["p/scripts/script.py:1"], ["p/CMakeLists.txt:3 driver"], [], other]
     for number, wanted in enumerate(expected):
-        cursors = tuple("$0" if n == number else "" for n in range(3))
+        cursors = tuple("$0" if n == number else "" for n in range(4))
         assert gone_to(tmp_path / str(number), text % cursors) == wanted
 
 

@@ -117,11 +117,11 @@ class Build:
         return tuple(found)
 
 
-def read_build(folder: str, read: Read) -> Build:
-    """What the `CMakeLists.txt` in `folder` says. Nothing raises; what is not understood is passed over."""
+def read_build(folder: str, package: str, read: Read) -> Build:
+    """What the `CMakeLists.txt` of the package in `folder` says. Nothing raises; what is not understood is left out."""
     lists = _Lists(folder, read)
     with contextlib.suppress(_TooLargeError):
-        lists.folder(folder, {}, 0)
+        lists.folder(folder, {"PROJECT_NAME": package}, 0)
     return lists.build()
 
 

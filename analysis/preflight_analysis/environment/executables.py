@@ -86,7 +86,7 @@ class ExecutableIndex:
     def _build(self, package: str) -> Build:
         if package not in self._builds:
             found = self._environment.packages.get(package)
-            self._builds[package] = read_build(found.share, _text) if found is not None else Build()
+            self._builds[package] = read_build(found.share, package, _text) if found is not None else Build()
         return self._builds[package]
 
     def names(self, package: str) -> tuple[str, ...]:

@@ -88,14 +88,17 @@ def _of_subject(scene: Scene, subject: Subject) -> tuple[Target, ...]:
 
 
 def _executables(scene: Scene, subject: Subject) -> Iterator[Location]:
-    """A script, or for what is compiled its target in the package's `CMakeLists.txt`."""
+    """A script; for what is compiled its source, and its target in the package's `CMakeLists.txt`."""
     for name in subject.names:
         package, _, executable = name.partition("/")
         nodes = [n for t in scene.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
         paths = sorted({n.resolved.path for n in nodes if n.resolved.path is not None})
+        made = scene.workspace.executables.made_of(package, executable)
+        if made is not None:  # what stands in a devel space only leads there
+            paths = [made.source]
         scripts = [path for path in paths if scene.document(path) is not None]
         yield from (Location(path, Span(0, 0)) for path in scripts)
-        if not scripts and (target := _build_target(scene, package, executable)) is not None:
+        if (target := _build_target(scene, package, executable)) is not None:
             yield target
 
 

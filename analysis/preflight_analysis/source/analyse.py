@@ -127,7 +127,9 @@ class SourceAnalysis:
         package = self._environment.packages.get(node.package)
         if package is None:
             return None
-        made = read_build(package.share, lambda path: (text(path) or (None, ""))[0]).programs.get(node.executable)
+        made = read_build(package.share, package.name, lambda path: (text(path) or (None, ""))[0]).programs.get(
+            node.executable
+        )
         return made.path if made is not None else None
 
     @cached_property

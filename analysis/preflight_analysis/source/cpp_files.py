@@ -42,7 +42,7 @@ class CppFiles:
         """What a package builds; nothing for one that is not there in source form."""
         if package not in self._builds:
             found = self._packages.get(package)
-            self._builds[package] = read_build(found.share, self._read) if found is not None else Build()
+            self._builds[package] = read_build(found.share, package, self._read) if found is not None else Build()
         return self._builds[package]
 
     def executable(self, package: str, name: str) -> CppProgram | None:
