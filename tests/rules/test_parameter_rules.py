@@ -572,3 +572,19 @@ def test_where_a_node_is_not_known_a_global_parameter_may_be_its() -> None:
         //- interfaces
         {"/n": {"params": {"~rate": 10}}, "/m": {"status": "crashed", "exit_code": 1}}
     """)
+
+
+def test_a_typo_of_a_name_that_a_node_searches_for() -> None:
+    text = """
+        <launch>
+          <param name="tf_prefx" value="r1"/>
+                       ^^^^^^^^ warning[PRM001] did you mean '/tf_prefix', for which /ns/n searches?
+          <group ns="ns"><node pkg="p" type="t" name="n"/></group>
+        </launch>
+        //- interfaces
+        {"/ns/n": {"params": {"tf_prefix": {"access": "search"}}}}
+    """
+    (finding,) = check(text)
+    mended = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert 'name="tf_prefix"' in mended
+    assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []

@@ -487,3 +487,15 @@ def test_of_several_cameras_none_is_the_one_elsewhere() -> None:
 
     assert severities(["left"]) == {"warning"}
     assert severities(["left", "right"]) == {"hint"}
+
+
+def test_the_same_topic_of_another_node_is_only_a_hint() -> None:
+    text = """
+        <launch><node pkg="p" type="t" name="rectifier"/><node pkg="p" type="t" name="detector"/></launch>
+        //- interfaces
+        {"/rectifier": {"publishers": {"NAME": "sensor_msgs/Image"}},
+         "/detector": {"subscribers": {"/camera/image": "sensor_msgs/Image"}}}
+    """
+    found = {name: findings_of(text.replace("NAME", name)) for name in ("~image", "rectifier/image")}
+    told = {name: [f.severity for f in all_ if f.rule == "TOP001"] for name, all_ in found.items()}
+    assert told == {"~image": ["hint"], "rectifier/image": ["warning"]}

@@ -229,9 +229,17 @@ def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
     ends = (near.wanting.endpoint, near.offering.endpoint)
     speculative = any(end.uncertain for end in ends)
     sure = graph.complete and near.same_type and not speculative
-    evidence = near.same_type and (near.likeness == "typo" or (near.offering_dangles and graph.seen_through))
+    alike = near.likeness == "typo" or (near.offering_dangles and graph.seen_through and not _of_another_node(near))
+    evidence = near.same_type and alike
     severity: Severity = "info" if any(end.assumed for end in ends) else "warning"
     return severity if evidence else "hint", "likely" if sure else "possible"
+
+
+def _of_another_node(near: NearMiss) -> bool:
+    """Whether the offered name is a private one and the wanted one is that of another node, which may well be started
+    elsewhere: `/rectifier/image` for `/camera/image`."""
+    private = near.offering.remap is None and near.offering.endpoint.name.startswith("~")
+    return near.likeness == "words" and private and not near.wanting.name.startswith(f"{near.offering.node.name}/")
 
 
 def nodes_looked_at(graph: Graph) -> str:

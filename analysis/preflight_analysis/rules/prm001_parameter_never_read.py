@@ -33,12 +33,17 @@ def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Find
                 *include_chain(param.origin),
             ),
         )
+    namespace, name = param.name.rpartition("/")[0], read.name
+    if read.use.access == "search":
+        name = f"{namespace}/{read.name.rpartition('/')[2]}"
     sure: Confidence = "likely" if holder is not None or (graph.complete and unread.alone) else "possible"
     if holder is not None:
         message = (
             f"{holder.name} does not read parameter '{param.name}'; did you mean '{read.name}', which it reads and "
             f"which is not set{_default(read)}?"
         )
+    elif read.use.access == "search":
+        message = f"no node reads parameter '{param.name}'; did you mean '{name}', for which {read.node.name} searches?"
     else:
         message = (
             f"no node reads parameter '{param.name}'; {read.node.name} reads '{read.name}', which is not set"
@@ -50,7 +55,7 @@ def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Find
         severity="warning" if unread.alone else "info",
         confidence=sure,
         related=(related_param_read(read), *include_chain(param.origin)),
-        fixes=renamed(context, param, read.name) if unread.alone else (),
+        fixes=renamed(context, param, name) if unread.alone else (),
     )
 
 

@@ -68,6 +68,8 @@ class _Reads:
     unset: dict[str, ParamRead]
     opaque: frozenset[str]
     """Full names of the nodes of which it is not known what they read."""
+    sought: dict[str, ParamRead]
+    """By last name what nodes search for in their namespaces and nobody sets in any."""
     listed: bool
     """Whether a node asks for the names of all parameters: it may read any of them."""
 
@@ -102,7 +104,10 @@ def _unread(context: Context, graph: Graph) -> Iterator[Unread]:
     if reads.listed:
         return
     told: set[str] = set()
-    for param, read in _misplaced(orphans, reads):
+    for param, read in _sought(orphans, reads.sought):
+        told.add(param.name)
+        yield Unread(param, None, read)
+    for param, read in _misplaced([param for param in orphans if param.name not in told], reads):
         told.add(param.name)
         yield Unread(param, None, read)
     if graph.tree.complete and not reads.opaque:
@@ -116,6 +121,7 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
     names: set[str] = set()
     searched: set[str] = set()
     asked: dict[str, ParamRead] = {}
+    sought: dict[str, ParamRead] = {}
     opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not tells_params(i)}
     filled = _above(f"{namespace}/" for namespace in namespaces)
     made: set[str] = set()
@@ -126,6 +132,7 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
             listed = True
         elif read.use.access == "search":
             searched.add(read.use.name.strip("~/").partition("/")[0])
+            sought.setdefault(_leaf(read.use.name.lstrip("~")), read)
         elif read.use.access in ("get", "has"):
             names.add(read.name.rstrip("/") or "/")
             if not read.use.builtin and read.name not in graph.tree.params and read.name not in filled:
@@ -134,7 +141,9 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
             names.add(read.name)
             made.add(read.name)
     unset = {name: read for name, read in asked.items() if name not in made}
-    return _Reads(frozenset(names), _above(names), frozenset(searched), unset, frozenset(opaque), listed)
+    for name in {_leaf(name) for name in graph.tree.params} | {_leaf(name) for name in made}:
+        sought.pop(name, None)
+    return _Reads(frozenset(names), _above(names), frozenset(searched), unset, frozenset(opaque), sought, listed)
 
 
 def _namespaces(name: str) -> Iterator[str]:
@@ -175,6 +184,14 @@ def _meant_of_holder(
 def _would_change(param: Param, read: ParamRead) -> bool:
     """Whether the read would get another value, of a kind that it expects."""
     return fits(param.value, read) and not (read.use.has_default and read.use.default == param.value)
+
+
+def _sought(params: Iterable[Param], sought: dict[str, ParamRead]) -> Iterator[tuple[Param, ParamRead]]:
+    """Parameters whose last name is a typo of one that a node searches for."""
+    for param in params if sought else ():
+        near = nearest(_leaf(param.name), sought)
+        if near is not None and likeness(_leaf(param.name), near) is not None:
+            yield param, sought[near]
 
 
 def _shifted_reads(param: Param, by_leaf: dict[str, list[ParamRead]]) -> list[ParamRead]:
