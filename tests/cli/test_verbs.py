@@ -76,6 +76,16 @@ def test_trace_in_json(desk: Desk, preflight: Run) -> None:
     assert preflight("trace", desk.launch_file, "--format", "json").json["nodes"][0]["cached"] is True
 
 
+def test_like_nodes_in_other_namespaces_are_run_once(desk: Desk, preflight: Run) -> None:
+    path = desk.launch_file.with_name("fleet.launch")
+    node = '<node pkg="preflight_demo" type="talker.py" name="talker_{0}" ns="robot_{0}"/>'
+    path.write_text(f"<launch>{''.join(map(node.format, range(6)))}</launch>")
+    done = preflight("trace", path, "--jobs", "3", "--format", "json")
+    assert [node["name"] for node in done.json["nodes"]] == [f"/robot_{n}/talker_{n}" for n in range(6)]
+    assert {node["outcome"]["status"] for node in done.json["nodes"]} == {"spinning"}
+    assert desk.sandbox_starts() == 3, "the probe, our own code to be compiled and one node"
+
+
 def test_trace_of_one_node(desk: Desk, preflight: Run) -> None:
     done = preflight("trace", desk.launch_file, "--node", "listener")
     assert "subscriber chatter  std_msgs/String" in done.out

@@ -73,6 +73,25 @@ async def test_an_edit_supersedes_a_run_that_is_no_longer_wanted(desk: Desk, slo
         assert "chatter" in hint.message
 
 
+async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(desk: Desk) -> None:
+    script = desk.launch_file.parents[1] / "scripts/late.py"
+    script.write_text(SLOW.replace("sleep(60)", "sleep(3)"))
+    script.chmod(0o755)
+    path = desk.launch_file.with_name("late.launch")
+    path.write_text(
+        '<launch>\n  <param name="unread" value="1"/>\n  <node pkg="preflight_demo" type="late.py" name="late"/>\n'
+        '  <node pkg="preflight_demo" type="listener.py" name="listener"/>\n</launch>\n'
+    )
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(path)
+        await editor.until(lambda: desk.sandbox_starts() >= 4)
+        at = text.index('value="1"')
+        editor.replace(path, at, at + len('value="1"'), 'value="2"')
+        await editor.having(path, "TOP001", seconds=60)
+        await editor.until(lambda: all(values[-1]["kind"] == "end" for values in editor.runs.values()), 60)
+        assert desk.sandbox_starts() == 4, "the probe, our own code to be compiled and each node once"
+
+
 async def test_the_server_answers_while_nodes_run(desk: Desk, slow: Path) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(slow)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.schedule import run_all, trace_all
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, request
 
@@ -46,6 +46,30 @@ def test_in_order_two_at_a_time_and_equal_ones_once() -> None:
     assert set(tracer.order[:2]) == {"/a", "/b"}
     assert tracer.most == 2
     assert [done[n].notes for n in range(6)] == [(r.node,) for r in asked]
+
+
+def test_the_first_of_like_jobs_comes_before_the_others() -> None:
+    """Whatever the order in which runs end; the worker that would wait takes something else."""
+    under_way: list[str] = []
+    order: list[str] = []
+    lock, others = threading.Lock(), threading.Event()
+
+    def run(job: str, _cancel: threading.Event) -> None:
+        with lock:
+            assert all(job[0] != other[0] or (job[0] + "1") not in (job, other) for other in under_way)
+            under_way.append(job)
+            order.append(job)
+        if job == "a1":
+            assert others.wait(60), "the other kinds did not go on"
+        if job == "c1":
+            others.set()
+        with lock:
+            under_way.remove(job)
+
+    jobs = ["a1", "a2", "a3", "b1", "b2", "c1", "a4"]
+    run_all(run, jobs, alike=lambda job: job[0], on_done=lambda *_: None, cancel=threading.Event())
+    assert order[:4] == ["a1", "b1", "b2", "c1"]
+    assert sorted(order[4:]) == ["a2", "a3", "a4"]
 
 
 def test_cancelling_ends_them_all() -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import queue
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import TypeVar
 
 from preflight_analysis.tracing.interface import Interface
@@ -15,6 +14,11 @@ _Job = TypeVar("_Job")
 _Result = TypeVar("_Result")
 
 
+def likeness(request: TraceRequest) -> Hashable:
+    """The same for nodes that may well turn out to do the same: in other namespaces, with other parameters."""
+    return request.package, request.executable, request.args, request.env, request.cwd
+
+
 def trace_all(
     tracer: Tracer,
     requests: Sequence[TraceRequest],
@@ -23,8 +27,10 @@ def trace_all(
     on_done: Callable[[int, Interface], None],
     cancel: threading.Event,
 ) -> None:
-    """Trace `requests` as `run_all` runs jobs."""
-    run_all(tracer.trace, requests, workers=workers, on_done=on_done, cancel=cancel)
+    """Trace `requests` as `run_all` runs jobs. Of like nodes one is run first: the others find its trace in the cache,
+    unless they do depend on what is different."""
+    alike = likeness if tracer.cache is not None else None
+    run_all(tracer.trace, requests, workers=workers, alike=alike, on_done=on_done, cancel=cancel)
 
 
 def run_all(
@@ -32,10 +38,12 @@ def run_all(
     jobs: Sequence[_Job],
     *,
     workers: int = 2,
+    alike: Callable[[_Job], Hashable] | None = None,
     on_done: Callable[[int, _Result], None],
     cancel: threading.Event,
 ) -> None:
-    """Run `jobs` in their order and return when all are done; equal ones are run once.
+    """Run `jobs` in their order and return when all are done; equal ones are run once, and the first of those that are
+    `alike` before the others.
 
     `on_done(index, result)` is called for each job, one call at a time, from the worker threads. Once `cancel` is set
     the runs under way are killed and the rest are told as not run. Raises what `on_done` raised, after the others are
@@ -48,19 +56,17 @@ def run_all(
             groups.append([index])
         else:
             same.append(index)
-    waiting: queue.SimpleQueue[list[int]] = queue.SimpleQueue()
-    for group in groups:
-        waiting.put(group)
+    waiting = _Queue([(group, group[0] if alike is None else alike(jobs[group[0]])) for group in groups])
     telling = threading.Lock()
     failures: list[Exception] = []
 
     def work() -> None:
-        while True:
+        while (taken := waiting.take()) is not None:
+            group, kind = taken
             try:
-                group = waiting.get_nowait()
-            except queue.Empty:
-                return
-            result = run(jobs[group[0]], cancel)
+                result = run(jobs[group[0]], cancel)
+            finally:
+                waiting.ended(kind)
             with telling:
                 for index in group:
                     try:
@@ -76,3 +82,36 @@ def run_all(
         thread.join()
     if failures:
         raise failures[0]
+
+
+_Group = tuple[list[int], Hashable]
+
+
+class _Queue:
+    """Groups of jobs with their kinds, in order, but none while the first of its kind is under way."""
+
+    def __init__(self, groups: Sequence[_Group]) -> None:
+        self._waiting = list(groups)
+        self._begun: set[Hashable] = set()
+        self._first: set[Hashable] = set()
+        self._changed = threading.Condition()
+
+    def take(self) -> _Group | None:
+        """The next one, waiting for it if need be; None if there is none any more."""
+        with self._changed:
+            while self._waiting:
+                at = next((at for at, (_, kind) in enumerate(self._waiting) if kind not in self._first), None)
+                if at is not None:
+                    group, kind = self._waiting.pop(at)
+                    if kind not in self._begun:
+                        self._begun.add(kind)
+                        self._first.add(kind)
+                    return group, kind
+                self._changed.wait()
+            return None
+
+    def ended(self, kind: Hashable) -> None:
+        """One of that kind is done."""
+        with self._changed:
+            self._first.discard(kind)
+            self._changed.notify_all()

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the findings."""
-    analysis = run_nodes(open_project(args), args.no_run)
+    analysis = run_nodes(open_project(args), args)
     interfaces = analysis.graph.interfaces if analysis.graph else ()
     report = Report(
         analysis.findings,

@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the graph."""
-    analysis = run_nodes(open_project(args), args.no_run)
+    analysis = run_nodes(open_project(args), args)
     if analysis.graph is None:
         say("there is no graph")
         return FAILED

@@ -26,6 +26,9 @@ def add_common(parser: argparse.ArgumentParser) -> None:
     add_format(parser)
     parser.add_argument("--no-run", action="store_true", help="execute nothing")
     parser.add_argument(
+        "--jobs", type=_positive, default=2, metavar="N", help="how many nodes are run at a time (default: %(default)s)"
+    )
+    parser.add_argument(
         "--package-path",
         metavar="A:B",
         help="look for packages in these folders, in this order, and nowhere else",
@@ -36,6 +39,13 @@ def add_common(parser: argparse.ArgumentParser) -> None:
         default="error",
         help="exit with 1 if there is a finding of this severity or worse (default: %(default)s)",
     )
+
+
+def _positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise ValueError(text)
+    return number
 
 
 def add_file(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:

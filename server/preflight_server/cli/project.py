@@ -64,14 +64,15 @@ def open_project(args: argparse.Namespace) -> Project:
     return Project(workspace, analysis)
 
 
-def run_nodes(project: Project, no_run: bool, only: str | None = None) -> Analysis:
-    """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox unless `no_run`.
+def run_nodes(project: Project, args: argparse.Namespace, only: str | None = None) -> Analysis:
+    """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox, as
+    the common options say.
 
     Interrupting it stops the runs.
     """
     analysis = project.analysis
     nodes = analysis.tree.nodes
-    why = _why_not(no_run)
+    why = _why_not(args.no_run)
     if why is not None:
         return project.workspace.with_interfaces(analysis, [not_run(node, why) for node in nodes], why)
     requests = project.workspace.requests(analysis)
@@ -86,6 +87,7 @@ def run_nodes(project: Project, no_run: bool, only: str | None = None) -> Analys
         trace_all(
             Tracer(project.environment, TraceCache()),
             [request for i in chosen if (request := requests[i]) is not None],
+            workers=args.jobs,
             on_done=done,
             cancel=cancel,
         )

@@ -36,7 +36,7 @@ def run(args: argparse.Namespace) -> int:
         if only not in {node.name for node in nodes}:
             names = ", ".join(node.name for node in nodes) or "none"
             raise CannotDoError(f"the launch file has no node {only}; it has: {names}")
-    analysis = run_nodes(project, args.no_run, only)
+    analysis = run_nodes(project, args, only)
     interfaces = analysis.graph.interfaces if analysis.graph else ()
     shown = [(n, i) for n, i in zip(nodes, interfaces, strict=True) if only in (None, n.name)]
     if args.format == "json":

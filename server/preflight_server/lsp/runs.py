@@ -12,7 +12,7 @@ import threading
 from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from preflight_analysis.evaluation.tree import LaunchTree
@@ -20,7 +20,7 @@ from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import PENDING, Interface
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.schedule import likeness, run_all
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
@@ -52,11 +52,31 @@ class Known:
 
 
 @dataclass(frozen=True, slots=True)
+class _Job:
+    """One run of a batch. `cancel` is its own: what an edit makes obsolete is ended, and the others go on."""
+
+    request: TraceRequest
+    begun: threading.Event = field(default_factory=threading.Event, compare=False)
+    cancel: threading.Event = field(default_factory=threading.Event, compare=False)
+
+    def run(self, tracer: Tracer) -> Interface:
+        """In a thread."""
+        self.begun.set()
+        return tracer.trace(self.request, self.cancel)
+
+
+@dataclass(frozen=True, slots=True)
 class _Batch:
     root: Root
-    requests: Mapping[NodeKey, TraceRequest]
+    jobs: Mapping[NodeKey, _Job]
     progress: Progress
-    cancel: threading.Event
+    cancelled: threading.Event = field(default_factory=threading.Event)
+
+    def stop(self) -> None:
+        """End all of it."""
+        self.cancelled.set()
+        for job in self.jobs.values():
+            job.cancel.set()
 
 
 def node_keys(tree: LaunchTree) -> list[NodeKey]:
@@ -168,7 +188,7 @@ class Runs:
             self._cancelled = True
         if self._batch is not None and self._batch.progress.token == token:
             self._cancelled = True
-            self._batch.cancel.set()
+            self._batch.stop()
 
     def close(self) -> None:
         """Stop what runs and wait for its end."""
@@ -179,7 +199,7 @@ class Runs:
     def _stop(self) -> None:
         self.commands.stop()
         if self._batch is not None:
-            self._batch.cancel.set()
+            self._batch.stop()
 
     async def _rounds(self) -> None:
         while self._wanted and not self._closing:
@@ -236,8 +256,11 @@ class Runs:
     async def _run(self, tracer: Tracer, root: Root, requests: Mapping[NodeKey, TraceRequest]) -> None:
         loop = asyncio.get_running_loop()
         progress = Progress(self._server, "Running nodes in the sandbox")
-        batch = self._batch = _Batch(root, requests, progress, threading.Event())
-        keys = list(requests)
+        focus = self._session.focus
+        # The nodes of the file that is being looked at come first.
+        keys = sorted(requests, key=lambda key: requests[key].launch != focus)
+        jobs = [_Job(requests[key]) for key in keys]
+        batch = self._batch = _Batch(root, dict(zip(keys, jobs, strict=True)), progress)
         known = self._known.setdefault(root, {})
         edition = self._edition
         done = 0
@@ -245,35 +268,50 @@ class Runs:
         def one_done(index: int, interface: Interface) -> None:
             nonlocal done
             done += 1
-            key = keys[index]
-            if interface.known or not batch.cancel.is_set():
-                known[key] = Known(requests[key] if edition == self._edition else None, interface)
+            key, job = keys[index], jobs[index]
+            if interface.known or not job.cancel.is_set():
+                known[key] = Known(job.request if edition == self._edition else None, interface)
             progress.report(f"{done} of {len(keys)}: {key[0]}", 100 * done // len(keys))
 
         def work() -> None:
-            trace_all(
-                tracer,
-                list(requests.values()),
+            run_all(
+                lambda job, _cancel: job.run(tracer),
+                jobs,
+                alike=lambda job: likeness(job.request),
                 on_done=lambda index, interface: tell(loop, one_done, index, interface),
-                cancel=batch.cancel,
+                cancel=batch.cancelled,
             )
 
         try:
             await loop.run_in_executor(self._pool, work)
         except asyncio.CancelledError:  # the loop ends; the thread would go on
-            batch.cancel.set()
+            batch.stop()
             raise
         finally:
             self._batch = None
-            progress.end("cancelled" if batch.cancel.is_set() else f"{len(keys)} nodes")
+            progress.end("cancelled" if batch.cancelled.is_set() else f"{len(keys)} nodes")
         self._session.interfaces_changed(root)
 
     async def _reconsider(self, batch: _Batch) -> None:
-        """Stop a batch of which a part is no longer what the launch file asks for; what is done is kept."""
-        analysis = next((a for a in self._session.roots() if a.launch == batch.root), None)
+        """End the runs of a batch that the launch file does not ask for any more, and let the root that the user looks
+        at now go first. A run that is under way may still tell what is asked for now: that depends on what it reads."""
+        roots = self._session.roots()
+        analysis = next((a for a in roots if a.launch == batch.root), None)
         if analysis is None:
-            batch.cancel.set()
+            batch.stop()
             return
-        requests = await self._requests(await self._session.workspace(), analysis)
-        if any(requests.get(key) != request for key, request in batch.requests.items()):
-            batch.cancel.set()
+        workspace = await self._session.workspace()
+        requests = await self._requests(workspace, analysis)
+        behind = roots[0].launch != batch.root and await self._wants_runs(workspace, roots[0])
+        for key, job in batch.jobs.items():
+            now = requests.get(key)
+            another = now is None or likeness(now) != likeness(job.request)
+            if another or ((behind or now != job.request) and not job.begun.is_set()):
+                job.cancel.set()
+
+    async def _wants_runs(self, workspace: Workspace, analysis: Analysis) -> bool:
+        if any(document.problems for document in analysis.documents.values()):
+            return False
+        known = self._known.get(analysis.launch, {})
+        requests = await self._requests(workspace, analysis)
+        return any(key not in known or known[key].request != request for key, request in requests.items())

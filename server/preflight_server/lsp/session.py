@@ -251,6 +251,11 @@ class Session:
         """The analyses of the roots that reach open files, those that files are shown in first."""
         return [self._analyses[root] for root in self._wanted() if root in self._analyses]
 
+    @property
+    def focus(self) -> str | None:
+        """The open launch file that was last opened or edited."""
+        return next(iter(self._focus), None)
+
     def roots_of(self, path: str) -> list[Root]:
         """The roots that reach a file, the one that it is shown in first."""
         chosen = [self._selected[path]] if path in self._selected else []
