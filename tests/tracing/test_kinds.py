@@ -246,3 +246,73 @@ def test_frames_of_tf2_ros(tmp_path: Path, static: bool) -> None:
     """
     found = trace(write_node(tmp_path, body))
     assert (found.outcome.status, found.frames) == ("spinning", (Frame("base", "laser", static),))
+
+
+def test_a_node_that_looks_for_its_own_service_does_not_call_it(tmp_path: Path) -> None:
+    body = """
+        import rospy, tf2_ros
+        rospy.init_node("n")
+        listener = tf2_ros.TransformListener(tf2_ros.Buffer())
+        rospy.spin()
+    """
+    found = trace(write_node(tmp_path, body))
+    assert {(e.role, e.name) for e in found.endpoints if e.role in ("service", "client") and not e.builtin} == {
+        ("service", "~tf2_frames")
+    }
+
+
+def test_a_node_that_takes_its_time_to_shut_down_is_not_spinning(tmp_path: Path) -> None:
+    body = """
+        import time
+        import rospy
+        rospy.init_node("n")
+        rospy.on_shutdown(lambda: time.sleep(2))
+        rospy.signal_shutdown("done")
+    """
+    found = trace(write_node(tmp_path, body))
+    assert (found.outcome.status, found.outcome.exit_code) == ("exited", 0)
+
+
+@pytest.mark.parametrize("loop", ["not rospy.is_shutdown()", "True"])
+def test_a_loop_with_sleeps_that_are_not_rospys_is_an_event_loop(tmp_path: Path, loop: str) -> None:
+    body = f"""
+        import time
+        import rospy
+        from std_msgs.msg import String
+        rospy.init_node("n")
+        chatter = rospy.Publisher("chatter", String, queue_size=1)
+        while {loop}:
+            chatter.publish("")
+            time.sleep(1)
+    """
+    found = trace(write_node(tmp_path, body))
+    assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
+    assert own(found) == {("publisher", "chatter", "std_msgs/String")}
+
+
+def test_a_node_of_no_client_library_is_seen_by_its_master(tmp_path: Path) -> None:
+    body = """
+        import os, sys, threading
+        from xmlrpc.client import ServerProxy
+        from xmlrpc.server import SimpleXMLRPCServer
+        name = "/" + next(a for a in sys.argv if a.startswith("__name:="))[len("__name:="):]
+        slave = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+        slave.register_function(lambda caller: [1, "", os.getpid()], "getPid")
+        uri = "http://127.0.0.1:%d/" % slave.server_address[1]
+        master = ServerProxy(os.environ["ROS_MASTER_URI"])
+        master.registerPublisher(name, "/chatter", "std_msgs/String", uri)
+        master.registerSubscriber(name, "/commands", "std_msgs/String", uri)
+        master.registerService(name, name + "/reset", "rosrpc://127.0.0.1:1", uri)
+        assert master.getParam(name, "/rate")[2] == 5
+        assert master.lookupService(name, "/elsewhere")[0] == -1
+        slave.serve_forever()
+    """
+    found = trace(write_node(tmp_path, body), params={"/rate": 5})
+    assert own(found) == {
+        ("publisher", "/chatter", "std_msgs/String"),
+        ("subscriber", "/commands", "std_msgs/String"),
+        ("service", "/node/reset", None),
+        ("client", "/elsewhere", None),
+    }
+    assert [(p.access, p.name) for p in found.params] == [("get", "/rate")]
+    assert found.outcome.status == "spinning"

@@ -214,6 +214,20 @@ def test_a_loop_that_polls_for_a_parameter_gets_one(tmp_path: Path, loop: str) -
     assert found.outcome.answers == ("it waits for the parameter /ready, and was given a value",)
 
 
+def test_a_parameter_is_given_what_the_node_itself_takes_for_it(tmp_path: Path) -> None:
+    found = waiting(
+        tmp_path,
+        """
+        assert rospy.get_param("mode", "slow") == "slow"
+        while not rospy.has_param("mode"): time.sleep(0.1)
+        assert rospy.get_param("mode") == "slow"
+        while not rospy.has_param("rate"): time.sleep(0.1)
+        rospy.Rate(rospy.get_param("rate"))
+        """,
+    )
+    assert made(found) == {"before": False, "after": True}
+
+
 @pytest.mark.parametrize(
     "wait",
     [

@@ -360,7 +360,8 @@ def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[
             known.add(("client", full))
             endpoints.append(Endpoint("client", name, None, source_file=file, source_line=line))
     for full in found.lookups:
-        if ("client", full) not in known:
+        # A node that looks whether its own service is there already (tf2_ros.Buffer) does not call it.
+        if not known & {("client", full), ("service", full)}:
             known.add(("client", full))
             endpoints.append(Endpoint("client", full, None))
     return tuple(endpoints)

@@ -44,6 +44,8 @@ class Watch:
         self._missing: set[str] = set()
         self.given: set[str] = set()
         """Parameters that are taken to be set."""
+        self.defaults: dict[str, Any] = {}
+        """What the node takes for those that are not."""
         self._clock = False
         _watches.append(self)
 

@@ -167,12 +167,18 @@ def _polled(
             except KeyError:
                 if not polled(param_name):
                     raise
-                return 0
+                return plausible(param_name)
+            if default is not unspecified and default is not None:
+                watch.defaults[resolve(str(param_name))] = default
             if (result is False if access == "has" else result is None and default is None) and polled(param_name):
-                return True if access == "has" else 0
+                return True if access == "has" else plausible(param_name)
             return result
 
         return advised
+
+    def plausible(name: Any) -> Any:
+        """What the node itself takes elsewhere, or what can be a rate, a size and a yes."""
+        return watch.defaults.get(resolve(str(name)), 1)
 
     def polled(name: Any) -> bool:
         """Whether a parameter that is not set is to be taken as set."""
@@ -236,6 +242,11 @@ def _other_threads() -> int:
         ):
             own += 1
     return own
+
+
+def _ends(_arguments: dict[str, Any]) -> None:
+    """The node is shut down, by whomever: however long that takes, it is no event loop."""
+    channel.send("state", state="ending")
 
 
 def _spin(flush: Callable[[], None], watch: polling.Watch) -> Callable[[Advised], Advised]:
@@ -409,6 +420,7 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
 
     function(client, "init_node", _after(_initialised(watch)), rospy)
     function(client, "spin", _spin(flush, watch), rospy)
+    function(root.core, "signal_shutdown", _before(_ends), rospy)
 
     def there(arguments: dict[str, Any]) -> None:
         answers.taken_to_be_there(root.names.resolve_name(arguments["service"]))

@@ -100,6 +100,7 @@ class Master:
         return self._unregister("service", caller, service)
 
     def api_lookupService(self, caller: str, service: str) -> list[Any]:
+        service = self._resolve(caller, service)
         providers = list(self._sides["service"].get(service, {}).values())
         if providers:
             return [1, f"rosrpc URI: [{providers}]"[-1], providers[-1]]

@@ -49,8 +49,11 @@ class Run:
         self.idle = False
         self.looped = False
         self.starving = False
+        self.ending = False
         self.fed_until = 0.0
         self.initialised = False
+        self.woven = False
+        self.registered = False
         self.pause_until = 0.0
         self.waits: list[tuple[str, str]] = []
         self.lookups: dict[str, int] = {}
@@ -79,6 +82,7 @@ class Run:
         """What the stub master hears. Polling for a service is no activity, or a waiting node would never be quiet."""
         if event == "m-lookup":
             self._lookup(fields["name"])
+        self.registered = self.registered or event == "m-endpoint"
         if event == "m-endpoint" and fields["role"] == "service" and fields["name"].endswith("/set_logger_level"):
             self.initialised = True  # the last thing that roscpp and rospy do at their start
         # A parameter that is asked for again and again is none either.
@@ -99,6 +103,7 @@ class Run:
         if not isinstance(event, dict) or event.get("ev") not in EVENTS:
             self.dropped += 1
             return
+        self.woven = self.woven or event["ev"] == "woven"
         if event["ev"] == "state":
             self._state(event)
         elif event["ev"] == "feed":
@@ -129,6 +134,8 @@ class Run:
             self.pause_until = 0.0
         elif state == "busy":
             self.starving = False
+        elif state == "ending":
+            self.ending = True
         elif state == "fed":
             # Whatever loop it was in, it may leave now: it has to show one again.
             self.idle = self.looped = self.starving = False
@@ -165,6 +172,8 @@ class Run:
             return "spinning"
         if now - self.started > self.job["limits"]["wall"]:
             return "timed-out"
+        if self.ending:
+            return None
         if self.feeder is not None and self.feeder.busy():
             self.fed_until = max(self.fed_until, now + 0.3)
         if self.waits or now < max(self.pause_until, self.fed_until) or self._polls():
@@ -175,7 +184,11 @@ class Run:
         if self.idle and quiet > self.job["limits"]["looped" if self.looped else "quiet"]:
             return "spinning"
         # An event loop that no hook knows: up and running, asleep, and nothing new for a good while.
-        if self.initialised and quiet > self.job["limits"]["settled"]:
+        settled = self.job["limits"]["settled"]
+        # Whose client library is none that we know has no sign of when it is up.
+        if quiet > (settled if self.initialised else 2 * settled) and (
+            self.initialised or (self.registered and not self.woven)
+        ):
             used = _cpu_seconds(self.pid)
             if used - self.cpu < 0.05:
                 return "spinning"
