@@ -353,6 +353,41 @@ def test_uses_of_parameters(desk: Desk) -> None:
     ]
 
 
+def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
+    desk.write(
+        "cfg/Tuning.cfg",
+        """
+        #!/usr/bin/env python
+        from dynamic_reconfigure.parameter_generator_catkin import *
+        gen = ParameterGenerator()
+        gen.add("gain", double_t, 0, "How much", 0.5, 0.0, 1.0)
+        group = gen.add_group("more")
+        group.add(name="frame", paramtype=str_t, level=0, description="", default="odom")
+        group.add("limit", int_t, 0, "", LIMIT)
+        gen.add(computed, int_t, 0, "")
+        exit(gen.generate("p", "t", "Tuning"))
+        """,
+    )
+    body = """
+        typedef dynamic_reconfigure::Server<p::TuningConfig> Tuner;
+        Tuner* tuner = new Tuner(ros::NodeHandle("~/inner"));
+        dynamic_reconfigure::Server<TuningConfig> own;
+        dynamic_reconfigure::Server<p::OtherConfig> other;
+        """
+    text = f"#include <p/TuningConfig.h>\nint main() {{\n{body}\n}}\n"
+    found = desk.read(text)
+    assert found is not None
+    cfg = str(desk.folder / "cfg/Tuning.cfg")
+    assert [(u.name, u.default, u.source_file, u.source_line) for u in found.params] == [
+        ("~inner/gain", 0.5, cfg, 5),
+        ("~inner/frame", "odom", cfg, 7),
+        ("~inner/limit", None, cfg, 8),
+        ("~gain", 0.5, cfg, 5),
+        ("~frame", "odom", cfg, 7),
+        ("~limit", None, cfg, 8),
+    ]
+
+
 def test_conditions_loops_and_exits(desk: Desk) -> None:
     assert desk.topics(
         """
@@ -495,13 +530,13 @@ def test_nodelets_in_a_program_of_their_own(desk: Desk) -> None:
     with_nodelet(desk)
     assert desk.topics(
         """
-        nodelet::Loader loader(false);
+        nodelet::Loader loader;
         nodelet::M_string remap(ros::names::getRemappings());
         nodelet::V_string nargv;
         loader.load(ros::this_node::getName(), "p/filter", remap, nargv);
         loader.load("inner", "p/filter", remap, nargv);
         """
-    ) == ["out", "~own", "in", "/inner/own"]
+    ) == ["~load_nodelet", "~unload_nodelet", "~list", "out", "~own", "in", "/inner/own"]
 
 
 def test_remaps_of_nodelets_in_a_program(desk: Desk) -> None:

@@ -200,6 +200,20 @@ def test_uses_of_parameters(desk: Desk) -> None:
     ]
 
 
+def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
+    cfg = desk.write("cfg/Tuning.cfg", 'gen = ParameterGenerator()\ngen.add("gain", double_t, 0, "How much", 0.5)\n')
+    found = desk.read(
+        """
+        from dynamic_reconfigure.server import Server
+        from p.cfg import TuningConfig
+        Server(TuningConfig, lambda config, level: config)
+        """
+    )
+    assert found is not None
+    assert [(u.name, u.default, u.source_file, u.source_line) for u in found.params] == [("~gain", 0.5, str(cfg), 2)]
+    assert [e.name for e in found.endpoints][:1] == ["~set_parameters"]
+
+
 def test_places(desk: Desk) -> None:
     found = desk.read('\n\nrospy.Publisher("a", String)\n')
     assert found is not None

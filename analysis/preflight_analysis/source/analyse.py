@@ -20,6 +20,7 @@ from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.source.config_params import ConfigParam, config_params
 from preflight_analysis.source.known_params import KnownParams, LaunchParams
 from preflight_analysis.source.python_text import parse
 from preflight_analysis.source.python_values import UNKNOWN
@@ -110,26 +111,32 @@ class SourceAnalysis:
             files[name] = found[1] if found is not None else self._texts.digest(name)
             return found
 
-        script = self._installed_script(node, text) if path is None else None
+        def plain(name: str) -> str | None:
+            found = text(name)
+            return found[0] if found is not None else None
+
+        def config(package: str, name: str) -> tuple[ConfigParam, ...]:
+            having = self._environment.packages.get(package)
+            return config_params(having.share, name, plain) if having is not None else ()
+
+        script = self._installed_script(node, plain) if path is None else None
         program = _Program(self, script or path, node, files)
         main = program.main()
         if main is not None:
             file, tree = main
-            calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type)
+            calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type, config)
             walk(file, tree, program.load, calls)
             found = calls.found
         else:
-            found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text)
+            found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text, config)
         return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params))
 
-    def _installed_script(self, node: LaunchNode, text: Callable[[str], tuple[str, str] | None]) -> str | None:
+    def _installed_script(self, node: LaunchNode, read: Callable[[str], str | None]) -> str | None:
         """The script that an installation of its package gives the node's name."""
         package = self._environment.packages.get(node.package)
         if package is None:
             return None
-        made = read_build(package.share, package.name, lambda path: (text(path) or (None, ""))[0]).programs.get(
-            node.executable
-        )
+        made = read_build(package.share, package.name, read).programs.get(node.executable)
         return made.path if made is not None else None
 
     @cached_property

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 
 from preflight_analysis.environment.model import Package
+from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
 from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.cpp_walk import walk_class, walk_main
@@ -35,13 +36,14 @@ class CppAnalysis:
         remaps: Mapping[str, str],
         params: KnownParams,
         text: Callable[[str], tuple[str, str] | None],
+        config: Config,
     ) -> Found:
         """What a node (its name, package and executable) makes. `text` gives the text of a file with its digest."""
         name, package, executable = node
         files = CppFiles(
             self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text)
         )
-        calls = RoscppCalls(name, remaps, params, self._has_type)
+        calls = RoscppCalls(name, remaps, params, self._has_type, config)
         if (nodelet := nodelet_of(package, executable, args)) is not None:
             self._nodelet(files, nodelet.plugin, calls)
             if nodelet.manager is not None and (calls.found.endpoints or calls.found.params):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_values import (
     Argument,
     CppType,
@@ -63,6 +64,11 @@ _MARKERS: tuple[tuple[Role, str, str], ...] = (
     ("publisher", "update", "visualization_msgs/InteractiveMarkerUpdate"),
     ("publisher", "update_full", "visualization_msgs/InteractiveMarkerInit"),
     ("subscriber", "feedback", "visualization_msgs/InteractiveMarkerFeedback"),
+)
+_LOADER = (
+    ("load_nodelet", "nodelet/NodeletLoad"),
+    ("unload_nodelet", "nodelet/NodeletUnload"),
+    ("list", "nodelet/NodeletList"),
 )
 _NODELET_HANDLES = {
     "getNodeHandle": "",
@@ -152,12 +158,18 @@ class RoscppCalls:
     """What the files of the program include."""
 
     def __init__(
-        self, node: str, remaps: Mapping[str, str], params: KnownParams, has_type: Callable[[str, str, str], bool]
+        self,
+        node: str,
+        remaps: Mapping[str, str],
+        params: KnownParams,
+        has_type: Callable[[str, str, str], bool],
+        config: Config,
     ) -> None:
         self._node = node
         self._remaps = remaps
         self._params = params
         self._has_type = has_type
+        self._config = config
         self.found = Found()
         self.nodelets: list[Loaded] = []
         """The nodelets that the program loads into its own process."""
@@ -186,6 +198,7 @@ class RoscppCalls:
             within = known if handle is not None else Handle(space)
             for role, topic, kind in ends:
                 self._end(role, within.name(topic), kind, place)
+            self._configured(type_, within)
         elif action := _ACTIONS.get(name):
             self._end(action, known.name(_first_text(given)), self._argument_type(type_, 0), place)
         elif name == "image_transport::TransportHints":
@@ -194,6 +207,9 @@ class RoscppCalls:
             base = value_at(args, 0)
             for role, topic, kind in _MARKERS:
                 self._end(role, f"{base}/{topic}" if isinstance(base, str) else UNKNOWN, kind, place)
+        elif name == "nodelet::Loader" and value_at(args, 0) is not False:
+            for service, kind in _LOADER:
+                self._end("service", (known if handle is not None else Handle("~")).name(service), kind, place)
         elif name in ("message_filters::Subscriber", "image_transport::SubscriberFilter"):
             made = _Made(type_, known)
             self._filter(made, given, place)
@@ -201,6 +217,16 @@ class RoscppCalls:
         elif name == "realtime_tools::RealtimePublisher" and args:
             self._end("publisher", known.name(_first_text(given)), self._argument_type(type_, 0), place)
         return _Made(type_, known) if name.startswith("image_transport::") else Unmade(type_)
+
+    def _configured(self, type_: CppType, handle: Handle) -> None:
+        """The parameters of a dynamic_reconfigure server."""
+        config = type_.args[0] if type_.name.endswith("dynamic_reconfigure::Server") and type_.args else None
+        kind = self._type(config) if config is not None else None
+        if kind is None or not kind.endswith("Config"):
+            return
+        package, _, name = kind.removesuffix("Config").partition("/")
+        for param in self._config(package, name):
+            self._param("get", handle.name(param.name), param.default, True, Place(param.file, param.line))
 
     def _new_handle(self, given: Sequence[Any]) -> Handle:
         parent = Handle("")
@@ -245,6 +271,8 @@ class RoscppCalls:
                 return self._node
             case "ros::this_node::getNamespace":
                 return names.parent(self._node).rstrip("/") or "/"
+            case "ros::names::clean" if isinstance(first, str):
+                return names.canonicalize(first)
             case "ros::names::append" if isinstance(first, str):
                 second = value_at(args, 1)
                 return names.canonicalize(f"{first}/{second}") if isinstance(second, str) else UNKNOWN

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.found import Found, is_name
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, Imported, StarImported, is_plain
@@ -62,13 +63,20 @@ class RospyCalls:
     """Collects what the calls of one node make. Implements `python_walk.Calls`."""
 
     def __init__(
-        self, node: str, remaps: Mapping[str, str], argv: Sequence[str], params: KnownParams, has_type: HasType
+        self,
+        node: str,
+        remaps: Mapping[str, str],
+        argv: Sequence[str],
+        params: KnownParams,
+        has_type: HasType,
+        config: Config,
     ) -> None:
         self._node = node
         self._remaps = remaps
         self._argv = list(argv)
         self._params = params
         self._has_type = has_type
+        self._config = config
         self.found = Found()
 
     def value(self, path: str) -> Any:
@@ -91,6 +99,8 @@ class RospyCalls:
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
                 self.found.end(Endpoint(role, topic, type_, None, {}, file, line))
+            if name == "dynamic_reconfigure.Server":
+                self._configured(given(0, "type"))
             return Imported(f"{name}()")
         if name == "rospy.wait_for_service":
             service = given(0, "service")
@@ -102,6 +112,13 @@ class RospyCalls:
         if name == "rospy.get_param_names":
             self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
         return self._other(name, args, given)
+
+    def _configured(self, config: Any) -> None:
+        """The parameters of a dynamic_reconfigure server, made of the module `package.cfg.NameConfig`."""
+        package, _, module = config.path.partition(".cfg.") if isinstance(config, Imported) else ("", "", "")
+        if module.endswith("Config"):
+            for param in self._config(package, module.removesuffix("Config")):
+                self._param("get", f"~{param.name}", param.default, True, param.file, param.line)
 
     def _other(self, name: str, args: Sequence[Any], given: Callable[[int, str], Any]) -> Any:
         if name == "rospy.myargv":
