@@ -94,8 +94,8 @@ async def test_where_no_sandbox_works_nothing_runs_and_the_reason_is_shown(desk:
     broken.mkdir()
     (broken / "bwrap").write_text("#!/bin/sh\necho no permission for namespaces >&2\nexit 1\n")
     (broken / "bwrap").chmod(0o755)
-    path = f"{broken}:{desk.environment['PATH']}"
-    async with editing(desk, trusted=True, environment={"PATH": path}) as editor:
+    variables = {"PATH": f"{broken}:{desk.environment['PATH']}", "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
+    async with editing(desk, trusted=True, environment=variables) as editor:
         editor.open(desk.launch_file)
         found = await editor.having(desk.launch_file, "TRC004")
         assert "no permission for namespaces" in found.message
