@@ -20,9 +20,9 @@ def refused(number: int) -> int:
     return 0x00050000 | number
 
 
-def verdict(machine: str, architecture: int, call: int, *arguments: int) -> int:
+def verdict(machine: str, architecture: int, call: int, *arguments: int, shared: bool = False) -> int:
     """What the kernel would answer: the few instructions of classic BPF that are used, one by one."""
-    code = seccomp.program(machine)
+    code = seccomp.program(machine, shared)
     assert code is not None
     data = struct.pack("=IIQ6Q", call, architecture, 0, *(*arguments, *[0] * (6 - len(arguments))))
     accumulator, at = 0, 0
@@ -33,6 +33,8 @@ def verdict(machine: str, architecture: int, call: int, *arguments: int) -> int:
             (accumulator,) = struct.unpack_from("=I", data, value)
         elif operation == 0x06:
             return int(value)
+        elif operation == 0x54:
+            accumulator &= value
         else:
             holds = {0x15: accumulator == value, 0x35: accumulator >= value, 0x45: bool(accumulator & value)}[operation]
             at += then if holds else otherwise
@@ -72,6 +74,35 @@ def test_every_refused_call_is_refused_by_the_whole_program() -> None:
             for name, numbers in calls.items():
                 call = numbers[column]
                 assert call is None or verdict(machine, architecture, call) == refused(number), name
+
+
+def test_the_program_for_the_hosts_name_spaces() -> None:
+    """Only what connects is left of sockets, and a keeper is asked where to."""
+    ask = 0x7FC00000
+    for column, (machine, architecture) in enumerate([("x86_64", X86), ("aarch64", ARM)]):
+
+        def answer(numbers: tuple[int | None, int | None], *arguments: int) -> int:
+            number = numbers[column]  # noqa: B023
+            return ALLOW if number is None else verdict(machine, architecture, number, *arguments, shared=True)  # noqa: B023
+
+        for name, numbers in seccomp._REFUSED_SHARED.items():
+            assert numbers[column] is None or answer(numbers) == refused(errno.EPERM), name
+        for name, numbers in seccomp._ASKED.items():
+            assert answer(numbers) == ask, name
+        for name, numbers in seccomp._REFUSED.items():
+            assert numbers[column] is None or answer(numbers) == refused(errno.EPERM), name
+        made, pair, sent, control = (41, 198), (53, 199), (44, 206), (72, 25)
+        stream, datagram, raw, ordered, closing = 1, 2, 3, 5, 0o2000000
+        no_such = refused(errno.EPROTONOSUPPORT)
+        assert [answer(made, family, stream | closing) for family in (1, 2, 10)] == [ALLOW] * 3
+        assert [answer(made, family, datagram | closing) for family in (1, 2, 10, 16)] == [no_such] * 4
+        assert [answer(made, family, raw) for family in (1, 2, 10, 16)] == [no_such] * 3 + [ALLOW]
+        assert [answer(made, family, ordered) for family in (1, 2, 10)] == [ALLOW, no_such, no_such]
+        assert [answer(made, 2, stream, protocol) for protocol in (0, 6, 262)] == [ALLOW, ALLOW, no_such]
+        assert answer(made, 40, stream) == refused(errno.EAFNOSUPPORT)
+        assert [answer(pair, 1, kind) for kind in (stream, ordered, datagram)] == [ALLOW, ALLOW, no_such]
+        assert [answer(sent, 3, 0, 0, flags) for flags in (0, 0x20000000)] == [ALLOW, refused(errno.EOPNOTSUPP)]
+        assert [answer(control, 3, which) for which in (3, 8, 15)] == [ALLOW] + [refused(errno.EPERM)] * 2
 
 
 def test_an_unknown_processor_has_no_program() -> None:

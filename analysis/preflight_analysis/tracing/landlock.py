@@ -67,6 +67,14 @@ def readable(view: View) -> list[str]:
     return found
 
 
+def _tracing_scope() -> int:
+    """Who may look into whom: up to 1 a process into its descendants, as `landlock_launcher` has to."""
+    try:
+        return int(Path("/proc/sys/kernel/yama/ptrace_scope").read_text())
+    except (OSError, ValueError):
+        return 0
+
+
 @contextlib.contextmanager
 def isolated(argv: Sequence[str], view: View) -> Iterator[Isolated]:
     """The way to run `argv`, once, until the end of the block."""
@@ -78,6 +86,9 @@ def isolated(argv: Sequence[str], view: View) -> Iterator[Isolated]:
         raise OSError(f"Landlock needs the filter of system calls, and there is none for {machine}")
     if not os.path.exists(f"/proc/self/task/{threading.get_native_id()}/children"):
         raise OSError("the kernel does not tell the children of a process (CONFIG_PROC_CHILDREN)")
+    tracing = _tracing_scope()
+    if tracing > 2 or (tracing == 2 and os.geteuid() != 0):
+        raise OSError(f"kernel.yama.ptrace_scope is {tracing}: connections of the run cannot be looked at")
     with contextlib.ExitStack() as at_end:
         folder = at_end.enter_context(run_folder(tempfile.gettempdir()))
         moved = {inside: folder + inside for inside in (PRIVATE, "/tmp", view.home)}  # noqa: S108

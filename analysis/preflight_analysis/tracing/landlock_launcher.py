@@ -58,6 +58,8 @@ _SET_PDEATHSIG, _SET_NO_NEW_PRIVS, _SET_CHILD_SUBREAPER, _CAPBSET_DROP, _SET_SEC
 _NO_ROOT_LOCKED = 0xEF
 """SECBIT_NOROOT, NO_SETUID_FIXUP, NO_CAP_AMBIENT_RAISE, KEEP_CAPS_LOCKED and the other locks."""
 
+_FAILED = 125
+"""The exit code where it did not come to a run."""
 _MOST_SOCKETS = 400
 _MOST_WAITING = 64
 _ENDING_SECONDS = 4.0
@@ -178,10 +180,14 @@ class Keeper:
             return
         key, thread, _, number, _, _, *arguments = struct.unpack("=QIIiIQ6Q", notice)
         name = self._asked.get(number, "")
-        if name in ("connect", "listen") and self._waiting < _MOST_WAITING:
+        if name in ("connect", "listen"):
             # Both can block: on a queue that is full, or a lock that somebody holds.
             with self._lock:
-                self._waiting += 1
+                refused = self._waiting >= _MOST_WAITING
+                self._waiting += not refused
+            if refused:
+                self._reply(key, errno.EAGAIN)
+                return
             threading.Thread(target=self._decide_apart, args=(key, thread, name, arguments), daemon=True).start()
         else:
             self._decide(key, thread, name, arguments)
@@ -207,6 +213,9 @@ class Keeper:
             error = failed.errno or errno.EPERM
         except (ValueError, OverflowError):
             error = errno.EINVAL
+        self._reply(key, error, flags)
+
+    def _reply(self, key: int, error: int, flags: int = 0) -> None:
         # An error: the caller is gone, or was interrupted and asks again.
         with contextlib.suppress(OSError):
             fcntl.ioctl(self._listener, _SEND, struct.pack("=QqiI", key, 0, -error, flags))
@@ -338,11 +347,11 @@ def _descends(process: int) -> bool:
     return False
 
 
-def _end_all(version: int) -> None:
-    """End everything that descends from us."""
+def _end_all(scoped: bool) -> None:
+    """End everything that descends from us. `scoped`: our signals reach nothing else."""
     deadline = time.monotonic() + _ENDING_SECONDS
     while time.monotonic() < deadline:
-        if version >= 6:
+        if scoped:
             with contextlib.suppress(OSError):
                 os.kill(-1, signal.SIGKILL)
         else:
@@ -374,20 +383,23 @@ def main() -> None:
         order = json.load(file)
     leash = order["leash"]
     os.set_inheritable(leash, False)
-    version = order["version"]
+    scoped = False
+    failed = True
     try:
         _control(_SET_CHILD_SUBREAPER, 1)
         _control(_SET_NO_NEW_PRIVS, 1)
-        if version >= 6:
-            _confine(version, 0, 0, _SCOPE_SIGNAL, [])
-        _run(order, leash)
+        if order["version"] >= 6:
+            _confine(order["version"], 0, 0, _SCOPE_SIGNAL, [])
+            scoped = True
+        failed = not _run(order, leash)
     finally:
-        _end_all(version)
+        _end_all(scoped)
         _removed(order["folder"])
-    os._exit(0)
+    os._exit(_FAILED if failed else 0)
 
 
-def _run(order: dict[str, Any], leash: int) -> None:
+def _run(order: dict[str, Any], leash: int) -> bool:
+    """Whether it came to a run at all."""
     ours, theirs = socket.socketpair()
     child = os.fork()
     if child == 0:
@@ -397,17 +409,16 @@ def _run(order: dict[str, Any], leash: int) -> None:
         except OSError as error:
             os.write(2, f"landlock: {error}\n".encode())
         finally:
-            os._exit(125)
+            os._exit(_FAILED)
     theirs.close()
     ended = os.pidfd_open(child)
     _, listeners, _, _ = socket.recv_fds(ours, 1, 1)
-    if listeners:
-        Keeper(listeners[0], {int(number): name for number, name in order["asked"].items()}).serve([leash, ended])
+    if not listeners:
+        os.waitpid(child, 0)
+        return False
+    Keeper(listeners[0], {int(number): name for number, name in order["asked"].items()}).serve([leash, ended])
     status = os.waitpid(child, os.WNOHANG)[1] if _readable(ended) else 0
-    if os.WIFEXITED(status) and os.WEXITSTATUS(status) == 125:
-        _end_all(order["version"])
-        _removed(order["folder"])
-        os._exit(125)
+    return os.waitstatus_to_exitcode(status) != _FAILED
 
 
 def _readable(descriptor: int) -> bool:
