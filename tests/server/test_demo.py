@@ -53,6 +53,23 @@ async def test_a_remap_needs_no_new_run(desk: Desk) -> None:
         assert desk.sandbox_starts() == runs
 
 
+async def test_a_parameter_that_is_read_runs_that_node_again_and_no_other(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        before, starts = set(editor.runs), desk.sandbox_starts()
+        at = text.index('<param name="rate"')
+        editor.replace(desk.launch_file, at, at, '<param name="never_read" value="1"/>')
+        await editor.having(desk.launch_file, "PRM001")
+        at = editor.texts[desk.launch_file].index('value="5"') + len('value="')
+        editor.replace(desk.launch_file, at, at + 1, "7")
+        ended = await editor.until(
+            lambda: next((v for t, v in editor.runs.items() if t not in before and v[-1]["kind"] == "end"), None), 60
+        )
+        assert ended[-1]["message"] == "1 nodes"
+        assert desk.sandbox_starts() == starts + 1
+
+
 async def test_findings_stay_while_other_text_is_typed(desk: Desk) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(desk.launch_file)

@@ -46,8 +46,9 @@ RULE = Rule(
     severity="info",
     what="Says which nodes were not run, and why: the workspace is not trusted, there is no sandbox on this machine, a "
     "value that the node needs is unknown.",
-    why="Nothing is known of their topics, services and parameters, unless annotations tell. Findings about "
-    "connections are missing, or less sure.",
+    why="Of their topics, services and parameters is known what annotations or the settings say, else what the same "
+    "executable did in a run under another configuration, else what the source says. Findings about connections are "
+    "missing, or less sure.",
     example="ros-preflight: the 2 nodes of this launch were not run: the workspace is not trusted",
     instead="Trust the workspace in the editor, install `bubblewrap`, or annotate the nodes.",
     generations=(1,),
