@@ -621,6 +621,14 @@ def test_headers_of_another_package_bring_their_source(desk: Desk) -> None:
     assert [(e.name, e.source_file) for e in found.endpoints] == [("~made", str(folder / "src/thing.cpp"))]
 
 
+def test_a_library_of_ros_in_source_form_is_known_all_the_same(desk: Desk) -> None:
+    desk.add_package("message_filters")
+    header = "namespace message_filters { template <class M> class Subscriber { public: Subscriber(int a, int b); }; }"
+    desk.write("message_filters/include/message_filters/subscriber.h", header)
+    body = 'ros::NodeHandle nh; message_filters::Subscriber<std_msgs::String> sub(nh, "a", 1);'
+    assert desk.topics(body, "#include <message_filters/subscriber.h>") == ["a"]
+
+
 def test_a_program_that_is_built_is_known_by_its_source_too(desk: Desk) -> None:
     built = desk.folder / "t"
     built.write_bytes(b"\x7fELF\2\1\1\0")

@@ -12,7 +12,7 @@ from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.cpp_walk import walk_class, walk_main
 from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
-from preflight_analysis.source.roscpp_calls import RoscppCalls
+from preflight_analysis.source.roscpp_calls import LIBRARIES, RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
 from preflight_analysis.tracing.nodelets import nodelet_of
 
@@ -41,7 +41,7 @@ class CppAnalysis:
         """What a node (its name, package and executable) makes. `text` gives the text of a file with its digest."""
         name, package, executable = node
         files = CppFiles(
-            self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text)
+            self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text), LIBRARIES
         )
         calls = RoscppCalls(name, remaps, params, self._has_type, config)
         if (nodelet := nodelet_of(package, executable, args)) is not None:

@@ -6,7 +6,7 @@ Headers of packages in source form are followed, and with a header of another pa
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import PurePath
 
 from lxml import etree
@@ -25,17 +25,19 @@ _PLUGINS = frozenset({"nodelet", "pluginlib"})
 
 class CppFiles:
     """Puts one program together. `read` gives the text of a file, `parse` what a file declares; both note that the
-    file was looked at."""
+    file was looked at. Files of the packages `known` are left out of the programs of others."""
 
     def __init__(
         self,
         packages: Mapping[str, Package],
         read: Callable[[str], str | None],
         parse: Callable[[str], FileText | None],
+        known: Collection[str] = (),
     ) -> None:
         self._packages = packages
         self._read = read
         self._parse = parse
+        self._known = known
         self._builds: dict[str, Build] = {}
 
     def build(self, package: str) -> Build:
@@ -110,12 +112,12 @@ class CppFiles:
             folders = [os.path.dirname(file.path), *self._folders(package)]
             other = include.partition("/")[0]
             if other != package:
-                folders += self._folders(other)
+                folders += self._folders(other) if other not in self._known else []
             path = _first(os.path.normpath(os.path.join(folder, include)) for folder in folders)
             if path is None:
                 continue
             yield path
-            if other in self._packages and other != package:
+            if other in self._packages and other != package and other not in self._known:
                 yield from self._implementing(path, other)
 
     def _folders(self, package: str) -> list[str]:

@@ -25,6 +25,28 @@ from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
+LIBRARIES = frozenset(
+    {
+        "actionlib",
+        "camera_info_manager",
+        "diagnostic_updater",
+        "dynamic_reconfigure",
+        "image_transport",
+        "interactive_markers",
+        "message_filters",
+        "nodelet",
+        "pluginlib",
+        "realtime_tools",
+        "ros",
+        "tf",
+        "tf2",
+        "tf2_ros",
+        "topic_tools",
+        "urdf",
+    }
+)
+"""The packages whose calls are known here."""
+
 _TF = "tf2_msgs/TFMessage"
 _IMAGE, _INFO = "sensor_msgs/Image", "sensor_msgs/CameraInfo"
 _LISTENS: tuple[tuple[Role, str, str], ...] = (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF))
