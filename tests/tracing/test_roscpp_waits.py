@@ -99,3 +99,10 @@ def test_frames_of_broadcasters(package: Path) -> None:
         Frame("base", "laser", static=True),
         Frame("odom", "base", static=False),
     )
+
+
+@pytest.mark.parametrize("mode", ["message", "rate", "result"])
+def test_messages_are_made_up_whatever_isolates_the_node(package: Path, each_backend: str, mode: str) -> None:
+    found = waiting(package, mode)
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    assert made(found) == {"before": False, "after": True}
