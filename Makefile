@@ -41,6 +41,7 @@ bench: setup ## editing and completion latency, a large workspace and the time o
 	$(BIN)/python bench/completion.py
 	$(BIN)/python bench/index.py
 	$(BIN)/python bench/trace.py
+	$(BIN)/python bench/fleet.py
 	$(BIN)/python bench/commands.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
