@@ -588,3 +588,17 @@ def test_a_typo_of_a_name_that_a_node_searches_for() -> None:
     mended = apply(text, finding.fixes[0].edits)["/main.launch"]
     assert 'name="tf_prefix"' in mended
     assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
+
+
+def test_the_section_of_a_node_that_is_started_elsewhere() -> None:
+    check("""
+        <launch>
+          <rosparam>
+            amcl: {odom_frame: odom_combined, base_frame: base_footprint, beams: 30, particles: 100, alpha: 0.1}
+            planner: {odom_frame: odom, base_frame: base_link}
+          </rosparam>
+          <node pkg="p" type="t" name="base"/>
+        </launch>
+        //- interfaces
+        {"/base": {"params": {"~odom_frame": "odom", "~base_frame": "base_link", "~rate": 10}}}
+    """)

@@ -232,8 +232,8 @@ def _nearest_read(param: Param, holder: LaunchNode, reads: Iterable[ParamRead]) 
 def _misplaced(params: Iterable[Param], reads: _Reads) -> Iterator[tuple[Param, ParamRead]]:
     """Parameters that nobody reads, each with a read of the same leaf name in another namespace that nothing sets.
 
-    A leaf name alone (`rate`, `frame_id`) is no evidence: either two or more of a namespace's names agree, or the
-    namespaces' own names are alike, or it is a typo of a name in the same namespace.
+    A leaf name alone (`rate`, `frame_id`) is no evidence: either two or more of a namespace's names agree, and most, or
+    the namespaces' own names are alike, or it is a typo of a name in the same namespace.
     """
     by_namespace: dict[str, dict[str, ParamRead]] = {}
     for name, read in reads.unset.items():
@@ -251,7 +251,11 @@ def _misplaced(params: Iterable[Param], reads: _Reads) -> Iterator[tuple[Param, 
             if other == namespace:
                 continue
             common = leaves.keys() & there.keys()
-            if len(common) >= 2 or (common and _alike_namespaces(namespace, other)):
+            # A file has sections for nodes that are started elsewhere: they share names with others, but not most.
+            same = len(common) >= 2 and 2 * len(common) >= len(leaves)
+            if (same or (common and _alike_namespaces(namespace, other))) and any(
+                _would_change(leaves[leaf], there[leaf]) for leaf in common
+            ):
                 rank = (-len(common), other)
                 best = rank if best is None or rank < best else best
         if best is not None:
