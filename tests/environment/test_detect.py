@@ -76,11 +76,41 @@ def test_rospy_for_python_2_cannot_be_traced(tmp_path: Path) -> None:
     assert "Python 2.7" in problem
 
 
-def test_ros_2_that_is_sourced_is_said_and_not_taken_for_the_distribution(tmp_path: Path) -> None:
+def test_ros_2_that_is_sourced_counts_and_ros_1_is_found_beside_it(tmp_path: Path) -> None:
     install_debian(tmp_path)
     environment = detect_environment(None, {"ROS_DISTRO": "humble", "ROS_VERSION": "2"}, root=str(tmp_path))
-    assert environment.distro == "noetic"
-    assert environment.problems == ("ROS 2 Humble is sourced here; launch files of ROS 1 are analysed without it.",)
+    assert (environment.generation, environment.distro, environment.problems) == (2, "humble", ())
+    assert environment.system_prefixes == (str(tmp_path / "usr"),)
+
+
+def ament(prefix: Path, name: str) -> Path:
+    """An installed package of ROS 2."""
+    file(prefix / "share" / "ament_index" / "resource_index" / "packages" / name)
+    return package(prefix / "share" / name)
+
+
+def test_packages_of_ros_2(tmp_path: Path) -> None:
+    opt = tmp_path / "opt" / "ros" / "jazzy"
+    for name in ("rclpy", "mine", "other"):
+        ament(opt, name)
+    ament(tmp_path / "opt" / "ros" / "humble", "rclpy")
+    ament(tmp_path / "ws" / "install" / "other", "other")
+    mine = package(tmp_path / "ws" / "src" / "mine")
+    (mine / "package.xml").write_text(
+        "<package><name>mine</name><export><build_type>ament_python</build_type></export></package>"
+    )
+    environment = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path))
+    assert (environment.generation, environment.distro) == (2, "jazzy")
+    assert environment.ament_prefixes == (str(tmp_path / "ws/install/other"), str(opt))
+    assert {name: found.share for name, found in environment.packages.items()} == {
+        "mine": str(mine),
+        "other": str(tmp_path / "ws/install/other/share/other"),
+        "rclpy": str(opt / "share/rclpy"),
+    }
+    assert environment.packages["mine"].generation == 2
+    (tmp_path / "ws" / "src" / "mine" / "COLCON_IGNORE").touch()
+    environment = detect_environment(str(tmp_path / "ws"), {"AMENT_PREFIX_PATH": str(opt)}, root=str(tmp_path))
+    assert environment.packages["mine"].share == str(opt / "share/mine")
 
 
 def test_workspace_comes_before_what_is_installed_and_after_what_is_sourced(tmp_path: Path) -> None:
@@ -167,7 +197,7 @@ def test_workspace_of_a_file(tmp_path: Path) -> None:
     launch = file(tmp_path / "ws" / "src" / "repository" / "p" / "launch" / "a.launch")
     assert workspace_of(str(launch)) == str(launch.parent)
     package(launch.parents[1])
-    assert workspace_of(str(launch)) == str(launch.parents[1])
+    assert workspace_of(str(launch)) == str(tmp_path / "ws"), "what has a src is a workspace, built or not"
     (launch.parents[2] / ".git").mkdir()
     assert workspace_of(str(launch)) == str(launch.parents[2])
     space(tmp_path / "ws" / "devel")

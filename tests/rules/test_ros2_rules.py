@@ -90,3 +90,35 @@ def test_a_required_argument_counts_only_where_the_include_passes_it() -> None:
           <node pkg="p" exec="camera" name="camera_$(var serial)"/>
         </launch>
     """)
+
+
+def test_an_argument_that_nobody_below_uses() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="deep" default="1"/>
+          <include file="/arm.launch.xml">
+            <arg name="robot_address" value="10.0.0.2"/>
+                       ^^^^^^^^^^^^^ warning[ARG004] neither '/arm.launch.xml' nor what it includes declares or uses
+            <arg name="speed" value="1"/>
+            <arg name="deeper" value="2"/>
+            <arg name="late" value="2"/>
+          </include>
+          <log message="$(var late)"/>
+          <include file="/open.launch.xml"><arg name="any" value="1"/></include>
+        </launch>
+        //- /arm.launch.xml
+        <launch>
+          <arg name="robot_ip" default="10.0.0.1"/>
+          <include file="/drive.launch.yaml"/>
+          <group if="false"><log message="$(var speed)"/></group>
+        </launch>
+        //- /drive.launch.yaml
+        launch:
+          - arg: {name: deeper, default: '0'}
+        //- /open.launch.xml
+        <launch>
+          <arg name="extra" default="false"/>
+          <include file="$(find-pkg-share p)/extra.launch.py" if="$(var extra)"/>
+        </launch>
+    """)

@@ -65,6 +65,16 @@ class Program:
 
 
 @dataclass(frozen=True, slots=True)
+class Installed:
+    """A file or folder that is installed, and the folder below the prefix in which it then is."""
+
+    source: str
+    destination: str
+    name: str
+    """What it is called there; "" where only what is in the folder is installed."""
+
+
+@dataclass(frozen=True, slots=True)
 class Made:
     """Where an executable comes from: the file in the source, and whether `catkin_make` makes it known already or
     only `install` does."""
@@ -80,6 +90,10 @@ class Build:
     targets: Mapping[str, Target] = field(default_factory=dict)
     programs: Mapping[str, Program] = field(default_factory=dict)
     """Scripts by the name they get."""
+    installed: tuple[Installed, ...] = ()
+    """Files and folders other than programs and targets."""
+    components: Mapping[str, str] = field(default_factory=dict)
+    """Library by the class of each rclcpp component that it registers."""
 
     def executable(self, name: str) -> Target | None:
         """The target whose file has this name."""
@@ -201,6 +215,8 @@ class _Lists:
         self._read = read
         self._targets: dict[str, _Making] = {}
         self._programs: dict[str, Program] = {}
+        self._installed: list[Installed] = []
+        self._components: dict[str, str] = {}
         self._macros: dict[str, _Command] = {}
         self._left = _MAX_COMMANDS
 
@@ -211,6 +227,8 @@ class _Lists:
                 for t in self._targets.values()
             },
             self._programs,
+            tuple(self._installed),
+            self._components,
         )
 
     def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> None:
@@ -255,7 +273,10 @@ class _Lists:
         if name in self._macros:
             self._called(self._macros[name], words, variables, depth)
             return
-        match name.removeprefix("cuda_").removeprefix("rosbuild_").removeprefix("qt5_"), words:
+        match (
+            name.removeprefix("ament_auto_").removeprefix("cuda_").removeprefix("rosbuild_").removeprefix("qt5_"),
+            words,
+        ):
             case "project", [project, *_]:
                 variables["PROJECT_NAME"] = project
                 variables["PROJECT_SOURCE_DIR"] = variables[f"{project}_SOURCE_DIR"] = folder
@@ -289,6 +310,14 @@ class _Lists:
                 self._outputs(rest[: rest.index("PROPERTY")], rest[rest.index("OUTPUT_NAME") + 1])
             case (("install" | "catkin_install_python"), ["PROGRAMS", *rest]):
                 self._install(rest, folder, relayed=name == "catkin_install_python")
+            case "install", [("DIRECTORY" | "FILES") as kind, *rest] if "DESTINATION" in rest[:-1]:
+                self._data(rest, folder, whole=kind == "DIRECTORY")
+            case "package", ["INSTALL_TO_SHARE", *folders]:  # ament_auto_package
+                self._data([*folders, "DESTINATION", "share/${PROJECT_NAME}"], folder, whole=True)
+            case "rclcpp_components_register_node", [target, *rest] if "PLUGIN" in rest[:-1]:
+                self._component(target, rest)
+            case "rclcpp_components_register_nodes", [target, *plugins]:
+                self._components.update(dict.fromkeys(plugins, target))
             case "add_subdirectory", [below, *_]:
                 self.folder(os.path.normpath(os.path.join(folder, below)), variables, depth)
             case "include", [file, *_] if file.endswith(".cmake") and depth < _MAX_DEPTH:
@@ -321,6 +350,23 @@ class _Lists:
         for name in targets:
             if name in self._targets and output:
                 self._targets[name].output = output
+
+    def _component(self, target: str, words: Sequence[str]) -> None:
+        """A component that has an executable of its own as well."""
+        self._components[words[words.index("PLUGIN") + 1]] = target
+        if "EXECUTABLE" in words[:-1] and target in self._targets:
+            name = words[words.index("EXECUTABLE") + 1]
+            self._targets.setdefault(name, _Making(name, "executable", list(self._targets[target].sources), [target]))
+
+    def _data(self, words: Sequence[str], folder: str, *, whole: bool) -> None:
+        destination = words[words.index("DESTINATION") + 1]
+        end = next((index for index, word in enumerate(words) if word in _PLACES), len(words))
+        renamed = words[words.index("RENAME") + 1] if "RENAME" in words[:-1] else None
+        for word in words[:end]:
+            path = os.path.normpath(os.path.join(folder, word))
+            # A folder with a slash at its end stands for what is in it.
+            name = "" if whole and word.endswith("/") else renamed or os.path.basename(path)
+            self._installed.append(Installed(path, destination, name))
 
     def _install(self, words: Sequence[str], folder: str, relayed: bool) -> None:
         end = next((index for index, word in enumerate(words) if word in _PLACES), len(words))

@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, Found, find_packages
 
@@ -42,17 +43,19 @@ def detect(place: str | None, package_path: Sequence[str] | None = None) -> Envi
 def workspace_of(file: str) -> str:
     """The folder to take as the workspace when only a file is known.
 
-    The catkin workspace around it, else the project (settings file, git) or the package that it is in, else its own
-    folder.
+    The catkin or colcon workspace around it, else the project (settings file, git) that it is in, else the folder whose
+    `src` it is below, else its package, else its own folder.
     """
     folder = os.path.dirname(os.path.abspath(file))
-    if catkin := _catkin_workspace(folder):
-        return catkin
-    for marks in ((SETTINGS_FILE, ".git"), (MANIFEST, LEGACY_MANIFEST)):
-        for candidate in _with_parents(folder):
-            if any(os.path.exists(os.path.join(candidate, mark)) for mark in marks):
-                return candidate
-    return folder
+    if workspace := _catkin_workspace(folder) or _colcon_workspace(folder):
+        return workspace
+    for candidate in _with_parents(folder):
+        if any(os.path.exists(os.path.join(candidate, mark)) for mark in (SETTINGS_FILE, ".git")):
+            return candidate
+    package = next((candidate for candidate in _with_parents(folder) if _is_package(candidate)), None)
+    if package is None:
+        return folder
+    return _above_src(package) or package
 
 
 def detect_environment(
@@ -73,6 +76,7 @@ def detect_environment(
     debian = os.path.join(root, "usr")
     has_debian = any(os.path.isfile(os.path.join(debian, "share", name, MANIFEST)) for name in _DEBIAN_MARKS)
     catkin = _catkin_workspace(workspace)
+    colcon = _colcon_workspace(workspace) if workspace else None
     listed = [*_split(variables.get("ROS_ROOT")), *_split(variables.get("ROS_PACKAGE_PATH"))]
 
     if package_path is not None:
@@ -85,7 +89,7 @@ def detect_environment(
         path = _unique(
             [
                 *(entry for entry in listed if os.path.abspath(entry) not in last),
-                *_source_folders(workspace, catkin),
+                *_source_folders(workspace, catkin or colcon),
                 *(entry for entry in listed if os.path.abspath(entry) in last),
                 *installed,
             ]
@@ -95,26 +99,32 @@ def detect_environment(
     if has_debian:
         system.append(debian)
     found = find_packages(path, skip=BUILT)
+    prefixes = ament_prefixes(variables, colcon or workspace, root) if package_path is None else []
+    packages = {**installed_packages(prefixes), **found.packages}
+    ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     problems = [
         *_path_problems(listed if package_path is None else package_path),
         *found.problems,
-        *_workspace_problems(catkin or workspace, devel, found),
-        *_installation_problems(variables, python),
+        *([] if ros2 else _workspace_problems(catkin or workspace, devel, found)),
+        *([] if ros2 else _installation_problems(variables, python)),
     ]
     return Environment(
-        generation=1,
-        distro=distro or (_debian_distribution(debian) if has_debian else None),
+        generation=2 if ros2 else 1,
+        distro=distribution(variables, prefixes)
+        if ros2
+        else distro or (_debian_distribution(debian) if has_debian else None),
         variables=given,
         package_path=tuple(path),
-        packages=found.packages,
+        packages=packages,
         shadowed=found.shadowed,
         devel_spaces=tuple(devel),
         system_prefixes=tuple(system),
         python=python.interpreter if python else None,
         workspace=workspace,
         problems=tuple(problems),
+        ament_prefixes=tuple(prefixes),
     )
 
 
@@ -175,6 +185,37 @@ def _catkin_workspace(workspace: str | None) -> str | None:
         if not _is_package(folder) and any(os.path.exists(os.path.join(folder, mark)) for mark in marks):
             return folder
     return None
+
+
+def _colcon_workspace(folder: str) -> str | None:
+    """The workspace that colcon has built, which the folder is, or is in."""
+    marks = ("install/COLCON_IGNORE", "build/COLCON_IGNORE", "log/COLCON_IGNORE", "install/.colcon_install_layout")
+    for candidate in _with_parents(folder):
+        if any(os.path.exists(os.path.join(candidate, mark)) for mark in marks):
+            return candidate
+    return None
+
+
+def _above_src(package: str) -> str | None:
+    """The folder whose `src` a package is below: a workspace that was never built. The home folder is none."""
+    home = os.path.expanduser("~")
+    for candidate in _with_parents(os.path.dirname(package)):
+        above = os.path.dirname(candidate)
+        if os.path.basename(candidate) == "src" and above not in (home, "/", "/usr", "/usr/local"):
+            return above
+    return None
+
+
+def _is_ros2(
+    variables: Mapping[str, str], workspace: str | None, packages: Iterable[Package], prefixes: Sequence[str]
+) -> bool:
+    """Whether this is first of all a ROS 2 environment: by what is sourced, else by the packages of the workspace, else
+    by what is installed."""
+    if variables.get("ROS_VERSION") in ("1", "2"):
+        return variables["ROS_VERSION"] == "2"
+    own = [p for p in packages if workspace is not None and p.share.startswith(workspace.rstrip("/") + "/")]
+    ament = sum(package.generation == 2 for package in own)
+    return ament * 2 > len(own) if own else bool(prefixes) and not variables.get("ROS_PACKAGE_PATH")
 
 
 def _with_parents(folder: str) -> Iterator[str]:

@@ -14,9 +14,10 @@ import stat
 from collections.abc import Iterator
 
 from preflight_analysis.documents.reading import Text, read_text
-from preflight_analysis.environment.cmake import Build, Made, read_build
-from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.cmake import Build, Made
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import crawl
+from preflight_analysis.environment.shares import cmake_build, python_build
 from preflight_analysis.environment.walk import walk
 from preflight_analysis.evaluation.tree import Executable
 
@@ -49,6 +50,8 @@ class ExecutableIndex:
         found = self._environment.packages.get(package)
         if found is None:
             return Executable(None)
+        if found.generation == 2:
+            return self._find_ament(found, name)
         runnable: list[str] = []
         others: list[str] = []
         for folder in self._folders(package, found.share):
@@ -58,6 +61,23 @@ class ExecutableIndex:
                     (runnable if mode & _RUNNABLE == _RUNNABLE else others).append(path)
         candidates = tuple(dict.fromkeys(runnable))
         return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
+
+    def _find_ament(self, package: Package, name: str) -> Executable:
+        """`lib/<package>` of the prefixes, as `launch_ros` looks for it, and what the package in the source will put
+        there: the source of a Python package first, since that is what is edited."""
+        entry = python_build(package).scripts.get(name)
+        installed = [
+            path
+            for prefix in self._environment.ament_prefixes
+            if _is_runnable(path := os.path.join(prefix, "lib", package.name, name))
+        ]
+        if entry is not None and entry.file is not None:
+            entry_point = f"{entry.module}:{entry.function}"
+            return Executable(entry.file, (entry.file, *installed), package.share, entry_point=entry_point)
+        program = self._build(package.name).programs.get(name)
+        source = [program.path] if program is not None and os.path.isfile(program.path) else []
+        candidates = (*installed, *source)
+        return Executable(candidates[0] if candidates else None, candidates, package.share)
 
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the executable: it is there once the workspace is built.
@@ -86,7 +106,7 @@ class ExecutableIndex:
     def _build(self, package: str) -> Build:
         if package not in self._builds:
             found = self._environment.packages.get(package)
-            self._builds[package] = read_build(found.share, package, _text) if found is not None else Build()
+            self._builds[package] = cmake_build(found) if found is not None else Build()
         return self._builds[package]
 
     def names(self, package: str) -> tuple[str, ...]:
@@ -99,9 +119,12 @@ class ExecutableIndex:
             return ()
         if package not in self._names:
             build = self._build(package)
-            names = {target.output for target in build.targets.values() if target.kind == "executable"}
+            names = set(python_build(found).scripts) if found.generation == 2 else set()
+            for prefix in self._environment.ament_prefixes if found.generation == 2 else ():
+                names |= set(_listed(os.path.join(prefix, "lib", package)))
+            names |= {target.output for target in build.targets.values() if target.kind == "executable"}
             names |= set(build.programs)
-            for folder in self._folders(package, found.share):
+            for folder in self._folders(package, found.share) if found.generation == 1 else ():
                 for name, paths in self._walked(folder).items():
                     if name not in names and any(_is_runnable(path) for path in paths):
                         names.add(name)
@@ -151,9 +174,11 @@ def source_spaces(space: str) -> list[str]:
     return list(reversed(by_place.values()))
 
 
-def _text(path: str) -> str | None:
-    found = read_text(path)
-    return found.text if isinstance(found, Text) else None
+def _listed(folder: str) -> list[str]:
+    try:
+        return [name for name in os.listdir(folder) if _is_runnable(os.path.join(folder, name))]
+    except OSError:
+        return []
 
 
 def _mode(path: str) -> int | None:

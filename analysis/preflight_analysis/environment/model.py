@@ -14,6 +14,13 @@ class Package:
     share: str
     manifest: str
     dependencies: frozenset[str] = frozenset()
+    build_type: str | None = None
+    """`ament_cmake`, `ament_python` or `catkin`, None where the manifest does not say."""
+
+    @property
+    def generation(self) -> int:
+        """The ROS that it is for, as far as its build type tells."""
+        return 2 if (self.build_type or "").startswith("ament") else 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,4 +45,6 @@ class Environment:
     """The interpreter that has rospy, None when there is none."""
     workspace: str | None = None
     problems: tuple[str, ...] = ()
+    ament_prefixes: tuple[str, ...] = ()
+    """Prefixes of ROS 2 whose `share` and `lib` hold installed packages, the first one wins."""
     """What is missing, in sentences that say what to install."""

@@ -14,6 +14,7 @@ from preflight_analysis.environment.walk import walk
 
 MANIFEST = "package.xml"
 LEGACY_MANIFEST = "manifest.xml"
+_IGNORED = frozenset({"CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"})
 _BLANKS = " \n\r\t"
 _FLAT = "/usr/share/"
 """Debian's rospkg and catkin look no deeper than the folders right below this one."""
@@ -55,7 +56,7 @@ def crawl(
     """The packages below one folder in the order of the walk; what is wrong with their manifests goes to `problems`."""
     problems = [] if problems is None else problems
     for folder, folders, files in walk(top, skip):
-        if "CATKIN_IGNORE" in files:
+        if not _IGNORED.isdisjoint(files):
             folders.clear()
         elif MANIFEST in files:
             folders.clear()
@@ -84,7 +85,15 @@ def _read_manifest(folder: str, path: str, metapackages: bool, problems: list[st
         for element in root
         if isinstance(element.tag, str) and (element.tag == "depend" or element.tag.endswith("_depend"))
     }
-    return Package(name, folder, path, frozenset(dependencies - {""}))
+    return Package(name, folder, path, frozenset(dependencies - {""}), _build_type(root, dependencies))
+
+
+def _build_type(root: etree._Element, dependencies: Collection[str]) -> str | None:
+    """REP 149: `<build_type>` in the exports; before there was one, the build tool that it depends on."""
+    said = (root.findtext("./export/build_type") or "").strip(_BLANKS)
+    if said:
+        return said
+    return next((tool for tool in ("catkin", "ament_cmake", "ament_python") if tool in dependencies), None)
 
 
 def _read_legacy_manifest(folder: str, path: str) -> Package:

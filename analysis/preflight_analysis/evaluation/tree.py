@@ -84,6 +84,8 @@ class Executable:
     """None when the package itself was not found."""
     not_executable: tuple[str, ...] = ()
     """Files of that name that may not be executed: what is missing is a `chmod +x`."""
+    entry_point: str | None = None
+    """`module:function` of a Python package that is run from its source; `path` is then the module's file."""
 
 
 class ParamSource(NamedTuple):

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
@@ -17,7 +17,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             *(rename(context, problem.location, name, near) if near else ()),
             *remove_at(context, problem.location, f"Do not pass argument '{name}'"),
         )
-        yield problem_finding(rule, problem, f"'{file}' declares no argument '{name}'{did_you_mean(near)}", fixes=fixes)
+        message = f"'{file}' declares no argument '{name}'"
+        if not problem.fatal:
+            message = f"neither '{file}' nor what it includes declares or uses an argument '{name}': it has no effect"
+        severity: Severity = "error" if problem.fatal else "warning"
+        yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
 
 
 RULE = Rule(
@@ -26,7 +30,8 @@ RULE = Rule(
     severity="error",
     what="Reports an `<arg>` in an `<include>` that the included file does not declare, and names the nearest one that "
     "it does.",
-    why="`roslaunch` stops with `unused args`.",
+    why="`roslaunch` stops with `unused args`. `ros2 launch` takes it without a word, and the file has its default; "
+    "there nothing is said where an include that is not taken might use it.",
     example='<include file="camera.launch">\n  <arg name="frame" value="front"/>\n</include>',
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',
     check=_check,

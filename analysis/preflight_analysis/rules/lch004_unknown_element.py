@@ -20,13 +20,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(rule, context):
         name = str(problem.data["tag"])
         near = nearest(name, problem.data["allowed"])
-        skipped = "" if problem.fatal else " and is skipped"
-        message = f"<{name}> is not known in <{problem.data['parent']}>{skipped}{did_you_mean(near)}"
+        message = f"<{name}> is not known in <{problem.data['parent']}>"
+        if not problem.fatal:
+            message += " and is skipped"
+        elif near is None:
+            message += "; an extension of launch that is not known here may define it"
+        message += did_you_mean(near)
         fixes: list[Fix] = []
         if near is not None:
             renamed = rename(context, problem.location, name, near)
             fixes = [_both_tags(context, tags, problem, near, fix) for fix in renamed]
-        yield problem_finding(rule, problem, message, severity="error" if problem.fatal else None, fixes=fixes)
+        yield problem_finding(
+            rule, problem, message, severity="error" if problem.fatal and near is not None else None, fixes=fixes
+        )
 
 
 def _both_tags(context: Context, tags: Tags, problem: Problem, name: str, fix: Fix) -> Fix:

@@ -14,6 +14,8 @@ from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
 
+_SPACES = {1: "devel and install spaces", 2: "installed ones"}
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables = context.executables or ExecutableIndex(context.environment)
@@ -21,7 +23,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if found.path is not None or found.package_path is None or node.unknowns:
             continue
-        location = attribute_location(node, "type")
+        location = attribute_location(node, "type" if context.tree.generation == 1 else "exec")
         chain = include_chain(node.origin)
         made_of = executables.made_of(node.package, node.executable)
         if found.not_executable and (made_of is None or not made_of.by_build):
@@ -33,6 +35,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(message, location, severity="info", confidence="likely", related=chain)
             continue
         names = executables.names(node.package)
+        if context.tree.generation == 2 and not names:
+            continue  # neither installed, nor with build files that say what it will have
         holder = _other_package(context, executables, node)
         near = nearest(node.executable, names) or nearest(node.executable, names, key=_stem)
         if holder is not None:
@@ -43,7 +47,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             fixes = rename(context, location, node.executable, near) if near else ()
         yield rule.finding(
             f"package '{node.package}' has no executable '{node.executable}'; looked at its {len(names)} executables "
-            f"in {found.package_path} and the devel and install spaces{hint}",
+            f"in {found.package_path} and the {_SPACES[context.tree.generation]}{hint}",
             location,
             related=chain,
             fixes=fixes,
@@ -84,12 +88,12 @@ RULE = Rule(
     id="PKG002",
     name="executable-not-found",
     severity="error",
-    what="Reports a node whose `type` is no executable file of its package, and names the nearest one that is, or the "
-    "package of the launch that has it; or that is there without the permission to be executed. One that a "
-    "`CMakeLists.txt` of the package names is not built yet: that is for information only.",
-    why="`roslaunch` prints an error among the output of the other nodes and goes on without this one.",
+    what="Reports a node whose `type` (ROS 2: `exec`) is no executable file of its package, and names the nearest one "
+    "that is, or the package of the launch that has it; or that is there without the permission to be executed. One "
+    "that a `CMakeLists.txt` of the package names is not built yet: that is for information only.",
+    why="`roslaunch` prints an error among the output of the other nodes and goes on without this one; `ros2 launch` "
+    "stops.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
-    generations=(1,),
     check=_check,
 )

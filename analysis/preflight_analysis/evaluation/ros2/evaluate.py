@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
@@ -24,6 +25,7 @@ from preflight_analysis.evaluation.ros2.params import pushed_value
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem, Use
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
+from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 
 MAX_DEPTH = 150
@@ -80,6 +82,9 @@ class _Walk:
         self._deferred = False
         self._depth = 0
         self._exhausted = False
+        self._names: list[set[str] | None] = [set()]
+        """For each file that is being evaluated the configurations that it and those below it have to do with; None
+        where that cannot be told."""
         self._missing_below: list[Declared] = []
         """Required arguments that an include further down does not pass, as the check of one above it saw."""
 
@@ -119,6 +124,7 @@ class _Walk:
         state, document = self._state, launch_file.document
         if place.file not in state.visited:
             state.visited.append(place.file)
+        self._note_names(launch_file)
         for problem in document.problems:
             kind = "yaml-malformed" if place.file.endswith((".yaml", ".yml")) else "xml-malformed"
             state.problem(kind, place.origin(problem.span), message=problem.message)
@@ -138,8 +144,12 @@ class _Walk:
         performer = Performer(self._state, self._context, place)
         for action in actions:
             execute = _EXECUTE.get(action.kind)
-            if execute is not None and applies(performer, action):
+            if execute is None:
+                continue
+            if applies(performer, action):
                 execute(self, performer, action)
+            elif any(below.kind == "include" for below in action.walk()):
+                self._names[-1] = None  # what it would include may have to do with any argument
 
     # Actions
 
@@ -221,11 +231,12 @@ class _Walk:
         at = Location(place.file, attribute.value.span)
         passed = self._passed(performer, action)
         if not file.known:
+            self._names[-1] = None
             state.includes.append(Include(None, origin, at, {}))
             state.note_unknown("<include>", "its file is not known", at)
             return
         path = os.path.normpath(os.path.join(state.cwd, file.text))
-        path = without_dots(path) or path
+        path = located(state.environment, without_dots(path) or path)
         shown: dict[str, str | None] = {}
         include = Include(path, origin, at, shown)
         state.includes.append(include)
@@ -234,6 +245,7 @@ class _Walk:
             return
         found = self._read(place, path, at)
         if found is None:
+            self._names[-1] = None
             return
         self._context.launch_file = path
         self._required_arguments(found, [name for name, _ in passed], place.origin(at.span))
@@ -243,8 +255,32 @@ class _Walk:
             shown[name] = result.text if result.known else None
             self._context.set(name, result, place.origin(value.span if value is not None else child.kind_span))
         self._depth += 1
+        self._names.append(set())
         self._file(Place(path, origin), found)
+        below = self._names.pop()
         self._depth -= 1
+        above = self._names[-1]
+        self._names[-1] = None if below is None or above is None else above | below
+        if below is not None:
+            self._report_unused(place, path, passed, below)
+
+    def _note_names(self, launch_file: LaunchFile) -> None:
+        known = self._names[-1]
+        found = configurations_of(launch_file)
+        partial = found.computed or launch_file.root is None or bool(launch_file.document.problems)
+        self._names[-1] = None if known is None or partial else known | found.declared | found.used
+
+    def _report_unused(self, place: Place, path: str, passed: list[tuple[str, Action]], names: set[str]) -> None:
+        """An argument that neither the file nor what it includes has to do with: launch accepts it without a word. The
+        includer itself may use it later, as what an include sets stays set."""
+        own = self._state.files.launch_file(place.file, 2)
+        used = frozenset[str]() if isinstance(own, Unreadable) else configurations_of(own).used
+        for name, child in passed:
+            if name not in names and name not in used and name not in IMPLICIT:
+                value = child.value("name")
+                span = value.span if value is not None else child.kind_span
+                data = {"name": name, "file": path, "declared": sorted(names)}
+                self._state.problems.append(Problem("include-arg-undeclared", place.origin(span), data, False))
 
     def _passed(self, performer: Performer, action: Action) -> list[tuple[str, Action]]:
         found = []
@@ -301,7 +337,8 @@ class _Walk:
         result = Performer(quiet, empty, Place(file, ())).value(value)
         if not result.known:
             return None
-        found = self._state.read_launch_file(os.path.normpath(os.path.join(self._state.cwd, result.text)))
+        path = os.path.normpath(os.path.join(self._state.cwd, result.text))
+        found = self._state.read_launch_file(located(self._state.environment, path))
         return None if isinstance(found, Unreadable) else found
 
     def _too_deep(self, place: Place, action: Action) -> bool:

@@ -7,7 +7,8 @@ import re
 import shlex
 from collections.abc import Callable, Iterable
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Scope
 from preflight_analysis.evaluation.ros2.params import (
@@ -232,10 +233,10 @@ def _sources(performer: Performer, action: Action, node: str, *, must_exist: boo
         if file is not None:
             result = performer.value(file)
             if result.known:
-                path = os.path.join(performer.state.cwd, result.text)
+                path = located(performer.state.environment, os.path.join(performer.state.cwd, result.text))
                 at = performer.place.origin(file.span)
                 location = Location(performer.place.file, file.span)
-                performer.state.uses.append(Use("file", location, result.text, path, Location(path, location.span)))
+                performer.state.uses.append(Use("file", location, result.text, path, Location(path, Span(0, 0))))
                 substitute = allows_substitutions(performer, child)
                 _add(
                     sources,

@@ -12,6 +12,7 @@ import yaml
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
@@ -129,6 +130,7 @@ def file_source(
     For `<node>` launch warns of a file that is not there and goes on, for a composable node it stops.
     """
     state = performer.state
+    path = located(state.environment, path)
     found = state.read_text(path)
     if isinstance(found, Unreadable):
         kind = "param-file-not-found" if found.kind == "missing" else "param-file-unreadable"

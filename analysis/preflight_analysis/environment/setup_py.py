@@ -1,0 +1,293 @@
+"""What a package of build type `ament_python` installs: its `setup.py`, `setup.cfg` and `pyproject.toml`, read as text.
+
+https://docs.ros.org/en/rolling/How-To-Guides/Developing-a-ROS-2-Package.html#python-packages. Nothing is run: a small
+part of Python is computed, what is beyond it makes the answer incomplete.
+"""
+
+from __future__ import annotations
+
+import ast
+import configparser
+import glob
+import importlib
+import os
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+_TOML: Any = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+
+Read = Callable[[str], "str | None"]
+"""The text of a file, None if there is none that can be read."""
+
+_MAX_TEXT = 200_000
+_MAX_FILES = 2_000
+
+
+@dataclass(frozen=True, slots=True)
+class EntryPoint:
+    """`name = module:function`; `file` is the source of the module, None if it is not there, `line` where `setup.py`
+    says so (counted from 0)."""
+
+    name: str
+    module: str
+    function: str
+    file: str | None
+    line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PythonBuild:
+    """`scripts` are the executables by name. `data` maps what is installed below `share/<package>/` (relative paths)
+    to the source. `complete`: all of the data files are known, so what is not in `data` is not installed."""
+
+    scripts: Mapping[str, EntryPoint] = field(default_factory=dict)
+    data: Mapping[str, str] = field(default_factory=dict)
+    complete: bool = False
+    file: str | None = None
+    """The file that says so, where a fix goes."""
+
+
+def read_python_build(folder: str, package: str, read: Read) -> PythonBuild:
+    """What is said in the package's folder. Never raises."""
+    scripts: dict[str, EntryPoint] = {}
+    data: dict[str, str] = {}
+    setup = os.path.join(folder, "setup.py")
+    text = read(setup)
+    found = _Setup(folder, text) if text is not None else None
+    complete = found is not None and found.complete
+    file = setup if found is not None else None
+    for path, reader in (("setup.cfg", _from_cfg), ("pyproject.toml", _from_toml)):
+        content = read(os.path.join(folder, path))
+        if content is not None:
+            for name, target in reader(content).items():
+                scripts[name] = _entry_point(folder, name, target, 0)
+    if found is not None:
+        for name, (target, line) in found.scripts.items():
+            scripts[name] = _entry_point(folder, name, target, line)
+        share = f"share/{package}"
+        for destination, sources in found.data_files:
+            where = os.path.normpath(destination)
+            if where != share and not where.startswith(share + "/"):
+                continue
+            below = where[len(share) :].lstrip("/")
+            for source in sources[:_MAX_FILES]:
+                data[os.path.join(below, os.path.basename(source))] = os.path.normpath(os.path.join(folder, source))
+    return PythonBuild(scripts, data, complete, file)
+
+
+def _entry_point(folder: str, name: str, target: str, line: int) -> EntryPoint:
+    module, _, function = target.partition(":")
+    module, function = module.strip(), function.split("[")[0].strip()
+    relative = module.replace(".", os.sep)
+    for root in ("", "src"):
+        for candidate in (f"{relative}.py", os.path.join(relative, "__init__.py")):
+            path = os.path.join(folder, root, candidate)
+            if os.path.isfile(path):
+                return EntryPoint(name, module, function, path, line)
+    return EntryPoint(name, module, function, None, line)
+
+
+def _from_cfg(text: str) -> dict[str, str]:
+    parser = configparser.ConfigParser(interpolation=None, strict=False)
+    try:
+        parser.read_string(text)
+        lines = parser.get("options.entry_points", "console_scripts", fallback="")
+    except configparser.Error:
+        return {}
+    return dict(_scripts(lines.splitlines()))
+
+
+def _from_toml(text: str) -> dict[str, str]:
+    try:
+        scripts: Any = _TOML.loads(text).get("project", {}).get("scripts", {})
+    except (ValueError, AttributeError):
+        return {}
+    if not isinstance(scripts, dict):
+        return {}
+    return {name: target for name, target in scripts.items() if isinstance(target, str) and ":" in target}
+
+
+def _scripts(lines: list[str]) -> list[tuple[str, str]]:
+    pairs = (line.split("=", 1) for line in lines if "=" in line and ":" in line)
+    return [(name.strip(), target.strip()) for name, target in pairs]
+
+
+class _Unknown(Exception):  # noqa: N818 - what is not computed, not an error
+    pass
+
+
+class _Setup:
+    """The call of `setup(...)`, its arguments computed as far as they are simple."""
+
+    def __init__(self, folder: str, text: str) -> None:
+        self._folder = folder
+        self._names: dict[str, Any] = {}
+        self.scripts: dict[str, tuple[str, int]] = {}
+        self.data_files: list[tuple[str, list[str]]] = []
+        self.complete = True
+        try:
+            tree = ast.parse(text[:_MAX_TEXT])
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            self.complete = False
+            return
+        for statement in tree.body:
+            self._statement(statement)
+
+    def _statement(self, statement: ast.stmt) -> None:
+        if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
+            target = statement.targets[0]
+            if isinstance(target, ast.Name):
+                self._assign(target.id, statement.value)
+        elif isinstance(statement, ast.AugAssign) and isinstance(statement.target, ast.Name):
+            self._augment(statement)
+        elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
+            self._call(statement.value)
+        elif isinstance(statement, (ast.For, ast.While, ast.FunctionDef, ast.If, ast.With, ast.Try)):
+            # What a loop adds to the data files is not known; that it adds is.
+            self.complete = False
+            for inner in ast.walk(statement):
+                if isinstance(inner, ast.Call):
+                    self._call(inner)
+
+    def _assign(self, name: str, value: ast.expr) -> None:
+        try:
+            self._names[name] = self._value(value)
+        except (_Unknown, RecursionError):
+            self._names.pop(name, None)
+
+    def _augment(self, statement: ast.AugAssign) -> None:
+        assert isinstance(statement.target, ast.Name)
+        try:
+            self._names[statement.target.id] = self._names[statement.target.id] + self._value(statement.value)
+        except (_Unknown, KeyError, TypeError, RecursionError):
+            self._names.pop(statement.target.id, None)
+            self.complete = False
+
+    def _call(self, call: ast.Call) -> None:
+        name = call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
+        if name in ("append", "extend") and isinstance(call.func, ast.Attribute):
+            self._append(call, name)
+        if name != "setup":
+            return
+        for keyword in call.keywords:
+            if keyword.arg == "entry_points":
+                self._entry_points(keyword.value)
+            elif keyword.arg == "data_files":
+                self._data_files(keyword.value)
+            elif keyword.arg is None:
+                self.complete = False
+
+    def _append(self, call: ast.Call, method: str) -> None:
+        target = call.func.value if isinstance(call.func, ast.Attribute) else None
+        known = self._names.get(target.id) if isinstance(target, ast.Name) else None
+        if isinstance(known, list) and len(call.args) == 1:
+            try:
+                value = self._value(call.args[0])
+                known.extend(value if method == "extend" else [value])
+                return
+            except (_Unknown, TypeError, RecursionError):
+                pass
+        self.complete = False
+
+    def _entry_points(self, node: ast.expr) -> None:
+        lists: list[ast.expr] = []
+        if isinstance(node, ast.Dict):
+            for key, value in zip(node.keys, node.values, strict=True):
+                if isinstance(key, ast.Constant) and key.value == "console_scripts":
+                    lists.append(value)
+        for each in lists:
+            items = each.elts if isinstance(each, (ast.List, ast.Tuple)) else [each]
+            for item in items:
+                try:
+                    value = self._value(item)
+                except (_Unknown, RecursionError):
+                    continue
+                lines = [v for v in value if isinstance(v, str)] if isinstance(value, list) else str(value).splitlines()
+                for name, target in _scripts(lines):
+                    self.scripts[name] = (target, item.lineno - 1)
+
+    def _data_files(self, node: ast.expr) -> None:
+        items: list[Any] = []
+        try:
+            items = list(self._value(node))
+        except (_Unknown, TypeError, RecursionError):
+            self.complete = False
+            for element in getattr(node, "elts", []):
+                try:
+                    items.append(self._value(element))
+                except (_Unknown, RecursionError):
+                    continue
+        for item in items:
+            if isinstance(item, (tuple, list)) and len(item) == 2 and isinstance(item[0], str):
+                sources = item[1] if isinstance(item[1], (list, tuple)) else []
+                self.data_files.append((item[0], [s for s in sources if isinstance(s, str)]))
+            else:
+                self.complete = False
+
+    def _value(self, node: ast.expr) -> Any:
+        match node:
+            case ast.Constant(value=value) if isinstance(value, (str, int, float, bool)):
+                return value
+            case ast.Name(id=name) if name in self._names:
+                return self._names[name]
+            case ast.JoinedStr(values=parts):
+                return "".join(str(self._value(p.value if isinstance(p, ast.FormattedValue) else p)) for p in parts)
+            case ast.List(elts=elements):
+                return [self._value(element) for element in elements]
+            case ast.Tuple(elts=elements):
+                return tuple(self._value(element) for element in elements)
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                try:
+                    return self._value(left) + self._value(right)
+                except TypeError:
+                    raise _Unknown from None
+            case ast.BinOp(left=left, op=ast.Mod(), right=right):
+                try:
+                    return self._value(left) % self._value(right)
+                except (TypeError, ValueError):
+                    raise _Unknown from None
+            case ast.Call(func=function, args=args):
+                return self._called(ast.unparse(function), args, node)
+            case ast.ListComp(
+                elt=element, generators=[ast.comprehension(target=ast.Name(id=name), iter=items, ifs=[])]
+            ):
+                return self._comprehension(element, name, items)
+        raise _Unknown
+
+    def _comprehension(self, element: ast.expr, name: str, items: ast.expr) -> list[Any]:
+        values = self._value(items)
+        if not isinstance(values, (list, tuple)) or len(values) > _MAX_FILES:
+            raise _Unknown
+        before = dict(self._names)
+        found = []
+        for value in values:
+            self._names[name] = value
+            found.append(self._value(element))
+        self._names = before
+        return found
+
+    def _called(self, name: str, args: list[ast.expr], call: ast.Call) -> Any:
+        values = [self._value(arg) for arg in args]
+        texts = [value for value in values if isinstance(value, str)]
+        if name in ("os.path.join", "join", "path.join") and texts and len(texts) == len(values):
+            return os.path.join(*texts)
+        if name in ("glob", "glob.glob", "iglob", "glob.iglob") and len(texts) == 1:
+            recursive = any(k.arg == "recursive" for k in call.keywords)
+            return self._glob(texts[0], recursive)
+        if name in ("str", "os.path.basename") and len(texts) == 1:
+            return texts[0] if name == "str" else os.path.basename(texts[0])
+        if name in ("list", "sorted") and len(values) == 1 and isinstance(values[0], (list, tuple)):
+            return list(values[0])
+        raise _Unknown
+
+    def _glob(self, pattern: str, recursive: bool) -> list[str]:
+        if os.path.isabs(pattern) or ".." in pattern.split("/"):
+            raise _Unknown
+        found = []
+        for path in glob.iglob(pattern, root_dir=self._folder, recursive=recursive):
+            found.append(path)
+            if len(found) > _MAX_FILES:
+                raise _Unknown
+        return sorted(found)

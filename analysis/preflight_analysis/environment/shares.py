@@ -1,0 +1,121 @@
+"""From a path in the share folder of a package to the file in its source, and back.
+
+A launch file names what is installed: `$(find-pkg-share p)/config/a.yaml`. Its author edits what is in the source. For
+a package of the workspace `Package.share` is the folder of the source, which has the same files at the same places as
+long as the package installs them so; what it installs under other names, or makes, is found here.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import lru_cache
+
+from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.environment.cmake import Build, read_build
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.setup_py import PythonBuild, read_python_build
+
+
+def located(environment: Environment, path: str) -> str:
+    """The file that a path leads to: itself if it is there, else what the package around it installs there, else what
+    is installed; itself if there is nothing of all that."""
+    if os.path.exists(path):
+        return path
+    package = package_around(environment, path)
+    if package is None or package.generation != 2:
+        return path
+    below = os.path.relpath(path, package.share)
+    source = installed_from(package, below)
+    if source is not None and os.path.exists(source):
+        return source
+    for prefix in environment.ament_prefixes:
+        candidate = os.path.join(prefix, "share", package.name, below)
+        if os.path.exists(candidate):
+            return candidate
+    return path
+
+
+def package_around(environment: Environment, path: str) -> Package | None:
+    """The package whose folder a path is in."""
+    folders = _by_folder(environment)
+    folder = os.path.dirname(path)
+    while folder and folder != os.path.dirname(folder):
+        if folder in folders:
+            return folders[folder]
+        folder = os.path.dirname(folder)
+    return None
+
+
+def _by_folder(environment: Environment) -> Mapping[str, Package]:
+    return _folders(id(environment.packages), tuple(environment.packages.values()))
+
+
+@lru_cache(maxsize=4)
+def _folders(_: int, packages: tuple[Package, ...]) -> Mapping[str, Package]:
+    return {package.share: package for package in packages}
+
+
+def installed_from(package: Package, below: str) -> str | None:
+    """The file of the source that is installed at this place of the share folder, None if none is known to be."""
+    if package.build_type == "ament_python":
+        return python_build(package).data.get(below)
+    for item in cmake_build(package).installed:
+        destination = item.destination.replace("${PROJECT_NAME}", package.name)
+        share = f"share/{package.name}"
+        if destination != share and not destination.startswith(share + "/"):
+            continue
+        where = os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name))
+        if where == ".":
+            return os.path.join(item.source, below)
+        if below == where:
+            return item.source
+        if below.startswith(where + os.sep):
+            return os.path.join(item.source, os.path.relpath(below, where))
+    return None
+
+
+def is_installed(package: Package, path: str) -> bool | None:
+    """Whether a file of a package's source gets to its share folder; None where that is not known."""
+    path = os.path.normpath(path)
+    if package.build_type == "ament_python":
+        build = python_build(package)
+        return path in build.data.values() if build.complete and build.data else None
+    if package.build_type == "ament_cmake":
+        installed = [os.path.normpath(item.source) for item in cmake_build(package).installed]
+        return any(path == source or path.startswith(source + os.sep) for source in installed) if installed else None
+    return None
+
+
+def python_build(package: Package) -> PythonBuild:
+    """What `setup.py` and its like say, as they are now."""
+    signature = tuple(_signature(os.path.join(package.share, name)) for name in ("setup.py", "setup.cfg"))
+    return _python_build(package.share, package.name, signature)
+
+
+@lru_cache(maxsize=256)
+def _python_build(share: str, name: str, _: object) -> PythonBuild:
+    return read_python_build(share, name, _text)
+
+
+def cmake_build(package: Package) -> Build:
+    """What `CMakeLists.txt` says, as it is now."""
+    return _cmake_build(package.share, package.name, _signature(os.path.join(package.share, "CMakeLists.txt")))
+
+
+@lru_cache(maxsize=256)
+def _cmake_build(share: str, name: str, _: object) -> Build:
+    return read_build(share, name, _text)
+
+
+def _signature(path: str) -> tuple[int, int] | None:
+    try:
+        status = os.stat(path)
+    except OSError:
+        return None
+    return status.st_mtime_ns, status.st_size
+
+
+def _text(path: str) -> str | None:
+    found = read_text(path)
+    return found.text if isinstance(found, Text) else None

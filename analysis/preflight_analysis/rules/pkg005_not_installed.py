@@ -1,0 +1,98 @@
+"""PKG005: a file of the source that the package does not install (ROS 2)."""
+
+import ast
+import os
+import re
+from collections.abc import Iterator
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import LineIndex, Location, Span
+from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.shares import is_installed, package_around
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.rules.rule import Context, Rule
+
+_END = re.compile(r"^[ \t]*ament_package\s*\(", re.MULTILINE)
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for use in context.tree.uses:
+        if use.kind not in ("include", "file") or use.target is None:
+            continue
+        path = use.target.file
+        package = package_around(context.environment, path)
+        if package is None or package.generation != 2 or not _by_share(context, use.location):
+            continue
+        if path.startswith(package.share + os.sep) and os.path.isfile(path) and is_installed(package, path) is False:
+            below = os.path.relpath(path, package.share)
+            by = "setup.py" if package.build_type == "ament_python" else "CMakeLists.txt"
+            message = f"'{below}' is in the source of package '{package.name}', but its {by} does not install it"
+            yield rule.finding(message, use.location, fixes=_fixes(context, package, below))
+
+
+def _by_share(context: Context, location: Location) -> bool:
+    """Whether the path is that of a share folder: what is named beside the launch file is found in the source too."""
+    document = context.documents.get(location.file)
+    return document is not None and "find-pkg-share" in document.text[location.span.start : location.span.end]
+
+
+def _fixes(context: Context, package: Package, below: str) -> tuple[Fix, ...]:
+    python = package.build_type == "ament_python"
+    path = os.path.join(package.share, "setup.py" if python else "CMakeLists.txt")
+    found = context.sources.text(path) if context.sources is not None else None
+    if not isinstance(found, Document):
+        return ()
+    folder = os.path.dirname(below)
+    edit = _in_setup(found, package, below, folder) if python else _in_cmake(found, below, folder)
+    return (Fix(f"Install {below} in {os.path.basename(path)}", (edit,), True),) if edit is not None else ()
+
+
+def _in_setup(found: Document, package: Package, below: str, folder: str) -> Edit | None:
+    """One more entry of `data_files`, after the last one."""
+    try:
+        tree = ast.parse(found.text)
+    except (SyntaxError, ValueError):
+        return None
+    for node in ast.walk(tree):
+        if isinstance(node, ast.keyword) and node.arg == "data_files" and isinstance(node.value, ast.List):
+            if not node.value.elts:
+                return None
+            last = node.value.elts[-1]
+            lines = LineIndex(found.text)
+            line = found.text.splitlines()[(last.end_lineno or 1) - 1]
+            column = len(line.encode()[: last.end_col_offset or 0].decode())
+            at = lines.line_start((last.end_lineno or 1) - 1) + column
+            indent = " " * last.col_offset if last.lineno > node.value.lineno else ""
+            entry = f"('share/{os.path.join(package.name, folder)}', ['{below}'])"
+            text = f",\n{indent}{entry}" if indent else f", {entry}"
+            return Edit(Location(found.path, Span(at, at)), text)
+    return None
+
+
+def _in_cmake(found: Document, below: str, folder: str) -> Edit | None:
+    end = _END.search(found.text)
+    if end is None:
+        return None
+    what = (
+        f"DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}"
+        if folder
+        else f"FILES {below} DESTINATION share/${{PROJECT_NAME}}"
+    )
+    return Edit(
+        Location(found.path, Span(end.start(), end.start())), f"install({what} DESTINATION share/${{PROJECT_NAME}})\n\n"
+    )
+
+
+RULE = Rule(
+    id="PKG005",
+    name="not-installed",
+    severity="warning",
+    what="Reports a launch or parameter file that is named by the share folder of a package, is in the package's "
+    "source, and is not installed by its `setup.py` or `CMakeLists.txt` (ROS 2).",
+    why="`ros2 launch` looks in the share folder of the installed package, where the file will not be.",
+    example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
+    "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",
+    instead="data_files=[('share/robot/config', glob('config/*')), ('share/robot/launch', glob('launch/*'))]",
+    generations=(2,),
+    check=_check,
+)

@@ -1,0 +1,124 @@
+"""Rules about packages of ROS 2 that were never built: what their build files say that will be installed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+SETUP = """import os
+from glob import glob
+from setuptools import find_packages, setup
+
+package_name = 'robot'
+
+setup(
+    name=package_name,
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        (os.path.join('share', package_name, 'launch'), glob('launch/*.launch.*')),
+        ('share/robot/params', ['config/renamed.yaml']),
+    ],
+    entry_points={'console_scripts': ['driver = robot.driver:main']},
+)
+"""
+LAUNCH = """<launch>
+  <node pkg="robot" exec="driver" name="driver">
+    <param from="$(find-pkg-share robot)/config/driver.yaml"/>
+    <param from="$(find-pkg-share robot)/params/renamed.yaml"/>
+  </node>
+  <node pkg="robot" exec="drivr" name="other"/>
+  <node pkg="arm" exec="arm_node" name="arm">
+    <param from="$(find-pkg-share arm)/config/arm.yaml"/>
+    <param from="$(find-pkg-share arm)/cfg/arm.yaml"/>
+  </node>
+  <node pkg="arm" exec="helper.py" name="helper"/>
+</launch>
+"""
+CMAKE = """cmake_minimum_required(VERSION 3.8)
+project(arm)
+find_package(ament_cmake REQUIRED)
+add_executable(${PROJECT_NAME}_node src/arm.cpp)
+install(TARGETS ${PROJECT_NAME}_node DESTINATION lib/${PROJECT_NAME})
+install(PROGRAMS scripts/helper.py DESTINATION lib/${PROJECT_NAME})
+install(DIRECTORY config DESTINATION share/${PROJECT_NAME})
+ament_package()
+"""
+
+
+def manifest(name: str, build_type: str) -> str:
+    return f"<package><name>{name}</name><export><build_type>{build_type}</build_type></export></package>"
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    files = {
+        "robot/package.xml": manifest("robot", "ament_python"),
+        "robot/setup.py": SETUP,
+        "robot/robot/__init__.py": "",
+        "robot/robot/driver.py": "def main():\n    pass\n",
+        "robot/config/driver.yaml": "/driver:\n  ros__parameters:\n    rate: 10\n",
+        "robot/config/renamed.yaml": "driver:\n  ros__parameters:\n    name: front\n",
+        "robot/launch/robot.launch.xml": LAUNCH,
+        "arm/package.xml": manifest("arm", "ament_cmake"),
+        "arm/CMakeLists.txt": CMAKE,
+        "arm/src/arm.cpp": "int main() {}\n",
+        "arm/scripts/helper.py": "",
+        "arm/config/arm.yaml": "arm:\n  ros__parameters: {a: 1}\n",
+        "arm/cfg/arm.yaml": "arm:\n  ros__parameters: {b: 1}\n",
+    }
+    for name, text in files.items():
+        path = tmp_path / "src" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return tmp_path
+
+
+def findings(workspace: Path, *, renamed: bool = True) -> list[Finding]:
+    environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
+    root = workspace / "src/robot/launch/robot.launch.xml"
+    analysis = Workspace(environment, Sources()).static(str(root))
+    driver = analysis.tree.nodes[0]
+    params = {param.name: param.value for param in driver.params}
+    assert params == ({"rate": 10, "name": "front"} if renamed else {"rate": 10})
+    assert driver.resolved.entry_point == "robot.driver:main"
+    return [f for f in analysis.findings if f.rule.startswith("PKG")]
+
+
+def test_what_is_not_installed_and_what_is_not_there(workspace: Path) -> None:
+    found = {(f.rule, f.severity): f for f in findings(workspace) if f.rule == "PKG002"}
+    assert set(found) == {("PKG002", "error"), ("PKG002", "info")}
+    assert "no executable 'drivr'" in found["PKG002", "error"].message
+    assert "did you mean 'driver'?" in found["PKG002", "error"].message
+    assert "'arm_node' is not built yet" in found["PKG002", "info"].message
+    missing = [f.message for f in findings(workspace) if f.rule == "PKG005"]
+    assert missing == [
+        "'config/driver.yaml' is in the source of package 'robot', but its setup.py does not install it",
+        "'cfg/arm.yaml' is in the source of package 'arm', but its CMakeLists.txt does not install it",
+    ]
+
+
+def test_the_fixes_install_it(workspace: Path) -> None:
+    for finding in findings(workspace):
+        if finding.rule == "PKG005":
+            (edit,) = finding.fixes[0].edits
+            path = Path(edit.location.file)
+            text, span = path.read_text(), edit.location.span
+            path.write_text(text[: span.start] + edit.text + text[span.end :])
+    setup = (workspace / "src/robot/setup.py").read_text()
+    assert "        ('share/robot/config', ['config/driver.yaml']),\n    ]," in setup
+    compile(setup, "setup.py", "exec")
+    assert [f.rule for f in findings(workspace)].count("PKG005") == 0
+
+
+def test_nothing_is_said_where_the_build_files_do_more_than_is_understood(workspace: Path) -> None:
+    setup = workspace / "src/robot/setup.py"
+    setup.write_text(SETUP.replace("    data_files=[", "    data_files=more_of_it() + ["))
+    (workspace / "src/arm/CMakeLists.txt").unlink()
+    found = [f.rule for f in findings(workspace, renamed=False)]
+    assert found == ["PKG002"], "an executable that no entry point makes"
