@@ -221,3 +221,14 @@ def test_a_configuration_with_a_secret_leaves_no_more_than_names(desk: Desk) -> 
     desk.analyse("works.launch", secret)
     for path in desk.cache.folder.glob("*/*/*.json"):
         assert b"hunter2" not in path.read_bytes()
+
+
+def test_a_run_that_ended_without_doing_anything_says_nothing(desk: Desk) -> None:
+    usage = "import sys, rospy\nrospy.init_node('n')\nif 'help' in sys.argv: sys.exit(0)\n"
+    desk.script.write_text("#!/usr/bin/env python3\n" + usage + NODE)
+    past = time.time() - 100
+    os.utime(desk.script, (past, past))
+    helped = desk.analyse("help.launch", CRASHES.replace('args="scan"', 'args="help"'))
+    assert interface(helped).outcome.status == "exited"
+    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    assert (found.source, found.elsewhere and found.elsewhere.node) == ("similar", "/works"), "the older build's"

@@ -86,8 +86,7 @@ class SimilarTraces:
         candidates = [
             kept
             for kept in traces
-            if kept.interface.outcome.status in ("spinning", "exited")
-            and (not path or kept.executable == path or kept.build == build)
+            if _tells(kept.interface) and (not path or kept.executable == path or kept.build == build)
         ]
         given: frozenset[str] = frozenset()
         found = None
@@ -112,6 +111,13 @@ class SimilarTraces:
                 if len(self._remembered) > _MAX_REMEMBERED:
                     del self._remembered[next(iter(self._remembered))]
         return known[1]
+
+
+def _tells(interface: Interface) -> bool:
+    """Whether a run came to an end of its own and shows anything but what every node has: one that printed its usage
+    does not."""
+    own = any(not endpoint.builtin for endpoint in interface.endpoints) or any(not p.builtin for p in interface.params)
+    return own and interface.outcome.status in ("spinning", "exited")
 
 
 def _likeness(kept: Kept, request: TraceRequest, build: str) -> tuple[bool, bool, bool, bool, float]:
