@@ -122,3 +122,70 @@ def test_an_argument_that_nobody_below_uses() -> None:
           <include file="$(find-pkg-share p)/extra.launch.py" if="$(var extra)"/>
         </launch>
     """)
+
+
+def test_a_parameter_file_for_another_node() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="localizer" name="localizer">
+            <param from="/amcl.yaml"/>
+                         ^^^^^^^^^^ warning[PRM011] the file has nothing for /localizer
+          </node>
+          <group>
+            <push_ros_namespace namespace="robot"/>
+            <node pkg="p" exec="camera" name="camera"><param from="/nodes.yaml"/></node>
+                                                                   ^^^^^^^^^^^ warning[PRM011] nothing for /robot/camera
+            <node pkg="p" exec="arm" name="arm"><param from="/nodes.yaml"/></node>
+            <node pkg="p" exec="lidar" name="lidar"><param from="/nodes.yaml"/></node>
+          </group>
+          <node pkg="p" exec="any" name="any"><param from="/any.yaml"/></node>
+          <node pkg="p" exec="driver" name="driver"><param from="/shared.yaml"/></node>
+          <node pkg="p" exec="free"><param from="/shared.yaml"/></node>
+        </launch>
+        //- /amcl.yaml
+        amcl:
+        ^^^^ warning[PRM011] '/amcl' is no node that gets this file: /localizer does, and ignores it
+          ros__parameters: {max_particles: 800}
+        //- /nodes.yaml
+        /robot/arm:
+          ros__parameters: {speed: 1}
+        robot:
+          camra:
+          ^^^^^ warning[PRM011] '/robot/camra' is no node that gets this file
+            ros__parameters: {rate: 1}
+        //- /shared.yaml
+        costmap:
+          ros__parameters: {rate: 1}
+        //- /any.yaml
+        /**:
+          ros__parameters: {rate: 1}
+    """)
+
+
+def test_values_above_the_mark() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/a.yaml"/></node>
+        </launch>
+        //- /a.yaml
+        a:
+          rate: 30
+          ^^^^ error[PRM012] 'rate' does not stand below 'ros__parameters'
+          name: front
+    """)
+
+
+def test_two_nodes_of_one_name() -> None:
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - node: {pkg: p, exec: laser, name: laser}
+          - node: {pkg: p, exec: laser, name: laser}
+                                              ^^^^^ warning[LCH016] there is another node with the name '/laser'
+          - node: {pkg: p, exec: laser, name: laser, namespace: rear}
+          - node: {pkg: p, exec: laser}
+          - node: {pkg: p, exec: laser}
+          - node: {pkg: p, exec: laser, name: laser, if: "false"}
+    """)

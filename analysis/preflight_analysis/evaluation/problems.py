@@ -53,6 +53,6 @@ KINDS: dict[str, str] = {
     "command-not-run": "command, reason",
     "yaml-key-twice": "name, second (Location): a key stands twice in one dictionary, the later one counts",
     # nodes
-    "duplicate-node": "name, first (Location). fatal",
+    "duplicate-node": "name, first (Location). fatal in ROS 1",
     "machine-undefined": "name, declared (list). fatal",
 }

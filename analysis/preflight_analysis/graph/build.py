@@ -37,7 +37,7 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topi
     for node, interface in zip(tree.nodes, merged, strict=True):
         if not interface.endpoints and not interface.params:
             continue
-        remaps = _effective_remaps(node)
+        remaps = _effective_remaps(node, tree.generation)
         of_actions: set[int] = set()
         for action in actions_of(interface.endpoints):
             whole, parts = _connect_action(node, action, remaps)
@@ -62,10 +62,12 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topi
     )
 
 
-def _effective_remaps(node: LaunchNode) -> dict[str, tuple[Remap, str]]:
-    """Resolved source to the remap and its resolved target; of two for one name the later wins, as in the clients."""
+def _effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap, str]]:
+    """Resolved source to the remap and its resolved target; of two for one name the later wins in ROS 1, the first one
+    in ROS 2, as in the clients."""
+    ordered = node.remaps if generation == 1 else reversed(node.remaps)
     return {
-        names.resolve(remap.source, node.name): (remap, names.resolve(remap.target, node.name)) for remap in node.remaps
+        names.resolve(remap.source, node.name): (remap, names.resolve(remap.target, node.name)) for remap in ordered
     }
 
 

@@ -25,6 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             rule,
             problem,
             f"there is another node with the name '{name}'{how}",
+            severity=None if problem.fatal else "warning",
             related=(Related("the first one", first),),
             fixes=() if twice else _fixes(context, problem, taken),
         )
@@ -46,7 +47,8 @@ RULE = Rule(
     name="duplicate-node",
     severity="error",
     what="Reports a second node with the same full name, in this file or in one that is included.",
-    why="`roslaunch` stops: names are unique in the graph, a second node would shut the first one down.",
+    why="`roslaunch` stops: names are unique in the graph, a second node would shut the first one down. "
+    "`ros2 launch` only warns: both run, and what asks for one of them by its name may get the other.",
     example='<node pkg="laser" type="driver" name="laser"/>\n<node pkg="laser" type="driver" name="laser"/>',
     instead='<node pkg="laser" type="driver" name="laser_front"/>\n<node pkg="laser" type="driver" name="laser_rear"/>',
     check=_check,

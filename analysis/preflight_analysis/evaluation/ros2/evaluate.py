@@ -105,6 +105,21 @@ class _Walk:
             place, actions = self._later.pop(0)
             self._actions(place, actions)
         self._report_missing_below()
+        self._report_duplicates()
+
+    def _report_duplicates(self) -> None:
+        """Two nodes of one name: launch only warns, and both run."""
+        first: dict[str, Location] = {}
+        for node in self._state.nodes:
+            if not node.named or node.unknowns:
+                continue
+            value = node.action.value("name")
+            place = Location(node.location.file, value.span if value is not None else node.action.kind_span)
+            if node.name in first:
+                origin = (*node.origin[:-1], place)
+                self._state.problem("duplicate-node", origin, fatal=False, name=node.name, first=first[node.name])
+            else:
+                first[node.name] = place
 
     def _report_missing_below(self) -> None:
         """launch stops there also where the include is never executed, for a condition around it that is false."""

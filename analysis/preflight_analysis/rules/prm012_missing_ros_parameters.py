@@ -1,0 +1,40 @@
+"""PRM012: values of a parameter file that stand below no `ros__parameters` (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    seen: set[str] = set()
+    for node in context.tree.nodes:
+        for source in node.param_sources:
+            path = source.path
+            document = context.documents.get(path) if path is not None else None
+            if path is None or path in seen or not isinstance(document, Document):
+                continue
+            seen.add(path)
+            for name, span in read_param_file(document.text).unmarked[:1]:
+                message = (
+                    f"'{name}' does not stand below '{MARK}', which has to follow the node's name: the file is refused"
+                )
+                related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
+                yield rule.finding(message, Location(path, span), related=related)
+
+
+RULE = Rule(
+    id="PRM012",
+    name="missing-ros-parameters",
+    severity="error",
+    what="Reports a value in a parameter file that stands below a node's name without `ros__parameters` between (ROS "
+    "2). The first one of a file is reported.",
+    why="The client libraries refuse the whole file, and the node does not start.",
+    example="camera:\n  rate: 30",
+    instead="camera:\n  ros__parameters:\n    rate: 30",
+    generations=(2,),
+    check=_check,
+)
