@@ -46,12 +46,15 @@ def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, di
 
 
 def master_view(requests: list[TraceRequest], interfaces: list[Interface]) -> dict[str, dict[str, list[list[str]]]]:
-    """The interfaces in the form in which the master has them: final names, one type to a topic."""
+    """The interfaces in the form in which the master has them: final names, one type to a topic. What is made on demand
+    is left out: nobody connects to the nodes."""
     ends = []
     for request, interface in zip(requests, interfaces, strict=True):
         remaps = names.resolve_remaps(request.remaps, request.node)
         ends += [
-            (request.node, e.role, names.resolve(e.name, request.node, remaps), e.type) for e in interface.endpoints
+            (request.node, e.role, names.resolve(e.name, request.node, remaps), e.type)
+            for e in interface.endpoints
+            if not e.on_demand
         ]
     types = {name: kind for _, role, name, kind in ends if role in ("publisher", "subscriber") and kind != "*"}
     view: dict[str, dict[str, list[list[str]]]] = {}

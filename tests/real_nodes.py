@@ -98,7 +98,7 @@ def rows(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, displa
         shown = [real["shown"].get(name, {}) for name in group]
         theirs = {(side, name, kind) for sides in shown for side in _SIDES for name, kind in sides.get(side, ())}
         # A master has one type for each topic, which any of its ends may have told.
-        masters = {name: kind for side, name, kind in theirs if side != "services" and kind in types[name]}
+        masters = {name: kind for side, name, kind in theirs if side != "services" and types[name] & {kind, "*"}}
         ours: dict[End, bool] = {}
         for node in nodes:
             for side in _SIDES:
@@ -129,12 +129,14 @@ def rows(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, displa
 
 
 def _types(graph: dict[str, Any]) -> dict[str, set[str | None]]:
-    """What a master could say of each topic: a type that one end knows, nothing where none does."""
+    """What a master could say of each topic: a type that one end knows, nothing where none does, and anything (`*`)
+    where a publisher passes on whatever it gets."""
     types: dict[str, set[str | None]] = defaultdict(set)
     for node in graph["nodes"]:
         for side in _SIDES[:2]:
             for end in node[side]:
-                types[end["name"]].add(None if end["type"] == "*" else end["type"])
+                any_type = "*" if side == "publishers" else None
+                types[end["name"]].add(any_type if end["type"] == "*" else end["type"])
     return types
 
 
@@ -158,7 +160,8 @@ def _label(node: dict[str, Any]) -> str:
 
 def _outcome(node: dict[str, Any]) -> str:
     source = node["interface_source"]
-    return str(node["outcome"]) if source == "trace" else f"{node['outcome']}, known from {source}"
+    # What waited is completed by similar runs, its own among them.
+    return str(node["outcome"]) if source in ("trace", "similar") else f"{node['outcome']}, known from {source}"
 
 
 def _counted(ours: set[End], theirs: set[End], sides: tuple[str, ...]) -> tuple[int, int]:
@@ -271,7 +274,8 @@ roslaunch and rosmaster, which is asked for its state once that no longer change
 have to be equal by name and type. `/rosout` and the two logger services, which every node has, are compared but not
 counted: *2/3* means that two of the three topics' ends which the master shows were found by the trace. Nodelets are
 counted with their manager, since for a master their topics are the manager's. *On demand* are ends that the node makes
-once somebody subscribes to it; the trace shows them, the master only if somebody did.
+once somebody subscribes to it, or sends it a message; the trace shows them, the master only if somebody did. A
+subscription that a node gives up again, after a first message, is *not real* here: the trace keeps it.
 
 ## Nodes of Debian's packages
 From `fixtures/ros1/real_nodes/launch`; `fixtures/ros1/real_nodes/apt-packages` is what they need. {summary}
@@ -285,7 +289,7 @@ From `fixtures/ros1/cpp_tutorials`, after the structure of roscpp_tutorials; tho
 {tutorials}
 
 ## Beside the paper's Table 3
-Topics found, in the paper and here. Of its other nodes Debian has none (joy among them).
+Topics found, in the paper and here. Nodes of that table that Debian does not have (joy) cannot be shown.
 
 | node | paper | here, topics | here, services |
 | --- | --- | --- | --- |

@@ -79,6 +79,14 @@ def test_a_nodelet_of_a_manager_runs_alone_and_calls_its_manager(tmp_path: Path)
     elsewhere = tracer.lookup(replace(asked, args=("load", "vision/Rectify", "other", "--no-bond")))
     assert elsewhere is not None
     assert ("client", "other/load_nodelet", "nodelet/NodeletLoad") in own(elsewhere)
+    bonded = tracer.lookup(replace(asked, args=("load", "vision/Rectify", "manager")))
+    assert bonded is None, "the standalone nodelet would get other arguments"
+
+
+def test_a_nodelet_and_its_manager_keep_a_bond(tmp_path: Path) -> None:
+    asked = TraceRequest("/n", "nodelet", str(nodelet_folder(tmp_path)), ("load", "vision/Rectify", "manager"))
+    found = own(Tracer(environment(tmp_path), None).trace(asked, threading.Event()))
+    assert {("publisher", "manager/bond", "bond/Status"), ("subscriber", "manager/bond", "bond/Status")} <= found
 
 
 def test_a_nodelet_that_is_not_installed_says_so_instead_of_waiting() -> None:

@@ -12,7 +12,7 @@ from preflight_analysis.tracing.interface import Frame, Interface
 
 SCHEMA = "ros-preflight/graph/1"
 
-_FLAGS = ("builtin", "speculative", "inferred", "similar")
+_FLAGS = ("builtin", "speculative", "on_demand", "inferred", "similar")
 _KEYS = {
     "publisher": "publishers",
     "subscriber": "subscribers",

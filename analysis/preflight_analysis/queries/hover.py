@@ -355,6 +355,8 @@ def _connection(connection: Connection, interface: Interface) -> str:
         text += ", latched"
     if endpoint.speculative:
         text += ", after a made-up answer"
+    if endpoint.on_demand:
+        text += ", on demand"
     if endpoint.similar:
         text += ", seen elsewhere"
     return text + _made_at(endpoint)

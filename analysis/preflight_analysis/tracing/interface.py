@@ -41,6 +41,9 @@ class Endpoint:
         """Whether no run of this node, and no word of the user, says that it makes it."""
         return self.inferred or self.similar
 
+    on_demand: bool = False
+    """Made once somebody was at the other end of another topic of the node."""
+
     @property
     def uncertain(self) -> bool:
         """Whether the real node may well not make it."""

@@ -30,12 +30,16 @@ def standalone(request: TraceRequest) -> TraceRequest:
 
 
 def with_manager(interface: Interface, request: TraceRequest) -> Interface:
-    """The interface of what `standalone(request)` runs as that of `request`: it calls its manager."""
+    """The interface of what `standalone(request)` runs as that of `request`: it calls its manager, and
+    keeps a bond with it."""
     manager = _manager(request)
     if manager is None or not interface.known:
         return interface
-    call = Endpoint("client", f"{manager}/load_nodelet", "nodelet/NodeletLoad")
-    return replace(interface, endpoints=(*interface.endpoints, call))
+    between = [Endpoint("client", f"{manager}/load_nodelet", "nodelet/NodeletLoad")]
+    if "--no-bond" not in request.args:
+        # By which each learns that the other has ended.
+        between += [Endpoint(role, f"{manager}/bond", "bond/Status") for role in ("publisher", "subscriber")]
+    return replace(interface, endpoints=(*interface.endpoints, *between))
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from typing import Any, cast
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.agents.feeder import ANY_TYPE
 from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse, Role
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
@@ -101,7 +102,7 @@ class _Gathered:
     endpoints: dict[str, tuple[Endpoint, str | None]] = field(default_factory=dict)
     params: dict[str, tuple[ParamUse, str | None]] = field(default_factory=dict)
     """By their `repr`, so that each counts once; with the resolved name that the library told."""
-    seen_endpoints: list[tuple[str, str, str | None]] = field(default_factory=list)
+    seen_endpoints: list[tuple[str, str, str | None, bool]] = field(default_factory=list)
     seen_params: list[tuple[str, str]] = field(default_factory=list)
     lookups: list[str] = field(default_factory=list)
     waits: list[tuple[str, str, str | None, int | None]] = field(default_factory=list)
@@ -116,6 +117,8 @@ class _Gathered:
     waited: bool = False
     """Whether it did: there was something new after it."""
     woven: bool = False
+    visited: bool = False
+    """Whether somebody was there for its topics."""
     end: Mapping[str, Any] | None = None
     dropped: int = 0
 
@@ -145,7 +148,12 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
     if not recipe.python:
         _correct_names(found, request.node, remaps)
-    endpoints = _endpoints(found, request.node, remaps)
+    gone = _withdrawn(found)
+    endpoints = tuple(
+        e
+        for e in _endpoints(found, request.node, remaps)
+        if not gone or (e.role, names.resolve(e.name, request.node, remaps)) not in gone
+    )
     params, param_dependencies = _params(found)
     asked = set(found.asked)
     told = sum(not endpoint.builtin for endpoint, _ in found.endpoints.values())
@@ -247,19 +255,21 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
     if role in ("service", "client"):
         qos = {}
     file, line = _place(record)
+    passed_on = record.get("type") == ANY_TYPE
     endpoint = Endpoint(
         cast(Role, role),
         name,
-        _text(record.get("type"), _TYPE),
-        _text(record.get("md5"), _MD5),
+        "*" if passed_on else _text(record.get("type"), _TYPE),
+        "*" if passed_on else _text(record.get("md5"), _MD5),
         qos,
         file,
         line,
         builtin=record.get("builtin") is True,
         speculative=record.get("speculative") is True,
+        on_demand=found.visited,
     )
     # One that it made before as well is sure.
-    key = repr(dataclasses.replace(endpoint, speculative=False))
+    key = repr(dataclasses.replace(endpoint, speculative=False, on_demand=False))
     found.waited = found.waited or (bool(found.fed) and key not in found.endpoints)
     found.endpoints.setdefault(key, (endpoint, _text(record.get("resolved"), _NAME)))
     return True
@@ -293,7 +303,8 @@ def _own(record: Mapping[str, Any], found: _Gathered) -> bool:
             role, name = record.get("role"), _text(record.get("name"), _NAME)
             if role not in _ROLES or name is None or len(found.seen_endpoints) >= MAX_ENDPOINTS:
                 return False
-            found.seen_endpoints.append((str(role), name, _text(record.get("type"), _TYPE)))
+            kind = "*" if record.get("type") == ANY_TYPE else _text(record.get("type"), _TYPE)
+            found.seen_endpoints.append((str(role), name, kind, found.visited))
         case "m-param":
             access, name = record.get("access"), _text(record.get("name"), _NAME)
             if access not in _ACCESS or name is None or len(found.seen_params) >= MAX_PARAMS:
@@ -306,6 +317,8 @@ def _own(record: Mapping[str, Any], found: _Gathered) -> bool:
             found.lookups.append(name)
         case "started":
             pass
+        case "visited":
+            found.visited = True
         case "maps":
             _add_files(paths(record.get("paths")), found)
         case "end":
@@ -344,7 +357,7 @@ def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[
     known: set[tuple[str, str]] = {
         (e.role, full or names.resolve(e.name, node, remaps)) for e, full in found.endpoints.values()
     }
-    for role, name, kind in found.seen_endpoints:
+    for role, name, kind, on_demand in found.seen_endpoints:
         if (role, name) in known:
             continue
         known.add((role, name))
@@ -353,7 +366,7 @@ def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[
             endpoints.append(Endpoint("service", "~" + private, _logger_type(private), builtin=True))
         else:
             builtin = (role, name) in (("publisher", "/rosout"), ("subscriber", "/clock"))
-            endpoints.append(Endpoint(cast(Role, role), name, kind, builtin=builtin))
+            endpoints.append(Endpoint(cast(Role, role), name, kind, builtin=builtin, on_demand=on_demand))
     for kind, name, file, line in found.waits:
         full = names.resolve(name, node, remaps)
         if kind == "service" and ("client", full) not in known:
@@ -374,6 +387,14 @@ def _is_named(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: s
     starts = ("//", f"{node}/", *([space] if space != "/" else []))
     given = [e.name for e in endpoints if not e.builtin] + [p.name for p in params if not p.builtin]
     return any(name.startswith(starts) for name in given)
+
+
+def _withdrawn(found: _Gathered) -> set[tuple[str, str]]:
+    """Role and full name of what a node that goes on has offered for a while only. What it listened to for a while, it
+    needed."""
+    listed = found.end.get("withdrawn") if found.end is not None else None
+    pairs = (pair for pair in listed if isinstance(pair, list) and len(pair) == 2) if isinstance(listed, list) else ()
+    return {(str(role), str(name)) for role, name in pairs if role in ("publisher", "service")}
 
 
 def _logger_type(service: str) -> str:

@@ -50,6 +50,7 @@ def _endpoint(endpoint: Endpoint) -> dict[str, Any]:
         "qos": json_value(endpoint.qos),
         "builtin": endpoint.builtin,
         "speculative": endpoint.speculative,
+        "on_demand": endpoint.on_demand,
         **_made_at(endpoint),
     }
 

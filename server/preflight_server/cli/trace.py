@@ -59,6 +59,7 @@ def _lines(node: LaunchNode, interface: Interface) -> Iterator[str]:
     for endpoint in interface.endpoints:
         if not endpoint.builtin:
             made_up = "  (after a made-up answer)" if endpoint.speculative else ""
+            made_up += "  (on demand)" if endpoint.on_demand else ""
             made_at = _at(endpoint.source_file, endpoint.source_line)
             yield f"  {endpoint.role} {endpoint.name}  {endpoint.type or 'type not known'}{made_at}{made_up}"
     for use in interface.params:

@@ -25,8 +25,9 @@ _ONE = b"\1" + _ZEROS[1:]
 """What comes first is often a yes or no, or the count in a header."""
 _MAX_HEADER = 65536
 _SUCCEEDED = 3
-_UNTYPED = {"type": "std_msgs/String", "md5sum": "992ce8a1687cec8c8bd883ec73ca41d1"}
-"""For those who take any type."""
+ANY_TYPE = "preflight/Any"
+_UNTYPED = {"type": ANY_TYPE, "md5sum": "992ce8a1687cec8c8bd883ec73ca41d1"}
+"""For those who take any type. What they advertise with it has whatever type their input has."""
 _LONGEST = 3.0
 """Seconds until somebody who was to be fed is given up."""
 

@@ -349,6 +349,8 @@ struct ClientOptions {
 
 // After the three callbacks (boost::function, 32 bytes each), the tracked object and the queue.
 constexpr size_t kLatchOffset = 224;
+// The first of the callbacks, told of subscribers: a boost::function begins with a pointer, null where there is none.
+constexpr size_t kConnectOffset = 136;
 
 bool in_main_thread() { return syscall(SYS_gettid) == getpid(); }
 
@@ -452,6 +454,9 @@ void tell_topic(const char* role, const NodeHandle* handle, const TopicOptions& 
     if (role[0] == 'p') {
       bool latch = reinterpret_cast<const unsigned char*>(&options)[kLatchOffset] == 1;
       qos += std::string(",\"latch\":") + (latch ? "true" : "false");
+      void* told_of_subscribers;
+      memcpy(&told_of_subscribers, reinterpret_cast<const char*>(&options) + kConnectOffset, sizeof told_of_subscribers);
+      event.add("awaits", told_of_subscribers != nullptr);
     }
     event.add("type", options.type).raw("qos", qos + "}").send();
   });

@@ -137,6 +137,7 @@ def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
             line=line,
             builtin=internal and given in _BUILTINS,
             speculative=answers.speculative(),
+            awaits=arguments.get("subscriber_listener") is not None,
         )
         if role == "publisher":
             frames.watch(made)

@@ -36,6 +36,21 @@ class Master:
         self._param_subscribers: dict[str, set[str]] = {}
         self._offers: dict[str, int] = {}
 
+    @property
+    def uri(self) -> str:
+        """Where it is called."""
+        return self._uri
+
+    def apis(self, role: str, name: str) -> list[str]:
+        """The addresses of those that have this end of a topic."""
+        with self._lock:
+            return list(self._sides[role].get(name, {}).values())
+
+    def withdrawn(self) -> list[tuple[str, str]]:
+        """Role and name of what was registered once and is no more."""
+        with self._lock:
+            return [(role, name) for role, names in self._sides.items() for name, ends in names.items() if not ends]
+
     def call(self, method: str, arguments: tuple[Any, ...]) -> list[Any]:
         """Answer one call; what is not in the API is an error answer, as in rosmaster."""
         handler = None if method.startswith("_") else getattr(self, "api_" + method, None)

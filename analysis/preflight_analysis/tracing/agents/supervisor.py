@@ -18,10 +18,13 @@ import struct
 import sys
 import threading
 import time
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 from .census import Census
 from .params import ParamTree
+
+if TYPE_CHECKING:
+    from .visits import Visits
 
 MASTER_PORT = 11311
 MAX_LINE = 64_000
@@ -65,6 +68,7 @@ class Run:
         """The process of the node's X server."""
         self.master: Any = None
         self.feeder: Any = None
+        self.visits: Optional[Visits] = None
 
     def emit(self, record: dict[str, Any]) -> bool:
         """One line to the host; repetitions are left out. Whether it was new."""
@@ -106,13 +110,17 @@ class Run:
         self.woven = self.woven or event["ev"] == "woven"
         if event["ev"] == "state":
             self._state(event)
-        elif event["ev"] == "feed":
-            self._feed(event)
-        elif self.emit({"node": event}) and event["ev"] in ("endpoint", "param"):
+            return
+        if event["ev"] == "feed":
+            self.feed(str(event.get("topic"))[:300], str(event.get("goal") or "")[:300])
+            return
+        if event["ev"] == "endpoint":
+            self._offer_visit(event)
+        if self.emit({"node": event}) and event["ev"] in ("endpoint", "param"):
             # Only what is new: a parameter that a loop reads in each turn would keep the node from ever being quiet.
             self.active = time.monotonic()
 
-    def _feed(self, event: dict[str, Any]) -> None:
+    def feed(self, topic: str, goal: str = "") -> None:
         """The node gets made-up messages. Most need none, so it is imported only now."""
         if self.master is None:
             return
@@ -120,7 +128,16 @@ class Run:
             from . import feeder  # noqa: PLC0415
 
             self.feeder = feeder.Feeder(self.master)
-        self.feeder.feed(str(event.get("topic"))[:300], str(event.get("goal") or "")[:300])
+        self.feeder.feed(topic, goal)
+
+    def _offer_visit(self, endpoint: dict[str, Any]) -> None:
+        """Whether somebody at the other end could make a difference."""
+        role, topic = endpoint.get("role"), endpoint.get("resolved")
+        lazy = (role == "publisher" and endpoint.get("awaits") is True) or (
+            role == "subscriber" and endpoint.get("type") == "*"
+        )
+        if self.visits is not None and lazy and isinstance(topic, str):
+            self.visits.offer(str(role), topic)
 
     def _state(self, event: dict[str, Any]) -> None:
         state, now = event.get("state"), time.monotonic()
@@ -167,6 +184,13 @@ class Run:
 
     def over(self) -> Optional[str]:
         """Why to stop now: `spinning`, `timed-out`, or None."""
+        why = self._over()
+        if why == "spinning" and self.visits is not None:
+            fed = self.feeder is not None and self.feeder.busy()
+            return None if self.visits.busy(self.pid, self.active, fed) else why
+        return why
+
+    def _over(self) -> Optional[str]:
         now = time.monotonic()
         if self.spins:
             return "spinning"
@@ -311,10 +335,12 @@ def _main(job: dict[str, Any]) -> None:
     wake_read, failure_read = start(run)
     # After the fork on purpose: until the node reaches its first call, the sockets' backlog holds it.
     from . import stub_master  # noqa: PLC0415
+    from .visits import Visits  # noqa: PLC0415
 
     params = ParamTree()
     _load(params, job["params"])
     run.master = stub_master.serve(listening, params, run.master_report)
+    run.visits = Visits(run.master, run.feed, lambda event: run.emit({"own": {"ev": event}}))
 
     status, code, why = _watch(run, events, wake_read)
     if status == "ended" and code == 127:
@@ -330,6 +356,7 @@ def _main(job: dict[str, Any]) -> None:
                 "code": code,
                 "why": why,
                 "waits": run.blocked_by() if status == "timed-out" else [],
+                "withdrawn": run.master.withdrawn()[:MAX_EVENTS] if status == "spinning" else [],
                 "initialised": run.initialised,
                 "dropped": run.dropped,
                 "seconds": time.monotonic() - run.started,
@@ -408,6 +435,8 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
             # It goes on as a daemon, or was a script that started the node in the background.
             followed, run.pid, ended = True, left[0], None
         if ended is not None:
+            if run.visits is not None and run.visits.made:
+                return "spinning", None, ""  # it was, until we talked to it
             return "ended", ended, ""
         reason = run.census.exceeded() or ("abandoned" if host_is_gone() else run.over())
         if reason is not None:

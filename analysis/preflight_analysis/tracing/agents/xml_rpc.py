@@ -100,6 +100,21 @@ def read_call(body: bytes) -> tuple[str, tuple[Any, ...]]:
     return reader.method, tuple(reader.values)
 
 
+def read_answer(body: bytes) -> Any:
+    """The value of an answer. Raises `ValueError` if it is none, or one that tells of a failure."""
+    values = read_call(body)[1]
+    if len(values) != 1:
+        raise ValueError("not an answer")
+    return values[0]
+
+
+def call(method: str, *arguments: Any) -> str:
+    """The body of a call. Raises as `answer` does."""
+    said = "".join(f"<param>\n{_value(value)}</param>\n" for value in arguments)
+    called = f"<methodName>{method}</methodName>\n<params>\n{said}</params>"
+    return f"<?xml version='1.0'?>\n<methodCall>\n{called}\n</methodCall>\n"
+
+
 def answer(value: Any) -> str:
     """The body of an answer. Raises `TypeError` for what XML-RPC cannot say, `OverflowError` for too large a number."""
     said = f"<params>\n<param>\n{_value(value)}</param>\n</params>"
