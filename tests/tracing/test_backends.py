@@ -13,6 +13,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import uuid
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -22,7 +23,9 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import landlock, run, sandbox, seccomp
 from preflight_analysis.tracing.backend import AGENTS, View
-from tracing_desk import own, processes_with, trace, working_backends, write_node
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.trace import Tracer
+from tracing_desk import environment, own, processes_with, request, trace, working_backends, write_node
 
 SECURITY = Path(__file__).parents[2] / "docs" / "security.md"
 CASES = re.compile(r"^\| `([a-z0-9-]+)` \| ([^|]*) \| ([^|]*) \| ([^|]*) \| ([^|]*) \|$", re.MULTILINE)
@@ -316,6 +319,21 @@ def test_too_much_on_the_disk_ends_the_run(tmp_path: Path, backend: str, monkeyp
     assert outcome.status == "crashed", outcome
     assert str(outcome.reason).startswith("it wrote more than ")
     assert list(Path(tempfile.gettempdir()).glob(f"ros-preflight-{os.getpid()}-*")) == []
+
+
+def test_a_crash_that_the_sandbox_may_have_caused_is_marked_and_not_kept(tmp_path: Path, each_backend: str) -> None:
+    package = tmp_path / "pkg"
+    package.mkdir()
+    script = write_node(package, "import multiprocessing\nmultiprocessing.Lock()\nraise SystemExit(3)\n")
+    os.utime(script, (0, 0))
+    tracer = Tracer(environment(package), TraceCache(tmp_path / "cache"))
+    found = [tracer.trace(request(script), threading.Event()) for _ in range(2)]
+    marked = [any("refuses" in note for note in each.notes) for each in found]
+    if each_backend == "landlock":
+        assert (marked, [each.cached for each in found]) == ([True, True], [False, False])
+    else:
+        assert (marked, [each.cached for each in found]) == ([False, False], [False, True])
+        assert found[0].outcome.exit_code == 3
 
 
 def test_the_choice_is_the_users(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -67,6 +67,24 @@ def test_what_it_prints_is_the_result(desk: Desk) -> None:
     assert desk.run("true") == CommandResult("done", "")
 
 
+@pytest.mark.usefixtures("each_backend")
+def test_what_it_prints_is_the_same_with_each_way_to_isolate(desk: Desk) -> None:
+    line = desk.script(
+        "import os\nprint(os.environ['HOME'], os.environ['TMPDIR'], 'x' * 50000, os.environ['ROS_HOME'])"
+    )
+    assert desk.run(line) == CommandResult("done", f"{sandbox.home()} /tmp {'x' * 50000} /tmp/ros_home\n")
+
+
+def test_a_failure_is_none_where_the_sandbox_refuses_more_than_it_must(desk: Desk, each_backend: str) -> None:
+    result = desk.run(desk.script("open('/tmp/here', 'w')"))
+    if each_backend == "landlock":
+        assert result.status == "not-run"
+        expected = "it ended with exit code 1 in the sandbox by landlock, which refuses more than bubblewrap would"
+        assert result.reason == expected
+    else:
+        assert result.status == "done"
+
+
 def test_all_of_a_long_output_arrives_in_order(desk: Desk) -> None:
     line = desk.script("for n in range(300000): print(n, flush=n % 1000 == 0)")
     assert desk.run(line).output == "".join(f"{n}\n" for n in range(300000))

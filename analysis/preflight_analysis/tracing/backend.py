@@ -89,6 +89,8 @@ class Backend:
     isolated: Callable[[Sequence[str], View], AbstractContextManager[Isolated]]
     explained: Callable[[str], str]
     guarantees: tuple[str, ...]
+    narrow: bool = False
+    """Whether a program may fail in it that would not in the others: what failed so is no finding, and not kept."""
 
 
 @contextlib.contextmanager

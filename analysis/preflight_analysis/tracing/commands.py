@@ -180,6 +180,9 @@ class CommandRunner:
         ended = _read(raw)
         result = _result(raw, ended)
         if result.status == "failed":
+            if status.narrow:
+                why = f"{result.reason} in the sandbox by {status.backend}, which refuses more than bubblewrap would"
+                return CommandResult("not-run", reason=why, stderr_tail=result.stderr_tail)
             return _sandbox_to_blame(result, job, ended) or result
         if result.status == "done" and self.cache is not None:
             files = (*job.named, *on_host(ended.files, job.visible))
@@ -215,7 +218,7 @@ def _read(raw: run.RawRun) -> _Ended:
             ended.files.update(dict.fromkeys(paths(told.get("paths"))))
         elif isinstance(told, dict) and told.get("ev") == "wrote":
             ended.wrote.update(dict.fromkeys(paths([told.get("path")])))
-    ended.output = b"".join(pieces)
+    ended.output = run.moved_back(b"".join(pieces), raw.moved)
     return ended
 
 

@@ -135,4 +135,5 @@ BACKEND = Backend(
         "the names and command lines of the machine's processes can be seen; signals reach the run's own only",
         "no semaphores of multiprocessing, no changes of files' modes and times: a node that needs them fails",
     ),
+    narrow=True,
 )

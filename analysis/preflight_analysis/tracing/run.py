@@ -79,6 +79,8 @@ class RawRun:
     """The outer clock ran out."""
     started: float = 0.0
     """Seconds since the epoch."""
+    moved: Mapping[str, str] = field(default_factory=dict)
+    """Which of the folders inside this run had elsewhere: see `backend.Isolated`."""
 
 
 def execute(
@@ -134,7 +136,7 @@ def _execute(
         what = _process(recipe, prepared) if recipe is not None else {"compile": True}
         handed.write(json.dumps({**_sandbox(prepared), **what, **job}).encode())
         handed.seek(0)
-        raw = RawRun(started=time.time())
+        raw = RawRun(started=time.time(), moved=prepared.isolated.moved)
         process = subprocess.Popen(
             prepared.command,
             stdin=handed,
@@ -146,7 +148,7 @@ def _execute(
             pass_fds=prepared.isolated.descriptors,
         )
         try:
-            _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS, prepared.isolated.moved)
+            _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS)
         finally:
             _end(process, prepared.isolated.leash)
             process.wait()
@@ -238,13 +240,7 @@ def _own_process_count() -> bool:
         return False
 
 
-def _read(
-    process: subprocess.Popen[bytes],
-    raw: RawRun,
-    cancel: threading.Event,
-    deadline: float,
-    moved: Mapping[str, str],
-) -> None:
+def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event, deadline: float) -> None:
     assert process.stdout is not None
     assert process.stderr is not None
     rest, total = b"", 0
@@ -274,13 +270,13 @@ def _read(
                         continue
                     *lines, rest = (rest + data).split(b"\n")
                     for line in lines:
-                        _take(_moved_back(line, moved), raw)
+                        _take(moved_back(line, raw.moved), raw)
                     # Too long already: its end is let go by, and the line counted once when it comes.
                     rest = rest[: MAX_LINE + 1]
-    raw.stderr = _moved_back(raw.stderr, moved)
+    raw.stderr = moved_back(raw.stderr, raw.moved)
 
 
-def _moved_back(said: bytes, moved: Mapping[str, str]) -> bytes:
+def moved_back(said: bytes, moved: Mapping[str, str]) -> bytes:
     """With the names of what is ours inside that all runs have: what it was called in this one means nothing later."""
     for inside, elsewhere in moved.items():
         said = said.replace(elsewhere.encode(), inside.encode())

@@ -43,12 +43,13 @@ _SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-",
 @dataclass(frozen=True, slots=True)
 class SandboxStatus:
     """Whether nodes can be run, and by which `backend`. `reason` is a sentence that says why not and what to do about
-    it, `guarantees` what holds where they can, one sentence each."""
+    it, `guarantees` what it, `guarantees` what holds where they can, one sentence each. `narrow` is as in `Backend`."""
 
     works: bool
     reason: str | None = None
     guarantees: tuple[str, ...] = ()
     backend: str | None = None
+    narrow: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +84,7 @@ def _probed(choice: str) -> SandboxStatus:
     for each in wanted:
         reason = _tried(each)
         if reason is None:
-            return SandboxStatus(True, guarantees=_guarantees(each), backend=each.name)
+            return SandboxStatus(True, guarantees=_guarantees(each), backend=each.name, narrow=each.narrow)
         reasons.append(reason)
     return SandboxStatus(False, "; ".join(reasons))
 

@@ -90,6 +90,8 @@ class Tracer:
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
             observed = replace(observed, interface=noted)
+        if status.narrow and observed.interface.outcome.status == "crashed":
+            observed = replace(observed, lasting=False, interface=_perhaps_refused(observed.interface, status))
         if self.cache is not None and observed.lasting:
             self.cache.store(
                 recipe,
@@ -100,6 +102,11 @@ class Tracer:
                 started=raw.started,
             )
         return observed.interface
+
+
+def _perhaps_refused(found: Interface, status: sandbox.SandboxStatus) -> Interface:
+    said = f"it may have ended for what the sandbox by {status.backend} refuses; bubblewrap would refuse less"
+    return replace(found, notes=(*found.notes, said))
 
 
 def _files(observed: Observation, recipe: recipes.Recipe, visible: Iterable[str]) -> tuple[str, ...]:
