@@ -499,3 +499,31 @@ def test_the_same_topic_of_another_node_is_only_a_hint() -> None:
     found = {name: findings_of(text.replace("NAME", name)) for name in ("~image", "rectifier/image")}
     told = {name: [f.severity for f in all_ if f.rule == "TOP001"] for name, all_ in found.items()}
     assert told == {"~image": ["hint"], "rectifier/image": ["warning"]}
+    (renamed,) = findings_of(text.replace("NAME", "~image").replace("/camera", "/old_rectifier"))
+    assert (renamed.rule, renamed.severity) == ("TOP001", "warning")
+
+
+def test_two_cameras_on_one_topic() -> None:
+    text = """
+        <launch>
+          <group ns="head"><node pkg="p" type="t" name="left"/></group>
+          <group ns="head"><node pkg="p" type="t" name="right"/></group>
+                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] a subscriber gets the
+          <node pkg="p" type="t" name="viewer"/>
+        </launch>
+        //- interfaces
+        {"/head/left": {"publishers": {"image_raw": "sensor_msgs/Image"}},
+         "/head/right": {"publishers": {"image_raw": "sensor_msgs/Image"}},
+         "/viewer": {"subscribers": {"/head/image_raw": "sensor_msgs/Image"}}}
+    """
+    check(text)
+    told = {
+        type_: [f.severity for f in findings_of(text.replace("sensor_msgs/Image", type_)) if f.rule == "TOP005"]
+        for type_ in ("nav_msgs/Odometry", "sensor_msgs/JointState", "geometry_msgs/Twist", "std_msgs/String")
+    }
+    assert told == {
+        "nav_msgs/Odometry": ["info"],
+        "sensor_msgs/JointState": [],
+        "geometry_msgs/Twist": [],
+        "std_msgs/String": [],
+    }

@@ -14,7 +14,7 @@ from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.nearest import likeness, numbers_in, share_words
+from preflight_analysis.rules.nearest import has_all_words, likeness, numbers_in, share_words
 from preflight_analysis.rules.nearest_memory import Hit, Nearest
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
@@ -237,9 +237,11 @@ def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
 
 def _of_another_node(near: NearMiss) -> bool:
     """Whether the offered name is a private one and the wanted one is that of another node, which may well be started
-    elsewhere: `/rectifier/image` for `/camera/image`."""
+    elsewhere: `/rectifier/image` for `/camera/image`, but not `/tracker/image` for `/old_tracker/image`."""
     private = near.offering.remap is None and near.offering.endpoint.name.startswith("~")
-    return near.likeness == "words" and private and not near.wanting.name.startswith(f"{near.offering.node.name}/")
+    if near.likeness != "words" or not private or near.wanting.name.startswith(f"{near.offering.node.name}/"):
+        return False
+    return not has_all_words(near.wanting.name, near.offering.name)
 
 
 def nodes_looked_at(graph: Graph) -> str:

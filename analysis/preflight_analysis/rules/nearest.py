@@ -102,6 +102,12 @@ def _same_words(name: str, other: str) -> bool:
     return common in (mine, theirs) or len(common) / len(mine | theirs) >= 0.6
 
 
+def has_all_words(name: str, other: str) -> bool:
+    """Whether one of the names has all words of the other. Numbers are none."""
+    mine, theirs = _plain_words(name), _plain_words(other)
+    return mine <= theirs or theirs <= mine
+
+
 def share_words(name: str, other: str) -> bool:
     """Whether a word is in both names. Numbers are none."""
     return not _plain_words(name).isdisjoint(_plain_words(other))

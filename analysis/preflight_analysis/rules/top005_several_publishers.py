@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.model import Channel, Connection
@@ -13,6 +13,15 @@ from preflight_analysis.rules.well_known import is_transform
 
 _STATE = frozenset({"nav_msgs/OccupancyGrid", "nav_msgs/MapMetaData", "sensor_msgs/CameraInfo"})
 """Types of which a latched message is the state of the world: there is one."""
+_STREAMS: Mapping[str, Severity] = {
+    "sensor_msgs/Image": "warning",
+    "sensor_msgs/CameraInfo": "warning",
+    "sensor_msgs/LaserScan": "info",
+    "sensor_msgs/Imu": "info",
+    "nav_msgs/Odometry": "info",
+}
+"""Types of which a topic has one source: an image belongs to the calibration beside it. Two range finders of one robot
+may be read from one topic, by those who look at the frame of each scan."""
 _SHARED = ("visualization_msgs/", "diagnostic_msgs/", "actionlib_msgs/", "dynamic_reconfigure/")
 """Types whose messages say whose they are: many publish them on one topic."""
 
@@ -31,6 +40,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
             consequence = "each latches its last message, and a new subscriber gets both in any order"
             yield _finding(rule, channel, latched, severity, consequence)
+        elif len(ends) > 1 and (stream := _one_stream(ends)) is not None:
+            yield _finding(rule, channel, ends, stream, "a subscriber gets the messages of both in turn")
+
+
+def _one_stream(ends: list[Connection]) -> Severity | None:
+    """How severe it is that these publish on one topic, None where they may."""
+    types = {end.endpoint.type for end in ends}
+    return _STREAMS.get(types.pop() or "") if len(types) == 1 else None
 
 
 def _is_shared(end: Connection) -> bool:
@@ -53,8 +70,9 @@ RULE = Rule(
     id="TOP005",
     name="several-publishers",
     severity="warning",
-    what="Reports a topic that is meant for one publisher and has several: `/clock`, and latched topics. Of latched "
-    "topics it is a warning for maps and camera calibrations, an info for others. Transforms, markers and diagnostics, "
+    what="Reports a topic that is meant for one publisher and has several: `/clock`, latched topics, and what a sensor "
+    "sends. It is a warning for latched maps and for images and their calibration, an info for other latched topics, "
+    "scans, inertial measurements and odometry. Transforms, markers and diagnostics, "
     "whose messages say whose they are, are meant for many.",
     why="A latched message is taken for the state of the world. With two of them, what a subscriber believes depends "
     "on the order in which they arrive.",
