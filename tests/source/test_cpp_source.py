@@ -13,6 +13,7 @@ from preflight_analysis.environment.packages import find_packages
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
 from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -715,13 +716,66 @@ def test_an_unbuilt_workspace_in_the_editor(desk: Desk) -> None:
     )
     workspace = Workspace(desk.environment, desk.sources, str(desk.folder))
     analysis = workspace.static(str(path))
-    from preflight_analysis.workspace.not_run import not_run
-
     whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
     found: dict[str, Any] = {finding.rule: finding for finding in whole.findings}
     assert found["PKG002"].severity == "info"
     assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("info", True)
     assert ExecutableIndex(desk.environment).names("p") == ("l", "t")
+
+
+FUSION = """
+    class Fusion {
+     public:
+      Fusion() : pnh_("~") {
+        pub_ = nh_.advertise<nav_msgs::Odometry>("odometry/filtered", 10);
+        int index = 0;
+        bool more = true;
+        while (more) {
+          std::ostringstream key;
+          key << "imu" << index++;
+          std::string topic;
+          more = pnh_.getParam(key.str(), topic);
+          if (more) subs_.push_back(nh_.subscribe(topic, 1, &Fusion::heard, this));
+        }
+      }
+      void heard(const sensor_msgs::ImuConstPtr& imu) {}
+     private:
+      ros::NodeHandle nh_, pnh_;
+      ros::Publisher pub_;
+      std::vector<ros::Subscriber> subs_;
+    };
+    int main(int argc, char** argv) { ros::init(argc, argv, "fusion"); Fusion fusion; ros::spin(); }
+    """
+DRIVER = """
+    int main(int argc, char** argv) {
+      ros::NodeHandle nh("imu_filtered");
+      ros::Publisher pub = nh.advertise<sensor_msgs::Imu>("data", 1);
+    }
+    """
+
+
+def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(desk: Desk) -> None:
+    """A parameter names the topic that a node reads, and another node publishes it under another name."""
+    desk.write("CMakeLists.txt", "project(p)\nadd_executable(fusion f.cpp)\nadd_executable(driver d.cpp)\n")
+    desk.write("f.cpp", HEAD + textwrap.dedent(FUSION))
+    desk.write("d.cpp", HEAD + textwrap.dedent(DRIVER))
+    text = """
+        <launch>
+          <node pkg="p" type="driver" name="driver"/>
+          <node pkg="p" type="fusion" name="fusion"><param name="imu0" value="%s"/></node>
+        </launch>
+        """
+
+    def dangling(topic: str) -> list[str]:
+        path = desk.write("main.launch", text % topic)
+        workspace = Workspace(desk.environment, desk.sources, str(desk.folder))
+        analysis = workspace.static(str(path))
+        whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
+        return [finding.message for finding in whole.findings if finding.rule == "TOP001"]
+
+    (message,) = dangling("imu/data")
+    assert "'/imu/data', to which /fusion subscribes; did you mean '/imu_filtered/data'" in message
+    assert dangling("imu_filtered/data") == []
 
 
 def test_packages_are_found_as_in_a_workspace(tmp_path: Path) -> None:
