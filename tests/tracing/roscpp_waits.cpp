@@ -91,6 +91,14 @@ int main(int argc, char** argv) {
     std_srvs::Trigger call;
     while (ros::ok() && !client.call(call)) ros::Duration(0.05).sleep();
   }
+  if (mode == "calling") {
+    ros::ServiceClient client = node.serviceClient<std_srvs::Trigger>("start");
+    std_srvs::Trigger call;
+    for (ros::Rate turns(20); ros::ok(); turns.sleep()) {
+      if (client.exists()) client.call(call);
+      client.call(call);
+    }
+  }
   if (mode == "clock") ros::Time::waitForValid();
   if (mode == "clock_sleep") ros::Duration(0.2).sleep();
   if (mode == "clock_loop") {

@@ -14,8 +14,8 @@ pytestmark = pytest.mark.ros
 MESSAGE = "it waits for a message on goal, and was given an empty one"
 POLL = "it waits for messages on /{}, and was given empty ones"
 PARAMETER = "it waits for the parameter {}, and was given a value"
-SERVICE = "it waits for the service /start, and was told that it is there"
-CALL = "it calls the service /start, and was given an empty answer"
+SERVICES = "it asks for the service /start again and again, and was told that it is there"
+CALLS = "it calls the service /start again and again, and was given an empty answer"
 SERVER = "it waits for the action server /move, and was told that it is there"
 RESULT = "it waits for the result of the action /move, and was given an empty one"
 CLOCK = "it waits for simulated time on /clock, and was given the time of day"
@@ -45,8 +45,8 @@ def made(interface: Interface) -> dict[str, bool]:
         ("thread", (POLL.format("numbers"),)),
         ("parameter", (PARAMETER.format("/rate"),)),
         ("has", (PARAMETER.format("/node/ready"),)),
-        ("exists", (SERVICE, CALL)),
-        ("calls", (CALL,)),
+        ("exists", (SERVICES, CALLS)),
+        ("calls", (CALLS,)),
         ("clock", (CLOCK,)),
         ("clock_sleep", (CLOCK,)),
         ("clock_loop", (CLOCK,)),
@@ -75,7 +75,7 @@ def test_who_is_there_needs_no_made_up_answer(package: Path, mode: str) -> None:
     assert made(found)["after"] is False
 
 
-@pytest.mark.parametrize("mode", ["work", "fragile", "publish", "optional"])
+@pytest.mark.parametrize("mode", ["work", "fragile", "publish", "optional", "calling"])
 def test_a_loop_that_is_the_nodes_work_is_none_that_waits(package: Path, mode: str) -> None:
     found = waiting(package, mode)
     assert (found.outcome.status, found.outcome.answers) == ("spinning", ())

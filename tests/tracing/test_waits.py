@@ -32,7 +32,7 @@ def made(interface: Interface) -> dict[str, bool]:
 
 SERVICE = "it waits for the service start, and was told that it is there"
 MESSAGE = "it waits for a message on goal, and was given an empty one"
-CALL = "it calls the service /start, and was given an empty answer"
+CALL = "it calls the service /start again and again, and was given an empty answer"
 
 
 @pytest.mark.parametrize(
@@ -212,6 +212,22 @@ def test_a_loop_that_polls_for_a_parameter_gets_one(tmp_path: Path, loop: str) -
     assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
     assert made(found) == {"before": False, "after": True}
     assert found.outcome.answers == ("it waits for the parameter /ready, and was given a value",)
+
+
+def test_a_loop_whose_work_is_to_call_waits_for_nothing(tmp_path: Path) -> None:
+    found = waiting(
+        tmp_path,
+        """
+        while not rospy.is_shutdown():
+            try:
+                rospy.ServiceProxy("start", Trigger)()
+            except rospy.ServiceException:
+                pass
+            rospy.sleep(0.1)
+        """,
+    )
+    assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
+    assert found.complete
 
 
 def test_a_parameter_is_given_what_the_node_itself_takes_for_it(tmp_path: Path) -> None:

@@ -43,7 +43,9 @@ _LIBRARY_PARAMS = re.compile(r"/(use_sim_time|tcp_keepalive|rosout_disable_topic
                              r"|statistics_window_\w+)\Z")  # fmt: skip
 _ANSWERS = {
     "service": "it waits for the service {}, and was told that it is there",
+    "services": "it asks for the service {} again and again, and was told that it is there",
     "call": "it calls the service {}, and was given an empty answer",
+    "calls": "it calls the service {} again and again, and was given an empty answer",
     "message": "it waits for a message on {}, and was given an empty one",
     "poll": "it waits for messages on {}, and was given empty ones",
     "parameter": "it waits for the parameter {}, and was given a value",
@@ -56,7 +58,9 @@ _ANSWERS = {
 _WAITS = {
     "service": "the service {}",
     "message": "a message on {}",
+    "services": "the service {}",
     "call": "the answer of the service {}",
+    "calls": "the answer of the service {}",
     "action": "the action server {}",
     "result": "the result of the action {}",
     "transform": "the transform {}",
@@ -66,7 +70,7 @@ _WAITS = {
     "clock": "simulated time on {}",
 }
 """What a node waits for at its end, by the kind that the library told."""
-_MAYBE = ("poll", "transforms", "parameter", "clock")
+_MAYBE = ("poll", "services", "calls", "transforms", "parameter", "clock")
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
 

@@ -58,7 +58,7 @@ def call_is_answered(service: str, *site: Any) -> bool:
         if (service, *site) not in _refused:
             _refused.add((service, *site))
             return False
-        made_up("call", service)
+        made_up("calls", service)
     return True
 
 

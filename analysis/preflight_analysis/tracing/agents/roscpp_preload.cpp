@@ -499,7 +499,10 @@ RESOLVES(preflight_resolve_in, "_ZN3ros5names7resolveE" STRING "S8_b",
 RESOLVES(preflight_resolve_name, "_ZNK3ros10NodeHandle11resolveNameE" STRING "b",
          (const NodeHandle* self, const std::string& name, bool remap), self, name, remap)
 
+std::atomic<bool> waited{false};  // for sure, where a loop may be the node's work
+
 void tell_answered(const char* kind, const std::string& name) {
+  for (const char* sure : {"service", "message", "action", "transform"}) waited = waited || strcmp(kind, sure) == 0;
   answered_here = true;
   if (in_main_thread()) answered = true;
   Event("answered").add("kind", std::string(kind)).add("name", name).send();
@@ -513,6 +516,7 @@ struct Lacks {
   std::set<std::string> asked;                              // parameters, with the kind of access
   std::map<std::pair<std::string, void*>, double> polled;   // those that were not set, and since when from where
   std::set<std::string> given;
+  std::set<std::string> there;  // services that it was told of, under their final names
   std::set<std::pair<std::string, void*>> refused;          // other questions that were answered with no
 };
 Lacks& lacks() {
@@ -592,6 +596,11 @@ bool ask_param(const char* access, Name name, void* place, Value* value, Ask ask
 bool asks_again(const std::string& question, void* place) {
   std::lock_guard<std::mutex> locked(lacks_mutex);
   return !lacks().refused.insert({question, place}).second;
+}
+
+bool told_of(const std::string& service) {
+  std::lock_guard<std::mutex> locked(lacks_mutex);
+  return lacks().there.count(service) != 0;
 }
 
 void ask_for_food(const std::string& topic, const std::string& goal = "") {
@@ -1240,8 +1249,8 @@ HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHan
   wait(options, ready, handle, 0);
 }
 
-// Once a wait was answered, so is the call of a service that nobody offers: with zeros, which are a response of any type,
-// after a first byte that makes its first field true or small.
+// Once a wait was answered, or the same call was refused, the call of a service that nobody offers is answered: with
+// zeros, which are a response of any type, after a first byte that makes its first field true or small.
 #define CALL "_ZN3ros13ServiceClient4callERKNS_17SerializedMessageERS1_" STRING
 HOOK bool preflight_call(void* self, const void* request, Serialized& response, const std::string& md5) __asm__(CALL);
 HOOK bool preflight_call(void* self, const void* request, Serialized& response, const std::string& md5) {
@@ -1249,7 +1258,8 @@ HOOK bool preflight_call(void* self, const void* request, Serialized& response, 
   bool made_up = false;
   void* place = __builtin_return_address(0);
   quietly([&] {
-    if (!answered && !answered_here && !asks_again(name_of_client(self), place)) return;
+    std::string name = name_of_client(self);
+    if (!waited && !told_of(name) && !asks_again(name, place)) return;
     static const unsigned char zeros[65536] = {1};
     auto* exists = REAL_IF_ANY("_ZN3ros13ServiceClient6existsEv", bool(void*));
     if (exists == nullptr || exists(self) || response.buffer != nullptr) return;
@@ -1257,7 +1267,7 @@ HOOK bool preflight_call(void* self, const void* request, Serialized& response, 
     response.start = zeros;
     response.size = sizeof zeros + reinterpret_cast<size_t>(zeros);
     made_up = true;
-    tell_answered("call", name_of_client(self));
+    tell_answered(waited ? "call" : "calls", name);
   });
   return made_up;
 }
@@ -1267,7 +1277,10 @@ bool polled_service(const std::string& name, void* place) {
   bool again = false;
   quietly([&] {
     again = asks_again(name, place);
-    if (again) tell_answered("service", name);
+    if (!again) return;
+    tell_answered("services", name);
+    std::lock_guard<std::mutex> locked(lacks_mutex);
+    lacks().there.insert(names_of(name).resolved);
   });
   return again;
 }
