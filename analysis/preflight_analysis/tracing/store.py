@@ -32,6 +32,7 @@ _HASHED_BYTES = 8 << 20
 """Larger files count by size and time."""
 _SYSTEM = ("/usr/", "/lib/", "/lib64/", "/opt/", "/etc/", "/bin/", "/sbin/")
 _SWEEP_EVERY = 32
+_TRIES = 20
 _DEPTH = 3
 """How far below the store's folder its entries are."""
 ABANDONED = 3600.0
@@ -84,10 +85,7 @@ class Store:
         name = hashlib.sha256(json.dumps(conditions, sort_keys=True).encode()).hexdigest()
         path = place.folder / f"{place.recipe}-{name[:32]}.json"
         try:
-            try:
-                _write(path, data)
-            except FileNotFoundError:  # another process swept the folder away as it was still empty
-                _write(path, data)
+            _write(path, data)
             self._trim(place)
             self._sweep()
         except OSError:
@@ -138,8 +136,9 @@ class Store:
                 continue
             with contextlib.suppress(OSError):
                 info = path.lstat()
-                if unfinished and time.time() - info.st_mtime > ABANDONED:
-                    path.unlink()
+                if unfinished:
+                    if time.time() - info.st_mtime > ABANDONED:
+                        path.unlink()
                 elif stat.S_ISREG(info.st_mode):
                     entries.append((info.st_mtime, info.st_size, path))
         total = sum(size for _, size, _ in entries)
@@ -242,8 +241,7 @@ def _last_used(path: Path) -> float:
 
 
 def _write(path: Path, data: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=".tmp")
+    descriptor, temporary = _temporary(path.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:
             file.write(data)
@@ -252,3 +250,13 @@ def _write(path: Path, data: bytes) -> None:
         with contextlib.suppress(OSError):
             os.unlink(temporary)
         raise
+
+
+def _temporary(folder: Path) -> tuple[int, str]:
+    """A new file in a folder, which is made. As long as it is empty, another process may sweep it away."""
+    for _ in range(_TRIES):
+        # `mkdir` says that it exists, too, where it is gone a moment later.
+        with contextlib.suppress(FileNotFoundError, FileExistsError):
+            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            return tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
+    raise FileNotFoundError(folder)
