@@ -24,13 +24,13 @@ count = 0
 try:
     while count < {MANY}:
         if os.fork() == 0:
-            time.sleep(3)
+            time.sleep(5)
             os._exit(0)
         count += 1
 except OSError as error:
     print(count, error.strerror, file=sys.stderr)
     sys.exit(3)
-time.sleep(2)
+time.sleep(4)
 sys.exit(4)
 """
 
@@ -40,11 +40,15 @@ def few(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sandbox, "PROCESSES", FEW)
 
 
-@pytest.mark.usefixtures("each_backend")
-def test_the_number_of_processes_is_bounded(tmp_path: Path, few: None) -> None:
+def counted(backend: str) -> bool:
+    """Whether RLIMIT_NPROC does not bind: not root, and only as far as processes are counted apart from the user's."""
+    return os.getuid() == 0 or backend != "bubblewrap"
+
+
+def test_the_number_of_processes_is_bounded(tmp_path: Path, few: None, each_backend: str) -> None:
     """By whatever there is on this machine; with a control group or RLIMIT_NPROC the node sees its forks fail."""
     found = trace(write_node(tmp_path, CROWD))
-    if cgroup.place() is None and os.geteuid() == 0:
+    if cgroup.place() is None and counted(each_backend):
         assert found.outcome.reason == f"it started more than {FEW} processes and was stopped"
     else:
         assert found.outcome.exit_code == 3, found.outcome
@@ -53,35 +57,33 @@ def test_the_number_of_processes_is_bounded(tmp_path: Path, few: None) -> None:
         assert int(count) < FEW
 
 
-@pytest.mark.usefixtures("each_backend")
 def test_without_a_limit_from_outside_the_supervisor_ends_a_crowd(
-    tmp_path: Path, few: None, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, few: None, each_backend: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cgroup, "place", lambda: None)
     monkeypatch.setattr(os, "geteuid", lambda: 0)
     body = CROWD.replace("os.fork() == 0", "os.fork() == 0 and os.setsid() is None")
     began = time.monotonic()
     found = trace(write_node(tmp_path, body))
-    if os.getuid() == 0:
+    if counted(each_backend):
         expected = f"it started more than {FEW} processes and was stopped"
         assert (found.outcome.status, found.outcome.reason) == ("crashed", expected)
-        assert time.monotonic() - began < 3
+        assert time.monotonic() - began < 30
     else:
         assert found.outcome.exit_code == 3, "RLIMIT_NPROC came first"
 
 
-@pytest.mark.usefixtures("each_backend")
-def test_threads_count_too(tmp_path: Path, few: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_threads_count_too(tmp_path: Path, few: None, each_backend: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cgroup, "place", lambda: None)
     monkeypatch.setattr(os, "geteuid", lambda: 0)
     body = f"""
     import threading, time
     for _ in range({MANY}):
-        threading.Thread(target=time.sleep, args=(2,), daemon=True).start()
-    time.sleep(2)
+        threading.Thread(target=time.sleep, args=(4,), daemon=True).start()
+    time.sleep(4)
     """
     outcome = trace(write_node(tmp_path, body)).outcome
-    if os.getuid() == 0:
+    if counted(each_backend):
         assert outcome.reason == f"it started more than {FEW} processes and was stopped"
     else:
         assert "can't start new thread" in outcome.stderr_tail[-1]
@@ -93,9 +95,9 @@ block = b"x" * ({before} << 20)
 for _ in range(3):
     if os.fork() == 0:
         block = b"y" * ({after} << 20) if {after} else block
-        time.sleep(2)
+        time.sleep({stay})
         os._exit(0)
-time.sleep(1.2)
+time.sleep({stay})
 sys.exit(4)
 """
 
@@ -105,14 +107,14 @@ def test_memory_of_all_processes_together_is_bounded(tmp_path: Path, monkeypatch
     """Three of 50 MB each, none of them too large by itself."""
     monkeypatch.setattr(sandbox, "MEMORY_BYTES", 100 << 20)
     began = time.monotonic()
-    outcome = trace(write_node(tmp_path, SHARES.format(before=0, after=50))).outcome
+    outcome = trace(write_node(tmp_path, SHARES.format(before=0, after=50, stay=4))).outcome
     assert (outcome.status, outcome.reason) == ("crashed", "it took more than 0.1 GiB of memory and was stopped")
-    assert time.monotonic() - began < 3
+    assert time.monotonic() - began < 30
 
 
 def test_memory_that_processes_share_counts_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sandbox, "MEMORY_BYTES", 100 << 20)
-    assert trace(write_node(tmp_path, SHARES.format(before=50, after=0))).outcome.exit_code == 4
+    assert trace(write_node(tmp_path, SHARES.format(before=50, after=0, stay=1))).outcome.exit_code == 4
 
 
 @pytest.mark.usefixtures("each_backend")

@@ -49,7 +49,7 @@ def isolated(argv: Sequence[str], view: View) -> Iterator[Isolated]:
 
 
 def _options(view: View, folder: str) -> list[str]:
-    home = os.path.realpath(pwd.getpwuid(os.geteuid()).pw_dir)
+    home = os.path.realpath(pwd.getpwuid(os.getuid()).pw_dir)
     options = ["--quiet", "--noprofile", "--net=none", "--ipc-namespace", "--private-dev", "--nonewprivs"]
     options += ["--caps.drop=all", "--restrict-namespaces", "--seccomp"]
     options += ["--protocol=unix,inet,inet6,netlink", "--hostname=localhost"]
@@ -64,7 +64,7 @@ def _options(view: View, folder: str) -> list[str]:
     options += [f"--whitelist={path}" for path in (folder, *shown)]
     if not any(within(path, home) for path in shown):
         options.append("--private")
-    if os.geteuid() == 0:
+    if os.getuid() == 0:
         # What is root's it could change everywhere. Others are not allowed to have /tmp back.
         options += ["--read-only=/", f"--read-write={_TMP}", f"--read-write={home}", "--read-write=/dev/shm"]
     else:
