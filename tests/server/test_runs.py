@@ -75,7 +75,7 @@ async def test_an_edit_supersedes_a_run_that_is_no_longer_wanted(desk: Desk, slo
 
 async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(desk: Desk) -> None:
     script = desk.launch_file.parents[1] / "scripts/late.py"
-    script.write_text(SLOW.replace("sleep(60)", "sleep(3)"))
+    script.write_text(SLOW.replace("sleep(60)", "sleep(1)"))
     script.chmod(0o755)
     path = desk.launch_file.with_name("late.launch")
     path.write_text(
@@ -84,7 +84,7 @@ async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(desk: Desk) -
     )
     async with editing(desk, trusted=True) as editor:
         text = editor.open(path)
-        await editor.until(lambda: desk.sandbox_starts() >= 4)
+        await editor.until(lambda: desk.sandbox_starts() >= 4, 60)
         at = text.index('value="1"')
         editor.replace(path, at, at + len('value="1"'), 'value="2"')
         await editor.having(path, "TOP001", seconds=60)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import logging
 import os
 import sys
 import threading
 from collections.abc import Iterable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
@@ -18,6 +20,7 @@ from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Observation, observe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.service_types import ServiceTypes
+from preflight_analysis.tracing.turns import turn
 
 _log = logging.getLogger(__name__)
 
@@ -59,11 +62,23 @@ class Tracer:
         found = self.lookup(request)
         if found is not None:
             return found
-        try:
-            return self._finished(self._run(nodelets.standalone(request), cancel), request)
-        except Exception as error:
-            _log.exception("tracing %s failed", request.node)
-            return _not_run(f"the run failed: {error}")
+        with self._turn(request, cancel):
+            found = self.lookup(request)
+            if found is not None:
+                return found
+            try:
+                return self._finished(self._run(nodelets.standalone(request), cancel), request)
+            except Exception as error:
+                _log.exception("tracing %s failed", request.node)
+                return _not_run(f"the run failed: {error}")
+
+    def _turn(self, request: TraceRequest, cancel: threading.Event) -> AbstractContextManager[object]:
+        """Another process that shares the cache may be running the same node."""
+        if self.cache is None:
+            return nullcontext()
+        digest = hashlib.sha256(repr(request).encode(errors="surrogatepass")).hexdigest()
+        seconds = run.WALL_SECONDS + run.OUTER_SECONDS
+        return turn(self.cache.folder / "turns" / f"{digest[:32]}.lock", cancel, seconds)
 
     def _finished(self, found: Interface, request: TraceRequest) -> Interface:
         """What the run of the node alone does not tell, and depends on more than it did."""
