@@ -201,8 +201,8 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`; `status`, `exit_code`, `reason`, `stderr`,
-    `notes`, `answers`; `md5` `{name: sum}`; `made` `{name: [file, line]}`; `builtin` and `speculative`, lists of
-    names."""
+    `notes`, `answers`; `md5` `{name: sum}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and
+    `on_demand`, lists of names."""
     made = data.get("made", {})
     endpoints = [
         Endpoint(
@@ -215,6 +215,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
             source_line=made.get(name, [None, None])[1],
             builtin=name in data.get("builtin", ()),
             speculative=name in data.get("speculative", ()),
+            on_demand=name in data.get("on_demand", ()),
         )
         for key, role in _ROLES.items()
         for name, type_ in data.get(key, {}).items()

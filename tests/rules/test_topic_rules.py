@@ -25,6 +25,22 @@ def test_a_near_miss_through_a_remap_is_shown_at_the_remap() -> None:
     assert '<remap from="chatter" to="chatter"/>' in apply(text, fix.edits)["/main.launch"]
 
 
+def test_a_near_miss_of_a_topic_that_is_made_on_demand_is_no_warning() -> None:
+    (finding,) = check("""
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          <node pkg="p" type="t" name="lazy">
+            <remap from="chatter" to="chater"/>
+                                      ^^^^^^ info[TOP001] '/chatter', published by /talker (same type
+          </node>
+        </launch>
+        //- interfaces
+        {"/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/lazy": {"subscribers": {"chatter": "std_msgs/String"}, "on_demand": ["chatter"]}}
+    """)
+    assert finding.confidence == "possible"
+
+
 def test_a_near_miss_through_the_publishers_remap_is_shown_there() -> None:
     text = """
         <launch>

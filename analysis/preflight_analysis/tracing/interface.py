@@ -35,19 +35,18 @@ class Endpoint:
     """Read from the source code, not seen in a run."""
     similar: bool = False
     """Seen in a run of the same executable under another configuration, not in one of this node."""
+    on_demand: bool = False
+    """Made once somebody was at the other end of another topic of the node."""
 
     @property
     def assumed(self) -> bool:
         """Whether no run of this node, and no word of the user, says that it makes it."""
         return self.inferred or self.similar
 
-    on_demand: bool = False
-    """Made once somebody was at the other end of another topic of the node."""
-
     @property
     def uncertain(self) -> bool:
         """Whether the real node may well not make it."""
-        return self.speculative or self.assumed
+        return self.speculative or self.on_demand or self.assumed
 
 
 @dataclass(frozen=True, slots=True)
