@@ -265,6 +265,7 @@ def test_every_attempt_ends_as_the_documentation_says(
     assert wrong == {}
 
 
+@pytest.mark.ros
 def test_the_run_has_its_master_whatever_the_host_listens_on(tmp_path: Path, each_backend: str) -> None:
     """The port of a real master may be taken, and several runs have theirs at once."""
     script = write_node(

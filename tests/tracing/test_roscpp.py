@@ -49,6 +49,13 @@ def test_a_node_is_run_until_it_spins(node: Path, mode: str) -> None:
 
 
 @pytest.mark.ros
+@pytest.mark.usefixtures("each_backend")
+def test_a_node_is_seen_the_same_with_each_way_to_isolate(node: Path) -> None:
+    found = trace(node)
+    assert (found.outcome.status, found.notes, own(found)) == ("spinning", (), MADE)
+
+
+@pytest.mark.ros
 def test_names_are_as_given_whatever_the_remaps_and_namespace(node: Path) -> None:
     moved = trace(node, "/robot/arm/n", remaps=(("chatter", "/elsewhere"), ("~state", "status"), ("/absolute", "b")))
     assert own(moved) == MADE
