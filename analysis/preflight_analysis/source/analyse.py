@@ -25,6 +25,7 @@ from preflight_analysis.source.known_params import KnownParams, LaunchParams
 from preflight_analysis.source.python_text import parse
 from preflight_analysis.source.python_values import UNKNOWN
 from preflight_analysis.source.python_walk import walk
+from preflight_analysis.source.rclpy_calls import RclpyCalls
 from preflight_analysis.source.rospy_calls import RospyCalls
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
 
@@ -124,12 +125,22 @@ class SourceAnalysis:
         main = program.main()
         if main is not None:
             file, tree = main
-            calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type, config)
-            walk(file, tree, program.load, calls)
-            found = calls.found
+            if node.resolved.entry_point is not None or self._generation(node) == 2:
+                entry = (node.resolved.entry_point or "").partition(":")[2] or None
+                rclpy = RclpyCalls(node.name, (file, *args), asked)
+                walk(file, tree, program.load, rclpy, entry)
+                found = rclpy.found
+            else:
+                calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type, config)
+                walk(file, tree, program.load, calls)
+                found = calls.found
         else:
             found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text, config)
         return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params))
+
+    def _generation(self, node: LaunchNode) -> int:
+        package = self._environment.packages.get(node.package)
+        return package.generation if package is not None else 1
 
     def _installed_script(self, node: LaunchNode, read: Callable[[str], str | None]) -> str | None:
         """The script that an installation of its package gives the node's name."""
@@ -171,7 +182,9 @@ class SourceAnalysis:
     def package_source(self, name: str) -> str | None:
         """The folder with the Python modules of a package by catkin's convention."""
         package = self._environment.packages.get(name)
-        return os.path.join(package.share, "src") if package is not None else None
+        if package is None:
+            return None
+        return package.share if package.generation == 2 else os.path.join(package.share, "src")
 
     def _has_type(self, package: str, kind: str, name: str) -> bool:
         found = self._environment.packages.get(package)

@@ -45,6 +45,7 @@ class Fallback:
         if not any(lacking):
             return tuple(interfaces)
         values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
+        values |= {f"{node.name}/{param.name}": param.value for node in tree.nodes for param in node.params}
         params = LaunchParams(values)
         similar = self._similar.looking(values) if self._similar is not None else None
         whole = list(interfaces)

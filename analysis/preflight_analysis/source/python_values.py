@@ -81,6 +81,12 @@ class Class:
                 return cls.names[name]
         return UNKNOWN
 
+    @property
+    def imported_base(self) -> str | None:
+        """The first base that is not followed, by its dotted name."""
+        bases = (base for cls in self.order() for base in cls.bases if isinstance(base, Imported))
+        return next((base.path for base in bases if not base.path.startswith("builtins.")), None)
+
     def order(self) -> list[Class]:
         """The class and its known bases, as attributes are looked up."""
         found: list[Class] = []

@@ -7,6 +7,7 @@ Nothing is imported or executed: calls of modules that are not followed go to `C
 from __future__ import annotations
 
 import ast
+import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
@@ -55,9 +56,10 @@ class _TooLargeError(Exception):
     """The program is larger than what is looked at."""
 
 
-def walk(path: str, tree: ast.Module, load: Load, calls: Calls) -> None:
-    """Go through the program whose main file is `path`; what it calls is told to `calls`."""
-    _Walk(load, calls).main(path, tree)
+def walk(path: str, tree: ast.Module, load: Load, calls: Calls, entry: str | None = None) -> None:
+    """Go through the program whose main file is `path`; what it calls is told to `calls`. `entry` is the function that
+    is called in a program that is started by an entry point."""
+    _Walk(load, calls).main(path, tree, entry)
 
 
 class _Walk:
@@ -73,9 +75,12 @@ class _Walk:
         self._returns: list[list[Any]] = []
         self._ways = Ways()
 
-    def main(self, path: str, tree: ast.Module) -> None:
+    def main(self, path: str, tree: ast.Module, entry: str | None) -> None:
         try:
-            self._module(path, tree, "__main__")
+            module = self._module(path, tree, "__main__" if entry is None else os.path.basename(path))
+            function = module.names.get(entry) if entry is not None else None
+            if isinstance(function, Function):
+                self._call_function(function, [], {})
             for function in self._waiting:  # grows while it is gone through
                 if not self._visits.get(id(function.node)):
                     self._call_function(function, [], {}, unknown=True)
@@ -421,14 +426,19 @@ class _Walk:
             case Instance():
                 if name in owner.names:
                     return owner.names[name]
-                return self._bind(owner.cls.find(name), owner)
+                return self._inherited(self._bind(owner.cls.find(name), owner), owner.cls, name)
             case Super():
                 for cls in owner.cls.order()[1:]:
                     if name in cls.names:
                         return self._bind(cls.names[name], owner.instance)
-                return UNKNOWN
+                return self._inherited(UNKNOWN, owner.cls, name)
             case _:
                 return UNKNOWN
+
+    def _inherited(self, value: Any, cls: Class, name: str) -> Any:
+        """What a class that is not followed gives to those made of it: the methods of a node of rclpy."""
+        base = cls.imported_base if value is UNKNOWN else None
+        return self._calls.value(f"{base}.{name}") if base is not None else value
 
     def _bind(self, value: Any, instance: Any) -> Any:
         if not isinstance(value, Function) or isinstance(value.node, ast.Lambda):

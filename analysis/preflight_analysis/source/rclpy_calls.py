@@ -1,0 +1,214 @@
+"""What calls of rclpy and of the libraries beside it make: endpoints with their QoS, and parameters."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.source.found import Found, is_name
+from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain
+from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
+
+_TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv|action)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
+_TF = "tf2_msgs/msg/TFMessage"
+
+_METHODS: Mapping[str, tuple[Role, str, tuple[str, str, str]]] = {
+    "create_publisher": ("publisher", "msg", ("msg_type", "topic", "qos_profile")),
+    "create_lifecycle_publisher": ("publisher", "msg", ("msg_type", "topic", "qos_profile")),
+    "create_subscription": ("subscriber", "msg", ("msg_type", "topic", "qos_profile")),
+    "create_service": ("service", "srv", ("srv_type", "srv_name", "qos_profile")),
+    "create_client": ("client", "srv", ("srv_type", "srv_name", "qos_profile")),
+}
+"""Of a node: the role, the kind of its type, and the names of type, name and QoS."""
+_QOS_AT = {"create_publisher": 2, "create_lifecycle_publisher": 2, "create_subscription": 3}
+
+_WITH_NODE: Mapping[str, tuple[Role, str, tuple[str, str]]] = {
+    "rclpy.ActionServer": ("action_server", "action", ("action_type", "action_name")),
+    "rclpy.ActionClient": ("action_client", "action", ("action_type", "action_name")),
+    "message_filters.Subscriber": ("subscriber", "msg", ("msg_type", "topic")),
+}
+"""Objects that are made with a node as their first argument."""
+_FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
+    "tf2_ros.TransformBroadcaster": (("publisher", "/tf", _TF),),
+    "tf2_ros.StaticTransformBroadcaster": (("publisher", "/tf_static", _TF),),
+    "tf2_ros.TransformListener": (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF)),
+}
+_LIBRARIES = frozenset({"rclpy", "tf2_ros", "message_filters"})
+
+_RELIABLE = {"reliability": "reliable", "durability": "volatile"}
+_PROFILES: Mapping[str, Mapping[str, Any]] = {
+    "qos_profile_sensor_data": {"reliability": "best_effort", "durability": "volatile", "depth": 5},
+    "qos_profile_system_default": {},
+    "qos_profile_services_default": {**_RELIABLE, "depth": 10},
+    "qos_profile_parameters": {**_RELIABLE, "depth": 1000},
+    "qos_profile_default": {**_RELIABLE, "depth": 10},
+}
+_POLICIES = {"reliability": ("reliable", "best_effort"), "durability": ("volatile", "transient_local")}
+_VALUE_FIELDS = (
+    "string_value",
+    "double_value",
+    "integer_value",
+    "bool_value",
+    "string_array_value",
+    "double_array_value",
+    "integer_array_value",
+    "bool_array_value",
+)
+
+
+class RclpyCalls:
+    """Collects what the calls of one node make. Implements `python_walk.Calls`."""
+
+    def __init__(self, node: str, argv: Sequence[str], params: KnownParams) -> None:
+        self._node = node
+        self._argv = list(argv)
+        self._params = params
+        self._defaults: dict[str, Any] = {}
+        self.found = Found()
+        self.node_name: str | None = None
+        """What the node calls itself where the launch file does not."""
+
+    def value(self, path: str) -> Any:
+        """`sys.argv` and the profiles of QoS are known; everything else is what its name says."""
+        if path == "sys.argv":
+            return list(self._argv)
+        return Imported(path)
+
+    def call(self, path: str, args: Sequence[Any], kwargs: Mapping[str, Any], file: str, line: int) -> Any:
+        """Note what the call makes; its value where it has one that is known."""
+        name, method = _plain(path), path.rpartition(".")[2]
+
+        def given(index: int, keyword: str) -> Any:
+            return args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN)
+
+        if path.startswith("rclpy.") and method in _METHODS:
+            role, kind, (type_name, end_name, qos_name) = _METHODS[method]
+            qos = _qos(given(_QOS_AT[method], qos_name)) if method in _QOS_AT else {}
+            type_ = _type(given(0, type_name), kind)
+            self.found.end(Endpoint(role, given(1, end_name), type_, None, qos, file, line))
+            return Imported(f"rclpy.{method}()")
+        if end := _WITH_NODE.get(name):
+            role, kind, (type_name, end_name) = end
+            self.found.end(Endpoint(role, given(2, end_name), _type(given(1, type_name), kind), None, {}, file, line))
+            return Imported(f"{name}()")
+        if fixed := _FIXED.get(name):
+            for role, topic, type_ in fixed:
+                self.found.end(Endpoint(role, topic, type_, None, {}, file, line))
+            return Imported(f"{name}()")
+        if path.startswith("rclpy."):
+            return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
+        if name in ("os.path.join",) and args and all(isinstance(a, str) for a in args):
+            return os.path.join(*args)
+        return UNKNOWN
+
+    def _of_rclpy(
+        self,
+        path: str,
+        name: str,
+        method: str,
+        args: Sequence[Any],
+        given: Callable[[int, str], Any],
+        kwargs: Mapping[str, Any],
+        file: str,
+        line: int,
+    ) -> Any:
+        if method == "declare_parameter":
+            return self._declared(given(0, "name"), given(1, "value"), file, line)
+        if method == "declare_parameters":
+            return self._declared_all(given(0, "namespace"), given(1, "parameters"), file, line)
+        if method in ("get_parameter", "get_parameter_or", "has_parameter"):
+            return self._read(given(0, "name"), method, given(1, "alternative_value"))
+        if method == "__init__" or name in ("rclpy.create_node", "rclpy.Node", "rclpy.LifecycleNode"):
+            own = given(0, "node_name")
+            if is_name(own) and self.node_name is None:
+                self.node_name = own
+            return Imported("rclpy.Node()")
+        if method in ("get_name", "get_fully_qualified_name"):
+            return self._node.rpartition("/")[2] if method == "get_name" else self._node
+        if method == "get_namespace":
+            return names.parent(self._node).rstrip("/") or "/"
+        if name == "rclpy.QoSProfile":
+            return _policies(kwargs)
+        return Imported(f"{path}()")
+
+    def _declared(self, name: Any, default: Any, file: str, line: int) -> Any:
+        if not isinstance(name, str) or not name:
+            return UNKNOWN
+        has_default = default is not UNKNOWN and default is not None
+        known = default if has_default and is_plain(default) else None
+        self.found.use(ParamUse(f"~{name}", "get", known, has_default, False, file, line))
+        self._defaults[name] = default if has_default else UNKNOWN
+        return _parameter(self._value(name))
+
+    def _declared_all(self, namespace: Any, parameters: Any, file: str, line: int) -> Any:
+        prefix = f"{namespace}." if isinstance(namespace, str) and namespace else ""
+        for each in parameters if isinstance(parameters, (list, tuple)) else ():
+            if isinstance(each, (list, tuple)) and each and isinstance(each[0], str):
+                default = each[1] if len(each) > 1 else UNKNOWN
+                self._declared(prefix + each[0], default, file, line)
+        return UNKNOWN
+
+    def _read(self, name: Any, method: str, otherwise: Any) -> Any:
+        if not isinstance(name, str):
+            return UNKNOWN
+        if method == "has_parameter":
+            return name in self._defaults or UNKNOWN
+        value = self._value(name)
+        if value is UNKNOWN and method == "get_parameter_or":
+            return otherwise
+        return _parameter(value)
+
+    def _value(self, name: str) -> Any:
+        found = self._params.look(names.resolve(f"~{name}", self._node))
+        return self._defaults.get(name, UNKNOWN) if found is UNKNOWN else found
+
+
+def _parameter(value: Any) -> Instance:
+    """An `rclpy.Parameter` with its value, in the ways in which programs ask for it."""
+    message = Class("ParameterValue", dict.fromkeys(_VALUE_FIELDS, value), ())
+    return Instance(Class("Parameter", {}, ()), {"value": value, "get_parameter_value": message})
+
+
+def _type(value: Any, kind: str) -> str | None:
+    if not isinstance(value, Imported):
+        return None
+    found = _TYPE.match(value.path)
+    return f"{found[1]}/{kind}/{found[3]}" if found and found[2] == kind else None
+
+
+def _qos(value: Any) -> Mapping[str, Any]:
+    """The policies that are known; nothing of a profile that is computed."""
+    if isinstance(value, bool):
+        return {}
+    if isinstance(value, int):
+        return {**_RELIABLE, "depth": value}
+    if isinstance(value, dict):
+        return value
+    if isinstance(value, Imported):
+        return _PROFILES.get(value.path.rpartition(".")[2], {})
+    return {}
+
+
+def _policies(kwargs: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of a QoSProfile: `reliability=ReliabilityPolicy.BEST_EFFORT` and their like."""
+    found: dict[str, Any] = {}
+    for policy, allowed in _POLICIES.items():
+        if policy not in kwargs:
+            continue
+        value = kwargs[policy]
+        word = value.path.rpartition(".")[2].lower() if isinstance(value, Imported) else ""
+        word = word.removeprefix("rmw_qos_policy_").removeprefix(f"{policy}_")
+        found[policy] = word if word in allowed else None
+    if isinstance(kwargs.get("depth"), int):
+        found["depth"] = kwargs["depth"]
+    return {policy: value for policy, value in {**_RELIABLE, **found}.items() if value is not None}
+
+
+def _plain(path: str) -> str:
+    """`rclpy.action.server.ActionServer` is `rclpy.ActionServer`."""
+    top, _, rest = path.partition(".")
+    return f"{top}.{rest.rpartition('.')[2]}" if top in _LIBRARIES else path
