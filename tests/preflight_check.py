@@ -201,8 +201,8 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`; `status`, `exit_code`, `reason`, `stderr`,
-    `notes`, `answers`; `md5` `{name: sum}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and
-    `on_demand`, lists of names."""
+    `notes`, `answers`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`,
+    `speculative` and `on_demand`, lists of names."""
     made = data.get("made", {})
     endpoints = [
         Endpoint(
@@ -210,7 +210,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
             name,
             type_,
             data.get("md5", {}).get(name),
-            {"latch": True} if name in data.get("latched", ()) else {},
+            {**({"latch": True} if name in data.get("latched", ()) else {}), **data.get("qos", {}).get(name, {})},
             source_file=made.get(name, [None, None])[0],
             source_line=made.get(name, [None, None])[1],
             builtin=name in data.get("builtin", ()),

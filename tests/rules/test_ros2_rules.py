@@ -189,3 +189,100 @@ def test_two_nodes_of_one_name() -> None:
           - node: {pkg: p, exec: laser}
           - node: {pkg: p, exec: laser, name: laser, if: "false"}
     """)
+
+
+def test_a_parameter_that_is_not_declared() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="max_presure" value="4.5"/>
+                         ^^^^^^^^^^^ warning[PRM013] /pump declares no parameter 'max_presure'
+            <param name="use_sim_time" value="false"/>
+            <param name="gains.p" value="4.5"/>
+          </node>
+          <node pkg="p" exec="any" name="any"><param from="/any.yaml"/></node>
+          <node pkg="p" exec="takes_all" name="takes_all"><param name="b" value="1"/></node>
+          <node pkg="p" exec="unknown" name="unknown"><param name="b" value="1"/></node>
+        </launch>
+        //- /any.yaml
+        any:
+          ros__parameters:
+            gains:
+              q: 1.0
+              ^ warning[PRM013] /any declares no parameter 'gains.q'
+            speed: 2.0
+        //- interfaces
+        {"/pump": {"params": {"~max_pressure": 6.0, "~gains.p": 1.0}},
+         "/any": {"params": {"~gains.p": 1.0, "~speed": 1.0}},
+         "/takes_all": {"params": {"~a": 1, "/": {"access": "list"}}}}
+    """)
+
+
+def test_a_parameter_of_another_type() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="rate" value="5"/>
+                         ^^^^ error[PRM014] 'rate' is an integer, and /pump declares it as a double: the node stops
+            <param name="speed" value="5.0"/>
+            <param name="names" value="[a, b]"/>
+            <param name="count" value="'5'"/>
+                         ^^^^^ error[PRM014] 'count' is a string, and /pump declares it as an integer
+            <param name="free" value="1"/>
+            <param name="empty" value="[1, 2]"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/pump": {"params": {"~rate": 10.0, "~speed": 1.0, "~names": ["x"], "~count": 1, "~free": null, "~empty": []}}}
+    """)
+
+
+def test_simulated_time() -> None:
+    launch = """
+        //- /robot.launch.xml
+        <launch>
+          <set_parameter name="use_sim_time" value="true"/>
+          {expected}
+          <node pkg="p" exec="a" name="a"/>
+          {clock}
+        </launch>
+        //- interfaces
+        {interfaces}
+    """
+    told = '{"/a": {}, "/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}'
+    # A <set_parameter> has no name location of its own: the whole tag is underlined.
+    under = "^" * len('<set_parameter name="use_sim_time" value="true"/>')
+    check(
+        launch.format(
+            expected=f"{under} info[PRM015] use_sim_time is true, and no node of this launch publishes /clock",
+            clock="",
+            interfaces='{"/a": {}}',
+        )
+    )
+    check(launch.format(expected="", clock='<node pkg="p" exec="clock" name="clock"/>', interfaces=told))
+
+
+def test_qos_that_does_not_fit() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="laser" name="laser"/>
+          <node pkg="p" exec="filter" name="filter"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] /filter gets nothing of '/scan' from /laser
+          <node pkg="p" exec="map" name="map"/>
+          <node pkg="p" exec="nav" name="nav"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] its durability is volatile
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"},
+                    "qos": {"scan": {"reliability": "best_effort"}}},
+         "/filter": {"subscribers": {"scan": "sensor_msgs/msg/LaserScan"},
+                     "qos": {"scan": {"reliability": "reliable"}}},
+         "/map": {"publishers": {"map": "nav_msgs/msg/OccupancyGrid"},
+                  "qos": {"map": {"reliability": "reliable", "durability": "volatile"}}},
+         "/nav": {"subscribers": {"map": "nav_msgs/msg/OccupancyGrid", "scan": "sensor_msgs/msg/LaserScan"},
+                  "qos": {"map": {"reliability": "reliable", "durability": "transient_local"},
+                          "scan": {"reliability": "best_effort"}}}}
+    """)

@@ -60,7 +60,6 @@ RULE = Rule(
     why="A client that waits for the server waits for ever; the goals of one that does not are lost without a word.",
     example='<!-- the base offers move_base -->\n<remap from="navigate" to="mov_base"/>',
     instead='<remap from="navigate" to="move_base"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

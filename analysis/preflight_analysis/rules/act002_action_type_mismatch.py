@@ -22,7 +22,6 @@ RULE = Rule(
     example="<!-- /dock: my_robot/DockAction offered, the client has move_base_msgs/MoveBaseAction -->\n"
     '<remap from="move_base" to="/dock"/>',
     instead='<remap from="move_base" to="/navigation/move_base"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -39,7 +39,6 @@ RULE = Rule(
     '<node pkg="base" type="dock" name="right"/>',
     instead='<node pkg="base" type="dock" name="left" ns="left"/>\n'
     '<node pkg="base" type="dock" name="right" ns="right"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

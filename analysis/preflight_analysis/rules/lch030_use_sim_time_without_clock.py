@@ -33,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if param.value is not True and param.value != 1:
         return
     clock = graph.topics.get("/clock")
-    if (clock is not None and clock.offers) or graph.is_external("/clock") or any(map(_tells_time, graph.tree.nodes)):
+    if (clock is not None and clock.offers) or graph.is_external("/clock") or any(map(tells_time, graph.tree.nodes)):
         return
     yield rule.finding(
         "/use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
@@ -44,7 +44,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     )
 
 
-def _tells_time(node: LaunchNode) -> bool:
+def tells_time(node: LaunchNode) -> bool:
     """Whether the node is a simulator or plays a bag with its time: neither does so before it runs for a while."""
     name = f"{node.package}/{node.executable}".lower()
     return any(word in name for word in _SIMULATORS) or "--clock" in node.args.split()

@@ -55,7 +55,6 @@ RULE = Rule(
     why="A client that waits for the service waits for ever; one that does not gets an error at its first call.",
     example='<!-- the base offers reset_odometry -->\n<remap from="reset" to="reset_odometri"/>',
     instead='<remap from="reset" to="reset_odometry"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

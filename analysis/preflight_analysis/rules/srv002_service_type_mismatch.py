@@ -21,7 +21,6 @@ RULE = Rule(
     why="Every call fails.",
     example='<!-- /reset: std_srvs/Empty offered, std_srvs/Trigger called -->\n<remap from="restart" to="/reset"/>',
     instead='<remap from="restart" to="/restart"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -48,7 +48,6 @@ RULE = Rule(
     '<node pkg="base" type="driver" name="right"/>',
     instead='<node pkg="base" type="driver" name="left" ns="left"/>\n'
     '<node pkg="base" type="driver" name="right" ns="right"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

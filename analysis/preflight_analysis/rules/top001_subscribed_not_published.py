@@ -93,7 +93,6 @@ RULE = Rule(
     '  <remap from="chatter" to="chater"/>\n</node>',
     instead='<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chatter"/>\n</node>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

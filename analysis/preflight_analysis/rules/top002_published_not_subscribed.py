@@ -40,7 +40,6 @@ RULE = Rule(
     why="Mostly that is as it should be. Where something does not move, it is where to look first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -22,7 +22,6 @@ RULE = Rule(
     example="<!-- /pose: geometry_msgs/Pose published, geometry_msgs/PoseStamped subscribed -->\n"
     '<remap from="goal" to="/pose"/>',
     instead='<remap from="goal" to="/pose_stamped"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

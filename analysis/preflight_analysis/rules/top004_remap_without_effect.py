@@ -78,7 +78,6 @@ RULE = Rule(
     why="A remap of a name that does not occur is ignored without a word, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
     instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

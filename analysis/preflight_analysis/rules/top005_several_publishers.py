@@ -79,7 +79,6 @@ RULE = Rule(
     example='<node pkg="map_server" type="map_server" name="map_server"/> <!-- both publish /map -->\n'
     '<node pkg="gmapping" type="slam_gmapping" name="slam"/>',
     instead='<node pkg="gmapping" type="slam_gmapping" name="slam"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

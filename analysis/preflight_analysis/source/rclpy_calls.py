@@ -124,9 +124,14 @@ class RclpyCalls:
             return self._read(given(0, "name"), method, given(1, "alternative_value"))
         if method == "__init__" or name in ("rclpy.create_node", "rclpy.Node", "rclpy.LifecycleNode"):
             own = given(0, "node_name")
+            options = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
+            if any(kwargs.get(option, False) is not False for option in options):
+                self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
             if is_name(own) and self.node_name is None:
                 self.node_name = own
             return Imported("rclpy.Node()")
+        if method == "get_parameters_by_prefix":
+            self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
         if method in ("get_name", "get_fully_qualified_name"):
             return self._node.rpartition("/")[2] if method == "get_name" else self._node
         if method == "get_namespace":

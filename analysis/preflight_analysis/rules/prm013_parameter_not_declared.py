@@ -1,0 +1,78 @@
+"""PRM013: a parameter that its node does not declare (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Interface, ParamUse
+
+_OF_ALL_NODES = frozenset({"use_sim_time", "start_type_description_service"})
+_PREFIXES = ("qos_overrides.",)
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
+        declared = _declared(interface)
+        if not node.params or declared is None:
+            continue
+        for param in node.params:
+            if param.name in declared or param.name in _OF_ALL_NODES or param.name.startswith(_PREFIXES):
+                continue
+            near = nearest(param.name, declared)
+            severity: Severity = "warning" if near or interface.complete else "info"
+            use = declared.get(near) if near is not None else None
+            related = [Related(f"{node.name} is started here", node_location(node))]
+            yield rule.finding(
+                f"{node.name} declares no parameter '{param.name}': its value is ignored{did_you_mean(near)}",
+                name_place(param),
+                severity=severity,
+                confidence="likely" if interface.complete or (use is not None and not use.inferred) else "possible",
+                related=(*related, *include_chain(node.origin)),
+                fixes=_rename(context, param, near) if near is not None else (),
+            )
+
+
+def _declared(interface: Interface) -> dict[str, ParamUse] | None:
+    """The parameters that the node declares, None where it takes any or nothing of it is known."""
+    uses = interface.params
+    if (not uses and not interface.complete) or any(use.access == "list" for use in uses):
+        return None
+    if interface.source == "none":
+        return None
+    return {use.name.removeprefix("~"): use for use in uses}
+
+
+def _rename(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
+    """A fix where the name is written in one piece; of `a.b` in a file only the last key stands at the place."""
+    location = param.name_location
+    document = context.documents.get(location.file) if location is not None else None
+    if location is None or document is None:
+        return ()
+    written = document.text[location.span.start : location.span.end]
+    prefix = param.name.removesuffix(written)
+    if not written or not param.name.endswith(written) or not name.startswith(prefix):
+        return ()
+    new = name[len(prefix) :]
+    return (Fix(f"Rename '{written}' to '{new}'", (Edit(location, new),), True),)
+
+
+RULE = Rule(
+    id="PRM013",
+    name="parameter-not-declared",
+    severity="warning",
+    what="Reports a parameter, in the launch file or in a parameter file, that the node it is for does not declare, "
+    "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters.",
+    why="The client libraries drop it without a word, and the node keeps its default.",
+    example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
+    '  <param name="max_presure" value="4.5"/>\n</node>',
+    instead='<param name="max_pressure" value="4.5"/>',
+    generations=(2,),
+    check=_check,
+    needs_graph=True,
+)

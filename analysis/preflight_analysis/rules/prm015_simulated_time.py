@@ -1,0 +1,72 @@
+"""PRM015: nodes on simulated time without a clock, or beside nodes that are not (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.lch030_use_sim_time_without_clock import tells_time
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_SHOWN = 3
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None:
+        return
+    nodes = [node for node in graph.tree.nodes if node.kind != "process"]
+    on = [(node, param) for node in nodes if (param := _sim_time(node)) is not None and param.value is True]
+    if not on:
+        return
+    clock = graph.topics.get("/clock")
+    told = (clock is not None and bool(clock.offers)) or graph.is_external("/clock") or any(map(tells_time, nodes))
+    if not told:
+        node, param = on[0]
+        yield rule.finding(
+            "use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
+            "`ros2 bag play --clock` beside it, time stands still",
+            name_place(param),
+            severity="info",
+            confidence="likely" if graph.complete else "possible",
+            related=include_chain(node.origin),
+        )
+    simulated = {id(node) for node, _ in on}
+    off = [node for node in nodes if id(node) not in simulated and not _publishes_clock(node, context)]
+    if told and off and len(off) <= len(on):
+        shown = ", ".join(node.name for node in off[:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
+        yield rule.finding(
+            f"use_sim_time is true for {len(on)} nodes of this launch and not for {shown}: their times do not match",
+            node_location(off[0]),
+            severity="info",
+            confidence="possible",
+            related=(Related(f"true for {on[0][0].name}", name_place(on[0][1])), *include_chain(off[0].origin)),
+        )
+
+
+def _sim_time(node: LaunchNode) -> Param | None:
+    return next((param for param in node.params if param.name == "use_sim_time"), None)
+
+
+def _publishes_clock(node: LaunchNode, context: Context) -> bool:
+    clock = context.graph.topics.get("/clock") if context.graph is not None else None
+    return tells_time(node) or (clock is not None and any(offer.node is node for offer in clock.offers))
+
+
+RULE = Rule(
+    id="PRM015",
+    name="simulated-time",
+    severity="info",
+    what="Reports `use_sim_time` being true in a launch in which nothing publishes `/clock`, and, where something "
+    "does, nodes that do not use it beside more that do (ROS 2).",
+    why="Timers of a node on simulated time wait for the first message on `/clock`; transforms and messages of nodes "
+    "on different clocks look too old or too new to each other.",
+    example='<set_parameter name="use_sim_time" value="true"/>',
+    instead='<set_parameter name="use_sim_time" value="$(var simulation)"/>',
+    generations=(2,),
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

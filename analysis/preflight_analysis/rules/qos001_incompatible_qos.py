@@ -1,0 +1,66 @@
+"""QOS001: publisher and subscriber of a topic whose QoS does not fit (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+_ORDERS = {
+    "reliability": ("best_effort", "reliable"),
+    "durability": ("volatile", "transient_local"),
+    "liveliness": ("automatic", "manual_by_topic"),
+}
+"""Weaker first: what is offered has to be as strong as what is asked for."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for channel in context.graph.topics.values() if context.graph is not None else ():
+        for wanting in channel.wants:
+            for offering in channel.offers:
+                problem = _problem(offering, wanting)
+                if problem is None:
+                    continue
+                assumed = wanting.endpoint.assumed or offering.endpoint.assumed
+                yield rule.finding(
+                    f"{wanting.node.name} gets nothing of '{channel.name}' from {offering.node.name}: {problem}",
+                    connection_location(wanting),
+                    severity="warning" if assumed else None,
+                    confidence="likely" if assumed else "certain",
+                    related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
+                )
+
+
+def _problem(offering: Connection, wanting: Connection) -> str | None:
+    for policy, order in _ORDERS.items():
+        offered, asked = offering.endpoint.qos.get(policy), wanting.endpoint.qos.get(policy)
+        if offered in order and asked in order and order.index(offered) < order.index(asked):
+            return f"its {policy} is {_said(offered)}, and the subscription asks for {_said(asked)}"
+    for policy in ("deadline", "lease_duration"):
+        offered, asked = offering.endpoint.qos.get(policy), wanting.endpoint.qos.get(policy)
+        if isinstance(offered, (int, float)) and isinstance(asked, (int, float)) and offered > asked:
+            return f"its {policy.replace('_', ' ')} is {offered} s, and the subscription asks for {asked} s"
+    return None
+
+
+def _said(value: str) -> str:
+    return value.replace("_", " ")
+
+
+RULE = Rule(
+    id="QOS001",
+    name="incompatible-qos",
+    severity="error",
+    what="Reports a publisher and a subscriber of one topic that never connect, as the subscription asks for more than "
+    "the publisher offers: reliability, durability, liveliness or deadline (ROS 2).",
+    why="The middleware does not match them. At best each end logs a line about incompatible QoS; no message arrives.",
+    example="<!-- the driver publishes /scan as best effort, the filter subscribes to it as reliable -->\n"
+    '<node pkg="laser" exec="filter" name="filter"/>',
+    instead="subscription = node.create_subscription(LaserScan, 'scan', callback, qos_profile_sensor_data)",
+    generations=(2,),
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

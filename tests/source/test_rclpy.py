@@ -1,0 +1,120 @@
+"""What rclpy nodes do, read from their source."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.tracing.interface import NOT_RUN, Interface
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+NODE = """
+import rclpy
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import OccupancyGrid
+from nav2_msgs.action import NavigateToPose
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import Empty
+from robot.base import Base, TOPIC
+
+
+class Driver(Base):
+    def __init__(self):
+        super().__init__('driver')
+        self.declare_parameters('limits', [('speed', 1.5), ('turn',)])
+        self.topic = self.declare_parameter('cmd_topic', 'cmd_vel').value
+        self.create_subscription(Twist, self.topic, self.on_command, 10)
+        self.create_subscription(LaserScan, 'scan', self.on_scan, qos_profile_sensor_data)
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.maps = self.create_publisher(OccupancyGrid, TOPIC, latched)
+        self.server = ActionServer(self, NavigateToPose, 'navigate', self.execute)
+        if self.get_parameter('service').get_parameter_value().bool_value:
+            self.create_service(Empty, '~/reset', self.reset)
+        self.timer = self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        self.client = self.create_client(Empty, '/global/reset')
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    rclpy.spin(Driver())
+"""
+BASE = """
+from rclpy.lifecycle import LifecycleNode
+TOPIC = 'map'
+
+
+class Base(LifecycleNode):
+    def __init__(self, name):
+        super().__init__(name)
+        self.declare_parameter('service', True)
+"""
+LAUNCH = """<launch>
+  <node pkg="robot" exec="driver" name="driver">
+    <param name="cmd_topic" value="drive"/>
+    <remap from="scan" to="/front/scan"/>
+  </node>
+</launch>
+"""
+MANIFEST = "<package><name>robot</name><export><build_type>ament_python</build_type></export></package>"
+SETUP = "from setuptools import setup\nsetup(entry_points={'console_scripts': ['driver = robot.driver:main']})\n"
+
+
+def interface(tmp_path: Path, launch: str = LAUNCH) -> Interface:
+    files = {
+        "package.xml": MANIFEST,
+        "setup.py": SETUP,
+        "robot/__init__.py": "",
+        "robot/base.py": BASE,
+        "robot/driver.py": NODE,
+        "launch/robot.launch.xml": launch,
+    }
+    for name, text in files.items():
+        path = tmp_path / "src" / "robot" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
+    workspace = Workspace(environment, Sources())
+    analysis = workspace.static(str(tmp_path / "src/robot/launch/robot.launch.xml"))
+    done = workspace.with_interfaces(analysis, [NOT_RUN], "not run here")
+    assert done.graph is not None
+    assert "/front/scan" in done.graph.topics
+    return done.graph.interfaces[0]
+
+
+def test_a_node_of_a_class_of_its_own(tmp_path: Path) -> None:
+    found = interface(tmp_path)
+    assert found.source == "source"
+    assert sorted((e.role, e.name, e.type) for e in found.endpoints) == [
+        ("action_server", "navigate", "nav2_msgs/action/NavigateToPose"),
+        ("client", "/global/reset", "std_srvs/srv/Empty"),
+        ("publisher", "map", "nav_msgs/msg/OccupancyGrid"),
+        ("service", "~/reset", "std_srvs/srv/Empty"),
+        ("subscriber", "drive", "geometry_msgs/msg/Twist"),
+        ("subscriber", "scan", "sensor_msgs/msg/LaserScan"),
+    ]
+    assert {u.name: u.default for u in found.params} == {
+        "~service": True,
+        "~limits.speed": 1.5,
+        "~limits.turn": None,
+        "~cmd_topic": "cmd_vel",
+    }
+    qos = {e.name: dict(e.qos) for e in found.endpoints if e.qos}
+    assert qos == {
+        "drive": {"reliability": "reliable", "durability": "volatile", "depth": 10},
+        "scan": {"reliability": "best_effort", "durability": "volatile", "depth": 5},
+        "map": {"reliability": "reliable", "durability": "transient_local", "depth": 1},
+    }
+    line = next(e.source_line for e in found.endpoints if e.name == "map")
+    assert NODE.splitlines()[(line or 0) - 1].strip().startswith("self.maps")
+
+
+def test_what_the_launch_file_sets_decides(tmp_path: Path) -> None:
+    found = interface(tmp_path, LAUNCH.replace('name="cmd_topic" value="drive"', 'name="service" value="false"'))
+    assert not any(e.role == "service" for e in found.endpoints)
+    assert any(e.name == "cmd_vel" for e in found.endpoints)
