@@ -1,7 +1,7 @@
 """Which names count as near."""
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from preflight_analysis.rules.nearest import likeness, nearest
 
@@ -54,6 +54,7 @@ graph_names = st.lists(st.from_regex(r"[a-z][a-z0-9_]{0,6}", fullmatch=True), mi
 )
 
 
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])  # the machine may be busy
 @given(graph_names, graph_names)
 def test_likeness_is_symmetric(name: str, other: str) -> None:
     assert likeness(name, other) == likeness(other, name)

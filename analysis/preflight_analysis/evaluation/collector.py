@@ -41,6 +41,8 @@ class Collector:
         self.unknowns: list[Unknown] = []
         self.visited: list[str] = []
         self.inputs: dict[str, str] = {}
+        self.made: dict[str, Document] = {}
+        """Texts that a run of a launch file wrote, by path: they are gone from the disk."""
         self._digests: dict[str, str] = {}
         self._anonymous: dict[str, int] = {}
         self._reported: set[tuple[str, Origin, str]] = set()
@@ -78,6 +80,8 @@ class Collector:
 
     def read_text(self, path: str) -> Document | Unreadable:
         """A text file, noted as an input."""
+        if (made := self.made.get(path)) is not None:
+            return made
         real = without_dots(path)
         if real is None:
             return Unreadable(path, "does not exist", "missing")

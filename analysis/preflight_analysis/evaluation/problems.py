@@ -13,6 +13,11 @@ KINDS: dict[str, str] = {
     "xml-malformed": "message: not well-formed XML, at the place of the cause. fatal",
     "yaml-malformed": "message: not YAML, at the place where it stops to be. fatal",
     "xml-entity": "name: an entity that a DOCTYPE defines; never expanded here, so values with it are unknown",
+    "python-malformed": "message: not Python, at the place where it stops to be. fatal",
+    "python-exception": "error (its class), message, frames (Locations, outermost first): a Python launch file raised. "
+    "fatal",
+    "python-import": "module, message: a Python launch file imports what is not there",
+    "launch-file-not-run": "name, reason: a Python launch file, or a function or substitution of it",
     "root-not-launch": "tag (None in an empty file): the document element is not <launch>. fatal",
     # the language
     "unknown-element": "tag, parent, allowed (list): roslaunch prints a warning and skips it",

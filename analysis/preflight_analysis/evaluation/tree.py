@@ -31,6 +31,8 @@ class Command:
     origin: Origin
     result: CommandResult | None
     """The one that the tree was made with."""
+    launch_file: bool = False
+    """Whether it is no command of the file's but a run of a Python launch file (`evaluation/ros2/python_runs.py`)."""
 
     @property
     def location(self) -> Location:

@@ -113,13 +113,15 @@ class Action:
 @dataclass(frozen=True, slots=True)
 class LaunchFile:
     """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are
-    the tags of further ones, which no launcher accepts."""
+    the tags of further ones, which no launcher accepts. `partial`: it is a program that was not run, and nothing may
+    be concluded from what it has not."""
 
     path: str
     generation: int
     root: Action | None
     document: Document
     extra_roots: tuple[Span, ...] = ()
+    partial: bool = False
 
 
 def action_at(launch_file: LaunchFile, offset: int) -> Action | None:

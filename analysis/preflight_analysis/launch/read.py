@@ -14,10 +14,12 @@ from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.ros1_xml import read_ros1
+from preflight_analysis.launch.ros2_python import read_ros2_python
 from preflight_analysis.launch.ros2_xml import read_ros2_xml
 from preflight_analysis.launch.ros2_yaml import read_ros2_yaml
 
 YAML_SUFFIXES = (".yaml", ".yml")
+PYTHON_SUFFIX = ".py"
 
 _ROS2_MARKS = re.compile(
     r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
@@ -39,6 +41,8 @@ _CATKIN = re.compile(r"<buildtool_depend[^>]*>\s*catkin\s*<")
 def read_launch(source: Text, generation: int | None = None) -> LaunchFile:
     """The launch file of a text, read as that generation of ROS reads it; None: as it looks. Never raises."""
     path, text = source.path, source.text
+    if path.endswith(PYTHON_SUFFIX):
+        return read_ros2_python(source)
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text))
     document = parse_xml(path, text, source.encoding)
@@ -47,7 +51,7 @@ def read_launch(source: Text, generation: int | None = None) -> LaunchFile:
 
 def generation_of(path: str, text: str) -> int:
     """1 or 2. What has no mark of either, in no package that has one, counts as ROS 1, whose language is the older."""
-    if path.endswith((*YAML_SUFFIXES, ".py")):
+    if path.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX)):
         return 2
     code = _COMMENT.sub("", text)
     ros2, ros1 = _ROS2_MARKS.search(code), _ROS1_MARKS.search(code)

@@ -194,7 +194,7 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
         made = [
             c
             for c in analysis.tree.commands
-            if c.location.file == file and action.head_span.contains(c.location.span.start)
+            if not c.launch_file and c.location.file == file and action.head_span.contains(c.location.span.start)
         ]
         yield from dict.fromkeys(_command(command) for command in made[:_SHOWN_CONTEXTS])
     elif action.kind == "remap":

@@ -11,7 +11,7 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(rule, context):
         # Every robot description is made by a command: said, but quietly.
-        severity: Severity | None = "hint" if problem.kind == "command-not-run" else None
+        severity: Severity | None = "hint" if problem.kind.endswith("-not-run") else None
         yield problem_finding(rule, problem, _message(problem), severity=severity)
 
 
@@ -23,6 +23,8 @@ def _message(problem: Problem) -> str:
         return f"$(eval {data['expression']}) is not evaluated: {data['message']}"
     if problem.kind == "nested-too-deeply":
         return f"there are more than {data['limit']} of groups and includes; what is beyond is left out"
+    if problem.kind == "launch-file-not-run":
+        return f"{data['name']} was not run, and only what is written out is known of it: {data['reason']}"
     return f"the command was not run, and its value is unknown here: {data['reason']}"
 
 
@@ -32,11 +34,12 @@ RULE = Rule(
     severity="info",
     what="Says that something that `roslaunch` accepts is not evaluated here: the `command` of a parameter that was "
     "not run (a hint only; commands are run in the sandbox, if the workspace is trusted), an `$(eval ...)` that would "
-    "need to run code, an entity that a DOCTYPE defines, includes and groups without end.",
+    "need to run code, a Python launch file that was not run, an entity that a DOCTYPE defines, includes and "
+    "groups without end.",
     why="Values that depend on it are unknown, nodes that need them are not run, and findings that would need them "
     "are left out. It is no error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',
     instead='<param name="letters" value="$(eval list(name))"/>',
     check=_check,
-    problems=("command-not-run", "eval-not-allowed", "xml-entity", "nested-too-deeply"),
+    problems=("command-not-run", "launch-file-not-run", "eval-not-allowed", "xml-entity", "nested-too-deeply"),
 )

@@ -28,6 +28,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield problem_finding(rule, problem, _message(problem))
     # A program that is named with its folder is looked for without running anything.
     for command in context.tree.commands:
+        if command.launch_file:
+            continue
         if command.result is None or command.result.status == "not-run":
             program = next(iter(shlex.split(command.line)), "")
             if os.path.isabs(program) and not _executable(program):

@@ -25,7 +25,8 @@ from typing import Any
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.tracing import compiled, run, sandbox
+from preflight_analysis.evaluation.ros2.python_runs import parse_request
+from preflight_analysis.tracing import compiled, launch_files, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.observation import paths, stderr_tail
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
@@ -149,6 +150,9 @@ class CommandRunner:
         return self.environment.python or sys.executable
 
     def _job(self, line: str) -> _Job | CommandResult:
+        request = parse_request(line)
+        if request is not None:
+            return self._launch_file(request)
         try:
             words = shlex.split(line)
         except ValueError as error:
@@ -164,6 +168,12 @@ class CommandRunner:
         recipe = recipes.make_command(self.environment, executable, words[1:], self.cwd)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
         beyond = recipes.command_paths(recipe, executable, named[1:], self._interpreter)
+        return _Job(recipe, named, sorted({*self._visible, *beyond}))
+
+    def _launch_file(self, request: dict[str, Any]) -> _Job:
+        recipe = launch_files.make(self.environment, request, self.cwd)
+        named = tuple(path for path in (recipe.argv[0], str(request["file"])) if os.path.isfile(path))
+        beyond = recipes.command_paths(recipe, recipe.argv[0], named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
     def _run(self, line: str, cancel: threading.Event) -> CommandResult:

@@ -100,13 +100,14 @@ def _keep(told: object, made: Path) -> bool:
 
 
 def _within(place: Path) -> Agents:
-    return Agents(*(place / name for name in FOLDERS))
+    return Agents(place / "lib/preflight_agents", place / "lib/aspectlib", place / "site")
 
 
 def _sources() -> list[tuple[str, Path]]:
     """Our modules, each with the folder of the copy that it goes to."""
     ours, woven = AGENTS.library, AGENTS.aspectlib
-    paths = (sorted(ours.glob("*.py")), sorted(woven.glob("*.py")), [AGENTS.site / "sitecustomize.py"])
+    recording = sorted((ours / "recording").glob("*.py"))
+    paths = (sorted(ours.glob("*.py")), recording, sorted(woven.glob("*.py")), [AGENTS.site / "sitecustomize.py"])
     return [(name, path) for name, found in zip(FOLDERS, paths, strict=True) for path in found]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,6 +16,9 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import parse_arguments
 from preflight_analysis.evaluation.tree_json import tree_json
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner
+from preflight_analysis.workspace.commands import CommandResults
+from preflight_analysis.workspace.settle import settled
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -47,6 +51,7 @@ BASE_ENV_ROS2: Mapping[str, str] = {
 }
 """The same for ROS 2, with the home folder as the recorded answers of the real launch name it."""
 
+NO_RUN = "--no-run was given"
 _ROOT = "$ROOT"
 _CWD = "/"
 """Relative include paths are relative to where roslaunch is called; a batch is called from nowhere in particular."""
@@ -62,15 +67,24 @@ class Job:
     package_path: tuple[str, ...]
 
 
-def answer_all(jobs: Path) -> int:
-    """Answer all jobs. Raises `CannotDoError` at the first line that is no job."""
+def answer_all(jobs: Path, *, no_run: bool = False) -> int:
+    """Answer all jobs. Of what the files ask for only Python launch files are run, unless `no_run`. Raises
+    `CannotDoError` at the first line that is no job."""
     environment_of = lru_cache(maxsize=4)(_environment)
     for job in _read(jobs):
         sources = Sources()
         launch_file = sources.launch_file(job.file)
         generation = 1 if isinstance(launch_file, Unreadable) else launch_file.generation
         environment = environment_of(generation, job.package_path, tuple(sorted(job.env.items())))
-        analysis = Workspace(environment, sources, _CWD).static(job.file, job.args)
+        results = CommandResults(lambda: NO_RUN if no_run else None)
+        workspace = Workspace(environment, sources, _CWD, results)
+        if no_run:
+            analysis = workspace.static(job.file, job.args)
+        else:
+            runner = CommandRunner(environment, _CWD, CommandCache())
+            analysis = settled(
+                workspace, job.file, job.args, results, runner, threading.Event(), only_launch_files=True
+            )
         print_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
     return CLEAN
 

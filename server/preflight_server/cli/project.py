@@ -17,8 +17,9 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
-from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
+from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.not_run import not_run
+from preflight_analysis.workspace.settle import settled
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -51,17 +52,14 @@ def open_project(args: argparse.Namespace) -> Project:
     environment = detect(path, package_path=options.package_path(args))
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
     workspace = Workspace(environment, Sources(), commands=results, similar=SimilarTraces(TraceCache()))
-    analysis = workspace.static(path, values)
-    lines = command_lines(analysis.tree)
-    if lines and not args.no_run:
-        cancel = threading.Event()
-        try:
-            results.update(run_commands(CommandRunner(environment, workspace.cwd, CommandCache()), lines, cancel))
-        except KeyboardInterrupt:
-            cancel.set()
-            raise
-        analysis = workspace.static(path, values)
-    return Project(workspace, analysis)
+    if args.no_run:
+        return Project(workspace, workspace.static(path, values))
+    runner, cancel = CommandRunner(environment, workspace.cwd, CommandCache()), threading.Event()
+    try:
+        return Project(workspace, settled(workspace, path, values, results, runner, cancel))
+    except KeyboardInterrupt:
+        cancel.set()
+        raise
 
 
 def run_nodes(project: Project, args: argparse.Namespace, only: str | None = None) -> Analysis:

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.launch.python_source import PythonSource
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,18 @@ class Scope:
         return Scope(dict(self.configurations), self.namespace, self.remaps, self.params, dict(self.environment))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class PythonRun:
+    """A run of a Python launch file: its text, the variables that differ from those of the launch, and which of its
+    functions and substitutions were called, with what was configured then (`evaluation/ros2/python_runs.py`)."""
+
+    file: str
+    text: str
+    variables: Mapping[str, str]
+    calls: tuple[Mapping[str, Any], ...]
+    source: PythonSource
+
+
 class Context:
     """The state of one launch."""
 
@@ -72,6 +86,11 @@ class Context:
     def pop(self) -> None:
         """End it."""
         self.scope = self._stack.pop()
+
+    def pop_if_pushed(self) -> None:
+        """End a scope, where one was begun by the file itself."""
+        if self._stack:
+            self.pop()
 
     def reset(self) -> None:
         """Forget all that was configured; the environment is the first one again."""
@@ -94,6 +113,10 @@ class Place:
 
     file: str
     chain: Origin
+    run: PythonRun | None = None
+    """Where the file is a Python program: the run that told its actions."""
+    partial: bool = False
+    """Whether it is one that was not run: only what is written out is known of it."""
 
     def origin(self, span: Span) -> Origin:
         """The origin of a place in the file."""

@@ -98,7 +98,7 @@ class _Reader:
             if forwarding is not None and forwarding.text.lower() in ("false", "0"):
                 return []  # launch resets the configurations first, and looks no further
             return [(file, action.children)]
-        if action.kind in ("timer", "ros_timer"):
+        if action.kind in ("timer", "ros_timer", "inline"):
             return [(file, action.children)]
         if action.kind == "include":
             found = self._included(file, action)

@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.resolved import Resolved
-from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap
+from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap, PythonRun
 from preflight_analysis.evaluation.ros2.declared import Declared, declared_arguments
 from preflight_analysis.evaluation.ros2.nodes import (
     evaluate_composable,
@@ -22,16 +22,22 @@ from preflight_analysis.evaluation.ros2.nodes import (
     namespace_of,
 )
 from preflight_analysis.evaluation.ros2.params import pushed_value
+from preflight_analysis.evaluation.ros2.python_params import python_value
+from preflight_analysis.evaluation.ros2.python_runs import called, calls_own_code, recorded
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem, Use
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.read import PYTHON_SUFFIX
 
 MAX_DEPTH = 150
 """Of groups and includes within each other."""
 MAX_INCLUDES = 2_000
 NO_RESULTS = NoResults()
+_MALFORMED = {".yaml": "yaml-malformed", ".yml": "yaml-malformed", PYTHON_SUFFIX: "python-malformed"}
+_SURE_UNRUN = ("python-malformed", "launch-file-not-run", "arg-not-a-choice", "nested-too-deeply")
+"""What can be said of a Python launch file that was not run."""
 
 
 def evaluate_ros2(
@@ -85,6 +91,8 @@ class _Walk:
         self._names: list[set[str] | None] = [set()]
         """For each file that is being evaluated the configurations that it and those below it have to do with; None
         where that cannot be told."""
+        self._recorded: dict[str, LaunchFile] = {}
+        """Python launch files as their last run told them."""
         self._missing_below: list[Declared] = []
         """Required arguments that an include further down does not pass, as the check of one above it saw."""
 
@@ -97,8 +105,9 @@ class _Walk:
             self._state.problem(kind, whole, path=path, reason=found.reason)
             return
         self._context.launch_file = path
+        found, run = self._as_run(found, ())
         self._required_arguments(found, sorted(args), None)
-        self._file(Place(path, ()), found)
+        self._file(Place(path, (), run, found.partial), found)
         self._root_args(found)
         while self._later:
             self._deferred = True
@@ -141,19 +150,33 @@ class _Walk:
             state.visited.append(place.file)
         self._note_names(launch_file)
         for problem in document.problems:
-            kind = "yaml-malformed" if place.file.endswith((".yaml", ".yml")) else "xml-malformed"
+            kind = _MALFORMED.get(os.path.splitext(place.file)[1], "xml-malformed")
             state.problem(kind, place.origin(problem.span), message=problem.message)
         for name, span in document.entities:
             state.problem("xml-entity", place.origin(span), fatal=False, name=name)
             state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", Location(place.file, span))
-        for found in check_language_ros2(launch_file):
-            state.problem(found.kind, place.origin(found.span), **found.data)
+        if not place.file.endswith(PYTHON_SUFFIX):
+            for found in check_language_ros2(launch_file):
+                state.problem(found.kind, place.origin(found.span), **found.data)
         if launch_file.root is None:
             span = document.root.tag_span if document.root is not None else Span(0, min(1, len(document.text)))
             tag = document.root.tag if document.root is not None else None
             state.problem("root-not-launch", place.origin(span), tag=tag)
             return
+        before = len(state.problems)
         self._actions(place, launch_file.root.children)
+        if place.partial:
+            # What is written in a program need not be what it does.
+            kept = [p for p in state.problems[before:] if p.location.file != place.file or p.kind in _SURE_UNRUN]
+            state.problems[before:] = kept
+
+    def _as_run(self, launch_file: LaunchFile, chain: Origin) -> tuple[LaunchFile, PythonRun | None]:
+        """A Python launch file as its run tells it; any other is itself."""
+        if not launch_file.path.endswith(PYTHON_SUFFIX):
+            return launch_file, None
+        found, run = recorded(self._state, self._context, launch_file, chain)
+        self._recorded[launch_file.path] = found
+        return found, run
 
     def _actions(self, place: Place, actions: tuple[Action, ...]) -> None:
         performer = Performer(self._state, self._context, place)
@@ -162,7 +185,15 @@ class _Walk:
             if execute is None:
                 continue
             if applies(performer, action):
-                execute(self, performer, action)
+                error = action.value("error")
+                if error is not None:
+                    name, _, message = error.text.partition(": ")
+                    origin = place.origin(action.head_span)
+                    self._state.problem("python-exception", origin, error=name, message=message, frames=())
+                else:
+                    execute(self, performer, action)
+                    if place.run is not None:
+                        self._on_exit(place, action)
             elif any(below.kind == "include" for below in action.walk()):
                 self._names[-1] = None  # what it would include may have to do with any argument
 
@@ -263,6 +294,7 @@ class _Walk:
             self._names[-1] = None
             return
         self._context.launch_file = path
+        found, run = self._as_run(found, origin)
         self._required_arguments(found, [name for name, _ in passed], place.origin(at.span))
         for name, child in passed:
             value = child.value("value")
@@ -271,7 +303,7 @@ class _Walk:
             self._context.set(name, result, place.origin(value.span if value is not None else child.kind_span))
         self._depth += 1
         self._names.append(set())
-        self._file(Place(path, origin), found)
+        self._file(Place(path, origin, run, found.partial), found)
         below = self._names.pop()
         self._depth -= 1
         above = self._names[-1]
@@ -283,13 +315,16 @@ class _Walk:
         known = self._names[-1]
         found = configurations_of(launch_file)
         partial = found.computed or launch_file.root is None or bool(launch_file.document.problems)
+        partial = partial or launch_file.partial or calls_own_code(launch_file.root)
         self._names[-1] = None if known is None or partial else known | found.declared | found.used
 
     def _report_unused(self, place: Place, path: str, passed: list[tuple[str, Action]], names: set[str]) -> None:
         """An argument that neither the file nor what it includes has to do with: launch accepts it without a word. The
         includer itself may use it later, as what an include sets stays set."""
-        own = self._state.files.launch_file(place.file, 2)
+        own = self._recorded.get(place.file) or self._state.files.launch_file(place.file, 2)
         used = frozenset[str]() if isinstance(own, Unreadable) else configurations_of(own).used
+        if isinstance(own, LaunchFile) and (own.partial or calls_own_code(own.root)):
+            return
         for name, child in passed:
             if name not in names and name not in used and name not in IMPLICIT:
                 value = child.value("name")
@@ -328,6 +363,8 @@ class _Walk:
         """Before it executes a file launch looks whether each required argument is passed by the include itself:
         a configuration that is set already does not count."""
         names = list(passed)
+        if launch_file.partial:
+            return
         for declared in declared_arguments(launch_file, self._included_without_context):
             if not declared.required or declared.conditional:
                 continue
@@ -354,7 +391,10 @@ class _Walk:
             return None
         path = os.path.normpath(os.path.join(self._state.cwd, result.text))
         found = self._state.read_launch_file(located(self._state.environment, path))
-        return None if isinstance(found, Unreadable) else found
+        if isinstance(found, Unreadable):
+            return None
+        found, _ = self._as_run(found, (Location(file, value.span),))
+        return None if found.partial else found
 
     def _too_deep(self, place: Place, action: Action) -> bool:
         if self._depth <= MAX_DEPTH and len(self._state.includes) <= MAX_INCLUDES:
@@ -370,6 +410,9 @@ class _Walk:
     def _node(self, performer: Performer, action: Action) -> None:
         evaluate_node(performer, action, deferred=self._deferred)
 
+    def _lifecycle(self, performer: Performer, action: Action) -> None:
+        evaluate_node(performer, action, kind="lifecycle", deferred=self._deferred)
+
     def _container(self, performer: Performer, action: Action) -> None:
         before = len(self._state.nodes)
         evaluate_node(performer, action, kind="container", deferred=self._deferred)
@@ -379,7 +422,14 @@ class _Walk:
 
     def _load(self, performer: Performer, action: Action) -> None:
         target = action.value("target")
-        if target is not None:
+        named = next((child for child in action.children if child.kind == "target"), None)
+        if named is not None:
+            ns, _ = namespace_of(performer, named, self._context.scope)
+            base = named.value("name")
+            above = ns.text if ns is not None and ns.text != "/" else ""
+            name = f"{above}/{performer.value(base).text if base is not None else ''}"
+            evaluate_composable(performer, action.children, name, applies, deferred=self._deferred)
+        elif target is not None:
             name = performer.value(target).text
             evaluate_composable(performer, action.children, name, applies, deferred=self._deferred)
 
@@ -404,7 +454,13 @@ class _Walk:
 
     def _set_parameter(self, performer: Performer, action: Action) -> None:
         name, value = action.value("name"), action.value("value")
-        if name is not None and value is not None:
+        given = next((child for child in action.children if child.kind == "param"), None)
+        if name is not None and given is not None:
+            known, plain = python_value(performer, given)
+            if known:
+                origin = performer.place.origin(action.head_span)
+                self._push_param(PushedParam(performer.value(name).text, plain, origin))
+        elif name is not None and value is not None:
             found = pushed_value(performer, value)
             if found is not None:
                 origin = performer.place.origin(action.head_span)
@@ -470,6 +526,64 @@ class _Walk:
         for text, result, origin in kept:
             self._context.set(text, result, origin)
 
+    def _unlet(self, performer: Performer, action: Action) -> None:
+        name = action.value("name")
+        if name is not None:
+            self._context.scope.configurations.pop(performer.value(name).text, None)
+
+    def _inline(self, performer: Performer, action: Action) -> None:
+        """A launch description as an action, or included without a file."""
+        for name, child in self._passed(performer, action):
+            value = child.value("value")
+            if value is not None:
+                self._context.set(name, performer.value(value), performer.place.origin(value.span))
+        if not self._too_deep(performer.place, action):
+            self._depth += 1
+            self._actions(performer.place, tuple(child for child in action.children if child.kind != "arg"))
+            self._depth -= 1
+
+    def _opaque(self, performer: Performer, action: Action) -> None:
+        """What a function of the file's, or an action of its own, does with what is configured now."""
+        number, name = action.value("id"), action.value("class")
+        if number is None or name is None or self._too_deep(performer.place, action):
+            return
+        place, context = performer.place, self._context
+        answer = called(self._state, context, place, number.text, name.text, "execute", action.head_span)
+        if answer is None:
+            return
+        origin = place.origin(action.head_span)
+        for key, text in (answer.changed or {}).items():
+            if key not in ("ros_namespace", "global_params", "ros_remaps"):
+                context.set(key, Resolved(text), origin)
+        for key in answer.removed:
+            context.scope.configurations.pop(key, None)
+        context.scope.environment.update(answer.variables or {})
+        self._depth += 1
+        self._actions(answer.place, answer.actions)
+        self._depth -= 1
+
+    def _coroutine(self, performer: Performer, action: Action) -> None:
+        at = Location(performer.place.file, action.head_span)
+        self._state.note_unknown("OpaqueCoroutine", "what it does is known only when it is launched", at)
+
+    def _handler(self, performer: Performer, action: Action) -> None:
+        """`RegisterEventHandler`: nobody knows when, so it comes after the rest."""
+        if any(child.kind == "function" for child in action.children):
+            at = Location(performer.place.file, action.head_span)
+            self._state.note_unknown("an event handler", "what its function does depends on the event", at)
+        self._timer(performer, action)
+
+    def _on_exit(self, place: Place, action: Action) -> None:
+        for child in action.children:
+            if child.kind == "on_exit":
+                self._later.append((place, child.children))
+
+    def _push_configurations(self, performer: Performer, action: Action) -> None:
+        self._context.push()
+
+    def _pop_configurations(self, performer: Performer, action: Action) -> None:
+        self._context.pop_if_pushed()
+
     def _only_read(self, performer: Performer, action: Action) -> None:
         """Actions that start nothing and set nothing that a node sees; their values are read all the same."""
         for attribute in action.attributes:
@@ -502,6 +616,15 @@ _EXECUTE: dict[str, Callable[[_Walk, Performer, Action], None]] = {
     "shutdown": _Walk._only_read,
     "set_use_sim_time": _Walk._only_read,
     "set_ros_log_dir": _Walk._only_read,
+    "lifecycle_node": _Walk._lifecycle,
+    "unlet": _Walk._unlet,
+    "inline": _Walk._inline,
+    "opaque": _Walk._opaque,
+    "opaque_coroutine": _Walk._coroutine,
+    "event_handler": _Walk._handler,
+    "push_configurations": _Walk._push_configurations,
+    "pop_configurations": _Walk._pop_configurations,
+    "unknown": _Walk._only_read,
 }
 
 

@@ -18,6 +18,7 @@ from preflight_analysis.evaluation.ros2.params import (
     pushed_source,
     tag_params,
 )
+from preflight_analysis.evaluation.ros2.python_params import dict_params
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.tree import Executable, LaunchNode, ParamSource, Remap, Unknown, Use
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
@@ -74,6 +75,8 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     executable = action.value("exec")
     if executable is None:
         return
+    if place.partial:
+        unknowns.append(Unknown("the node", "its launch file was not run", place.origin(action.kind_span)[-1]))
     exec_name = known(performer.value(executable), "exec")
     package_value = action.value("pkg")
     package = known(performer.value(package_value), "pkg") if package_value is not None else ""
@@ -171,8 +174,7 @@ def evaluate_composable(
 
 def evaluate_executable(performer: Performer, action: Action, *, deferred: bool) -> None:
     """`<executable>`: a process that is no node."""
-    command = action.value("cmd")
-    if command is None:
+    if action.value("cmd") is None and not any(child.kind == "argument" for child in action.children):
         return
     words = _words(performer, action, "cmd")
     state, place = performer.state, performer.place
@@ -226,9 +228,11 @@ def _sources(performer: Performer, action: Action, node: str, *, must_exist: boo
     for pushed in performer.context.scope.params or ():
         _add(sources, pushed_source(performer, pushed, node, must_exist=True))
     for child in action.children:
+        origin = performer.place.origin(child.head_span)
+        if child.kind == "params":
+            _add(sources, ParamSource(None, tuple(dict_params(performer, child, node)), origin))
         if child.kind != "param":
             continue
-        origin = performer.place.origin(child.head_span)
         file = child.value("from")
         if file is not None:
             result = performer.value(file)
@@ -287,6 +291,9 @@ def _environment(performer: Performer, action: Action) -> list[tuple[str, str]]:
 def _words(performer: Performer, action: Action, name: str) -> list[str]:
     """A command line, split where it is written: what a substitution comes to stays one word
     (`ExecuteProcess._parse_cmdline`)."""
+    given = [value for child in action.children if child.kind == "argument" and (value := child.value("value"))]
+    if given:
+        return [performer.value(value).text for value in given]
     value = action.value(name)
     if value is None:
         return []

@@ -18,6 +18,7 @@ from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.tree import Command, Use
 from preflight_analysis.launch.model import Literal, Substitution, Value
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
@@ -70,7 +71,8 @@ class Performer:
         target: Location | None = None
         try:
             known = SUBSTITUTIONS_ROS2.get(part.command)
-            if known is None:
+            of_python = _PERFORM_PYTHON.get(part.command) if self.place.file.endswith(".py") else None
+            if known is None and of_python is None:
                 raise _Failure(
                     "bad-substitution",
                     text=part.text,
@@ -78,10 +80,11 @@ class Performer:
                     command=part.command,
                     commands=tuple(SUBSTITUTIONS_ROS2),
                 )
-            arity = known[2]
-            if len(part.words) < arity.least or (arity.most is not None and len(part.words) > arity.most):
-                raise _Failure("bad-substitution", text=part.text, message=f"$({part.command}) takes {arity}")
-            text: str | None = _PERFORM[part.command](self, part)
+            if known is not None and of_python is None:
+                arity, count = known[2], len(part.words)
+                if count < arity.least or (arity.most is not None and count > arity.most):
+                    raise _Failure("bad-substitution", text=part.text, message=f"$({part.command}) takes {arity}")
+            text: str | None = (of_python or _PERFORM[part.command])(self, part)
         except _Failure as failure:
             if failure.kind is not None:
                 origin = self.place.origin(part.span)
@@ -268,7 +271,44 @@ class Performer:
         self.state.note_unknown(part.text, "the folder of the logs is made at launch", self._at(part))
         raise _Failure
 
+    # Those of Python launch files only
 
+    def _path_join(self, part: Substitution) -> str:
+        return os.path.join(*(self._word(part, index) for index in range(len(part.words)))) if part.words else ""
+
+    def _config_equals(self, part: Substitution) -> str:
+        found = self.context.get(self._word(part, 0))
+        if found is not None and not found.value.known:
+            raise _Failure
+        expected = self._word(part, 1) if len(part.words) == 2 else None
+        equal = (found.value.text if found is not None else None) == expected
+        return _text(equal == (part.command == "config-equals"))
+
+    def _local(self, part: Substitution) -> str:
+        self.state.note_unknown(part.text, "it is known only when it is launched", self._at(part))
+        raise _Failure
+
+    def _not_read(self, part: Substitution) -> str:
+        self.state.note_unknown("a value", "the launch file was not run", self._at(part))
+        raise _Failure
+
+    def _own(self, part: Substitution) -> str:
+        number, name = (self._word(part, index) for index in (0, 1))
+        answer = called(self.state, self.context, self.place, number, name, "perform", part.span)
+        if answer is None or answer.text is None:
+            raise _Failure
+        return answer.text
+
+
+_PERFORM_PYTHON: dict[str, Callable[[Performer, Substitution], str]] = {
+    "path-join": Performer._path_join,
+    "config-equals": Performer._config_equals,
+    "config-not-equals": Performer._config_equals,
+    "local": Performer._local,
+    "python": Performer._not_read,
+    "own": Performer._own,
+    "command": Performer._command,
+}
 _PERFORM: dict[str, Callable[[Performer, Substitution], str]] = {
     "var": Performer._var,
     "env": Performer._env,

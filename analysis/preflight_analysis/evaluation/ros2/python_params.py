@@ -1,0 +1,117 @@
+"""Parameters of nodes in Python launch files, as `launch_ros.utilities.evaluate_parameters` makes them of what was
+given: plain values stay, substitutions are read as YAML, lists have items of one type."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
+from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.launch.model import Action
+
+EXPECTED = "a bool, a number, a text or a non-empty list of one of them"
+_SCALARS = (bool, int, float, str)
+
+
+class _UnknownError(Exception):
+    """A substitution in the value is not known; why is noted."""
+
+
+def dict_params(performer: Performer, action: Action, node: str) -> list[Param]:
+    """The parameters of one dictionary, in order."""
+    found = []
+    for child in action.children:
+        name_value = child.value("name")
+        if child.kind != "param" or name_value is None:
+            continue
+        name = performer.value(name_value)
+        known, value = python_value(performer, child)
+        if known and name.known:
+            location = Location(performer.place.file, name_value.span)
+            found.append(Param(name.text, value, performer.place.origin(child.head_span), node, location))
+    return found
+
+
+def python_value(performer: Performer, action: Action) -> tuple[bool, Any]:
+    """Whether the value of a parameter is known, and it."""
+    try:
+        return True, _value(performer, action)
+    except _UnknownError:
+        return False, None
+    except NotOfTypeError as problem:
+        value = action.value("value")
+        span = value.span if value is not None else action.head_span
+        performer.state.problem(
+            "bad-value",
+            performer.place.origin(span),
+            tag="parameters",
+            attribute=_text(performer, action, "name"),
+            value=_text(performer, action, "value"),
+            expected=str(problem),
+            choices=(),
+        )
+        return False, None
+
+
+def _text(performer: Performer, action: Action, name: str) -> str:
+    value = action.value(name)
+    return performer.value(value).text if value is not None else ""
+
+
+def _value(performer: Performer, action: Action) -> Any:
+    form, value, type_value = action.value("form"), action.value("value"), action.value("type")
+    type_name = type_value.text if type_value is not None else None
+    if form is not None and form.text == "items":
+        item_type = type_name.removeprefix("list_of_") if type_name not in (None, "yaml") else None
+        return _uniform([_item(performer, child, item_type) for child in action.children if child.kind == "item"])
+    if value is None:
+        raise _UnknownError
+    if value.typed is not None:
+        return value.typed.value
+    result = performer.value(value)
+    if not result.known:
+        raise _UnknownError
+    if type_name is not None:
+        return coerce(result.text, type_name)
+    return _yaml(result.text)
+
+
+def _item(performer: Performer, action: Action, item_type: str | None) -> Any:
+    value = action.value("value")
+    if value is None:
+        raise _UnknownError
+    if value.typed is not None:
+        return value.typed.value
+    result = performer.value(value)
+    if not result.known:
+        raise _UnknownError
+    if value.is_literal:
+        return result.text
+    return coerce(result.text, item_type) if item_type is not None else _load(result.text)
+
+
+def _yaml(text: str) -> Any:
+    value = _load(text)
+    if isinstance(value, list):
+        return _uniform(value)
+    if not isinstance(value, _SCALARS):
+        raise NotOfTypeError(EXPECTED + "; a text that is none of it as YAML needs ParameterValue(..., value_type=str)")
+    return value
+
+
+def _load(text: str) -> Any:
+    try:
+        return yaml.safe_load(text or "''")
+    except (yaml.YAMLError, ValueError, RecursionError):
+        raise NotOfTypeError("YAML; if it is a text: ParameterValue(..., value_type=str)") from None
+
+
+def _uniform(items: list[Any]) -> list[Any]:
+    kinds = {type(each) for each in items}
+    if len(kinds) != 1 or not kinds <= set(_SCALARS):
+        raise NotOfTypeError(EXPECTED)
+    return items

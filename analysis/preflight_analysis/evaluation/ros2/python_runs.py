@@ -1,0 +1,215 @@
+"""Python launch files: what is asked of their runs, and what the answers say. Nothing is run here.
+
+A request is a text that names the run completely: the file with its text, the environment, and which of its own
+functions or substitutions are to be called with what configuration. Answers are given like those of commands
+(`evaluation/commands.py`), by `tracing/launch_files.py`; as long as there is none the file is taken for what can be
+read from it. The answer comes from the user's own process: nothing of its form is relied on.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import digest
+from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
+from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
+from preflight_analysis.evaluation.tree import Command
+from preflight_analysis.launch.configurations import substitutions_of
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.python_actions import actions_of
+from preflight_analysis.launch.python_source import PythonSource
+
+MARK = "\0launch file "
+"""What no command line begins with."""
+_PACKAGE = re.compile(r"package '([^']*)' not found")
+_PACKAGE_ERROR = "PackageNotFoundError"
+_IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a call gave: actions, or a text. `place` is that of the actions: calls in them come after this one."""
+
+    place: Place
+    actions: tuple[Action, ...] = ()
+    text: str | None = None
+    changed: Mapping[str, str] | None = None
+    removed: tuple[str, ...] = ()
+    variables: Mapping[str, str] | None = None
+
+
+def request(run: PythonRun) -> str:
+    """The name of a run."""
+    told = {"file": run.file, "text": run.text, "env": dict(run.variables), "calls": list(run.calls)}
+    return MARK + json.dumps(told, sort_keys=True)
+
+
+def parse_request(line: str) -> dict[str, Any] | None:
+    """What `request` made a text from; None if it is a command line."""
+    if not line.startswith(MARK):
+        return None
+    found: dict[str, Any] = json.loads(line[len(MARK) :])
+    return found
+
+
+def recorded(
+    state: Collector, context: Context, launch_file: LaunchFile, chain: Origin
+) -> tuple[LaunchFile, PythonRun | None]:
+    """The launch file as its run tells it, and the run; without one as it can be read."""
+    document = launch_file.document
+    if document.problems:
+        at = Location(launch_file.path, document.problems[0].span)
+        state.note_unknown(launch_file.path, "it cannot be run as it is", at)
+        return launch_file, None
+    source = PythonSource(document.text, document.lines)
+    run = PythonRun(launch_file.path, document.text, _variables(context), (), source)
+    place = Place(launch_file.path, chain, run)
+    whole = Span(0, 0)
+    told = _ask(state, place, run, place.origin(whole), sure=True)
+    if told is None or launch_file.root is None:
+        return launch_file, None
+    children = actions_of(told.get("actions"), source, whole)
+    return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
+
+
+def called(
+    state: Collector, context: Context, place: Place, number: str, name: str, what: str, at: Span
+) -> Answer | None:
+    """What a function, substitution or condition of the file's own gives; None if that is not known. `what` is
+    `execute` or `perform`."""
+    if place.run is None or not number.isdigit():
+        state.note_unknown(name, "the launch file was not run", Location(place.file, at))
+        return None
+    configurations, complete = _configurations(context)
+    call = {
+        "id": int(number),
+        "name": name,
+        "what": what,
+        "configurations": configurations,
+        "env": _variables(context),
+        "file": context.launch_file,
+    }
+    run = replace(place.run, calls=(*place.run.calls, call))
+    told = _ask(state, place, run, place.origin(at), sure=complete)
+    if told is None:
+        return None
+    if what == "perform":
+        text = told.get("text")
+        return Answer(place, text=text) if isinstance(text, str) else None
+    changed, removed = _texts(told.get("set")), told.get("unset")
+    gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
+    actions = actions_of(told.get("actions"), run.source, at)
+    return Answer(replace(place, run=run), actions, None, changed, gone, _texts(told.get("env")))
+
+
+def calls_own_code(root: Action | None) -> bool:
+    """Whether there is code of the file's own, which may do with configurations what it likes."""
+    for action in root.walk() if root is not None else ():
+        if action.kind in ("opaque", "opaque_coroutine", "function"):
+            return True
+        if any(substitution.command == "own" for substitution in substitutions_of(action)):
+            return True
+    return False
+
+
+def _variables(context: Context) -> dict[str, str]:
+    initial = context.initial_environment
+    return {k: v for k, v in context.scope.environment.items() if initial.get(k) != v}
+
+
+def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
+    """What is configured, as far as it is known, and whether all of it is."""
+    scope = context.scope
+    found: dict[str, Any] = {k: c.value.text for k, c in scope.configurations.items() if c.value.known}
+    complete = len(found) == len(scope.configurations)
+    if scope.namespace is not None:
+        found["ros_namespace"] = scope.namespace.text
+        complete = complete and scope.namespace.known
+    if scope.params:
+        found["global_params"] = [[p.name, p.value] if p.name is not None else p.value for p in scope.params]
+    if scope.remaps:
+        found["ros_remaps"] = [[remap.source.text, remap.target.text] for remap in scope.remaps]
+    return found, complete
+
+
+def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure: bool) -> dict[str, Any] | None:
+    """The answer to a run, None if there is none or it has failed. `sure`: all that the run was given is known, so
+    that its failure is one of the file."""
+    line = request(run)
+    result = state.results.result(line)
+    state.commands.append(Command(line, "", origin, result, launch_file=True))
+    what = "the launch file" if not run.calls else str(run.calls[-1]["name"])
+    if result is None:
+        state.note_unknown(what, "it was not run", origin[-1])
+        return None
+    if result.status == "not-run":
+        state.note_unknown(what, f"it was not run: {result.reason}", origin[-1])
+        state.problem("launch-file-not-run", origin, fatal=False, name=what, reason=result.reason)
+        return None
+    if result.status != "done":
+        state.problem("python-exception", origin, error="", message=result.reason, frames=())
+        state.note_unknown(what, result.reason, origin[-1])
+        return None
+    try:
+        told = json.loads(result.output)
+    except (ValueError, RecursionError):
+        told = None
+    if not isinstance(told, dict):
+        state.note_unknown(what, "its run gave no answer that can be read", origin[-1])
+        return None
+    for path, text in (_texts(told.get("files")) or {}).items():
+        state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
+    error = told.get("error")
+    if isinstance(error, dict):
+        _raised(state, place, run, error, origin, sure=sure)
+        return None
+    return told
+
+
+def _raised(
+    state: Collector, place: Place, run: PythonRun, error: Mapping[str, Any], origin: Origin, *, sure: bool
+) -> None:
+    """What an exception says, on the line of the file that raised it."""
+    name, message = str(error.get("type")), str(error.get("message"))
+    state.note_unknown(name, message, origin[-1])
+    if not sure:
+        return
+    frames = error.get("frames")
+    own = [
+        (frame[0], frame[1])
+        for frame in (frames if isinstance(frames, list) else ())
+        if isinstance(frame, list) and len(frame) == 3 and isinstance(frame[0], str) and isinstance(frame[1], int)
+    ]
+    here = [line for file, line in own if file == run.file]
+    if here:
+        origin = place.origin(run.source.line_span(here[-1]))
+    package = _PACKAGE.search(message) if name == _PACKAGE_ERROR else None
+    if package is not None:
+        state.problem("package-not-found", origin, name=package[1])
+    elif name in _IMPORT_ERRORS:
+        module = str(error.get("module", ""))
+        state.problem("python-import", origin, fatal=False, module=module, message=message)
+    else:
+        behind = [(file, line) for file, line in own if file.startswith("/")]
+        places = tuple(_frame(state, run, file, line) for file, line in behind)
+        state.problem("python-exception", origin, error=name, message=message, frames=places)
+
+
+def _frame(state: Collector, run: PythonRun, file: str, line: int) -> Location:
+    """A line of the file or of one that it uses."""
+    if file == run.file:
+        return Location(file, run.source.line_span(line))
+    found = state.read_text(file)
+    return Location(file, found.lines.line_span(line - 1) if isinstance(found, Document) else Span(0, 0))
+
+
+def _texts(told: object) -> dict[str, str] | None:
+    if not isinstance(told, dict):
+        return None
+    return {k: v for k, v in told.items() if isinstance(k, str) and isinstance(v, str)}

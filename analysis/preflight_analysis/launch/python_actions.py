@@ -1,0 +1,216 @@
+"""What a run of a Python launch file tells of it, or what is read from its text, to actions with their places.
+
+The form of the records is that of `tracing/agents/recording/tell.py`. They come from the file's own process: whatever
+has not the form is left out.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.launch.model import Action, ActionAttribute, Literal, Substitution, Typed, Value
+from preflight_analysis.launch.python_source import PythonSource
+
+MAX_DEPTH = 120
+# The keyword that gives an attribute, where it has another name.
+_KEYWORDS = {
+    "pkg": "package",
+    "exec": "executable",
+    "default": "default_value",
+    "file": "launch_description_source",
+    "launch-prefix": "prefix",
+    "message": "msg",
+    "if": "condition",
+    "unless": "condition",
+    "target": "target_container",
+    "env": "additional_env",
+    "param": "parameters",
+    "params": "parameters",
+    "remap": "remappings",
+    "argument": "arguments",
+    "choice": "choices",
+    "arg": "launch_arguments",
+}
+# Arguments that may be given without their keyword, in order.
+_POSITIONAL: Mapping[str, tuple[str, ...]] = {
+    "arg": ("name",),
+    "let": ("name", "value"),
+    "unlet": ("name",),
+    "set_env": ("name", "value"),
+    "unset_env": ("name",),
+    "append_env": ("name", "value", "prepend", "separator"),
+    "set_parameter": ("name", "value"),
+    "set_parameters_from_file": ("filename",),
+    "set_remap": ("src", "dst"),
+    "set_use_sim_time": ("value",),
+    "push_ros_namespace": ("namespace",),
+    "include": ("launch_description_source",),
+    "group": ("actions",),
+    "event_handler": ("event_handler",),
+}
+
+
+def actions_of(records: object, source: PythonSource, around: Span) -> tuple[Action, ...]:
+    """The actions of records. `around` is the place of those that were made elsewhere."""
+    return _Reader(source).actions(records, around, None, 0)
+
+
+class _Reader:
+    def __init__(self, source: PythonSource) -> None:
+        self._source = source
+
+    def actions(self, records: object, around: Span, parent: ast.Call | None, depth: int) -> tuple[Action, ...]:
+        if not isinstance(records, list) or depth > MAX_DEPTH:
+            return ()
+        return tuple(self._action(r, around, parent, depth) for r in records if _is_action(r))
+
+    def _action(self, record: dict[str, Any], around: Span, parent: ast.Call | None, depth: int) -> Action:
+        kind, source = record["k"], self._source
+        line, column = _place(record.get("p"))
+        call = source.call(line, column, str(record.get("n"))) if line else None
+        if call is not None:
+            kind_span, span = source.name_span(call), source.span(call)
+            head = kind_span
+        elif line:
+            kind_span = head = span = source.line_span(line)
+        else:
+            kind_span = head = span = self._part_span(kind, record, parent) or around
+        given = _arguments(call, kind) if call is not None else {}
+        attributes = []
+        for name, value in _items(record.get("a")):
+            node = given.get(_KEYWORDS.get(name, name)) if call is not None else None
+            if call is None and parent is not None:
+                node = self._pair_node(kind, record, name, parent)
+            attributes.append(self._attribute(name, value, node, kind_span, call))
+        if isinstance(record.get("error"), str):
+            attributes.append(self._text("error", record["error"], kind_span))
+        number = record.get("i")
+        if kind == "opaque" and isinstance(number, int):
+            attributes.append(self._text("id", str(number), kind_span))
+            attributes.append(self._text("class", str(record.get("n")), kind_span))
+        inside = call if call is not None else parent
+        children = self.actions(record.get("c"), kind_span, inside, depth + 1)
+        return Action(kind, kind_span, tuple(attributes), children, (), _literal("", kind_span), head, span)
+
+    def _text(self, name: str, text: str, span: Span) -> ActionAttribute:
+        return ActionAttribute(name, span, _literal(text, span), span)
+
+    def _attribute(
+        self, name: str, value: object, node: ast.expr | None, around: Span, call: ast.Call | None
+    ) -> ActionAttribute:
+        span = self._source.span(node) if node is not None else around
+        name_span = span if node is not None else around
+        for keyword in call.keywords if call is not None else ():
+            if keyword.value is node:
+                name_span = self._source.keyword_span(keyword)
+        return ActionAttribute(
+            name, name_span, self._value(value, span), Span(name_span.start, max(span.end, name_span.end))
+        )
+
+    def _value(self, value: object, span: Span) -> Value:
+        if isinstance(value, dict) and "v" in value:
+            plain = value["v"]
+            text = plain if isinstance(plain, str) else str(plain).lower() if isinstance(plain, bool) else str(plain)
+            return Value(text, span, (Literal(text, span),), typed=Typed(plain))
+        parts = tuple(self._parts(value, span, 0))
+        if any(isinstance(part, Substitution) for part in parts):
+            return Value("".join(part.text for part in parts), span, parts)
+        return _literal("".join(part.text for part in parts), span)
+
+    def _parts(self, value: object, span: Span, depth: int) -> Iterator[Literal | Substitution]:
+        for piece in value if isinstance(value, list) and depth < MAX_DEPTH else ():
+            if isinstance(piece, str):
+                yield Literal(piece, span)
+            elif isinstance(piece, dict) and isinstance(piece.get("s"), str) and isinstance(piece.get("w"), list):
+                yield self._substitution(piece, span, depth)
+
+    def _substitution(self, piece: dict[str, Any], around: Span, depth: int) -> Substitution:
+        line, column = _place(piece.get("p"))
+        call = self._source.call(line, column, str(piece.get("n"))) if line else None
+        # One that is kept in a variable is shown where it is used.
+        span = self._source.span(call) if call is not None else around
+        if not (around.start <= span.start and span.end <= around.end):
+            span = around
+        command = piece["s"]
+        inside = span
+        if call is not None and span is not around and call.args and not call.keywords and len(call.args) == 1:
+            inside = self._source.span(call.args[0])
+        words = tuple(tuple(self._parts(word, inside, depth + 1)) for word in piece["w"])
+        arguments = " ".join("".join(part.text for part in word) for word in words)
+        text = f"$({command} {arguments})" if words else f"$({command})"
+        return Substitution(command, span, arguments, inside, text, span, words)
+
+    def _part_span(self, kind: str, record: dict[str, Any], parent: ast.Call | None) -> Span | None:
+        """Of a child that is no object: its pair in the parent's argument, or that argument."""
+        node = self._pair_node(kind, record, None, parent) if parent is not None else None
+        return self._source.span(node) if node is not None else None
+
+    def _pair_node(
+        self, kind: str, record: dict[str, Any], attribute: str | None, parent: ast.Call | None
+    ) -> ast.expr | None:
+        if parent is None:
+            return None
+        given = _arguments(parent, None)
+        whole = given.get(_KEYWORDS.get(kind, kind))
+        if whole is None:
+            return None
+        told = record.get("a")
+        attributes = told if isinstance(told, dict) else {}
+        key = _plain(attributes.get("name", attributes.get("from", attributes.get("value"))))
+        for first, second in self._pairs(whole):
+            if isinstance(first, ast.Constant) and first.value == key:
+                return second if attribute in ("value", "to") and second is not None else first
+        return whole
+
+    def _pairs(self, node: ast.expr) -> Iterator[tuple[ast.expr, ast.expr | None]]:
+        """Keys with values in what a call is given: of maps and of pairs; texts by themselves."""
+        nodes = [self._source.resolved(node)]
+        if isinstance(nodes[0], ast.Call) and isinstance(nodes[0].func, ast.Attribute):
+            nodes.append(self._source.resolved(nodes[0].func.value))
+        if isinstance(nodes[0], (ast.List, ast.Tuple)):
+            nodes += [self._source.resolved(each) for each in nodes[0].elts if isinstance(each, ast.Name)]
+        for each in nodes:
+            for found in ast.walk(each):
+                if isinstance(found, ast.Dict):
+                    for key, value in zip(found.keys, found.values, strict=True):
+                        if key is not None:
+                            yield key, value
+                elif isinstance(found, ast.Tuple) and len(found.elts) == 2:
+                    yield found.elts[0], found.elts[1]
+        for each in nodes:
+            for found in ast.walk(each):
+                if isinstance(found, ast.Constant):
+                    yield found, None
+
+
+def _arguments(call: ast.Call, kind: str | None) -> dict[str, ast.expr]:
+    given = {keyword.arg: keyword.value for keyword in call.keywords if keyword.arg is not None}
+    for name, node in zip(_POSITIONAL.get(kind or "", ()), call.args, strict=False):
+        given.setdefault(name, node)
+    return given
+
+
+def _is_action(record: object) -> bool:
+    return isinstance(record, dict) and isinstance(record.get("k"), str)
+
+
+def _items(attributes: object) -> Iterable[tuple[str, object]]:
+    if isinstance(attributes, dict):
+        yield from ((name, value) for name, value in attributes.items() if isinstance(name, str))
+
+
+def _place(place: object) -> tuple[int, int]:
+    if isinstance(place, list) and len(place) == 2 and all(isinstance(each, int) for each in place):
+        return place[0], place[1]
+    return 0, -1
+
+
+def _plain(value: object) -> str | None:
+    return value[0] if isinstance(value, list) and len(value) == 1 and isinstance(value[0], str) else None
+
+
+def _literal(text: str, span: Span) -> Value:
+    return Value(text, span, (Literal(text, span),))

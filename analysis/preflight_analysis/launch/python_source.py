@@ -1,0 +1,168 @@
+"""The calls in a Python launch file, with their places: what a run made is shown where it is written.
+
+The text may be half typed: where it does not parse, the calls in it that are whole are read one by one.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from functools import cached_property
+
+from preflight_analysis.documents.span import LineIndex, Span
+
+_CALL = re.compile(r"\b[A-Za-z_][\w.]*\s*\(")
+_MAX_CALLS = 5_000
+_TOKEN = re.compile(
+    r"""(?P<string>(?:[rRbBuUfF]{1,2})?(?:\"\"\"(?:[^\\]|\\.)*?\"\"\"|'''(?:[^\\]|\\.)*?'''|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'))"""
+    r"""|(?P<comment>\#[^\n]*)|(?P<open>[(\[{])|(?P<close>[)\]}])""",
+    re.DOTALL,
+)
+
+
+class PythonSource:
+    """A text as Python, as far as it is. `problem` is why it does not parse, with its place."""
+
+    def __init__(self, text: str, lines: LineIndex) -> None:
+        self.text, self.lines = text, lines
+        self._ascii = text.isascii()
+        self.problem: tuple[str, Span] | None = None
+        self.module: ast.Module | None = None
+        try:
+            self.module = ast.parse(text)
+        except SyntaxError as error:
+            line = max((error.lineno or 1) - 1, 0)
+            start = lines.line_start(line) + max((error.offset or 1) - 1, 0)
+            self.problem = (error.msg or "invalid syntax", Span(min(start, len(text)), min(start + 1, len(text))))
+        except (ValueError, RecursionError, MemoryError) as error:
+            self.problem = (str(error) or type(error).__name__, Span(0, min(1, len(text))))
+
+    @cached_property
+    def pieces(self) -> tuple[ast.AST, ...]:
+        """What there is to read: the module, or calls by themselves."""
+        if self.module is not None:
+            return (self.module,)
+        return tuple(self._single_calls())
+
+    def _single_calls(self) -> Iterator[ast.AST]:
+        brackets = _brackets(self.text)
+        behind = count = 0
+        for found in _CALL.finditer(self.text):
+            end = brackets.get(found.end() - 1)
+            if found.start() < behind or end is None or count > _MAX_CALLS:
+                continue
+            count += 1
+            try:
+                node = ast.parse(self.text[found.start() : end + 1], mode="eval").body
+            except (SyntaxError, ValueError, RecursionError, MemoryError):
+                continue
+            behind = end
+            self._move(node, found.start())
+            yield node
+
+    def _move(self, node: ast.AST, offset: int) -> None:
+        """To its place in the text."""
+        line, column = self.lines.position(offset)
+        start = self.lines.line_start(line)
+        width = len(self.text[start : start + column].encode(errors="surrogatepass"))
+        for each in ast.walk(node):
+            if isinstance(each, (ast.expr, ast.keyword)):
+                if each.lineno == 1:
+                    each.col_offset += width
+                if each.end_lineno == 1 and each.end_col_offset is not None:
+                    each.end_col_offset += width
+                each.lineno += line
+                each.end_lineno = (each.end_lineno or 1) + line
+
+    @cached_property
+    def _calls(self) -> dict[int, list[ast.Call]]:
+        found: dict[int, list[ast.Call]] = {}
+        for piece in self.pieces:
+            for node in ast.walk(piece):
+                if isinstance(node, ast.Call):
+                    found.setdefault(node.lineno, []).append(node)
+        return found
+
+    @cached_property
+    def assigned(self) -> dict[str, ast.expr]:
+        """What names stand for that are assigned in one place only."""
+        found: dict[str, list[ast.expr]] = {}
+        for piece in self.pieces:
+            for node in ast.walk(piece):
+                if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+                    found.setdefault(node.targets[0].id, []).append(node.value)
+                elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
+                    found.setdefault(node.target.id, []).append(node.value)
+                elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
+                    found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
+        return {name: values[0] for name, values in found.items() if len(values) == 1}
+
+    def resolved(self, node: ast.expr) -> ast.expr:
+        """What a name stands for; anything else is itself."""
+        for _ in range(10):
+            known = self.assigned.get(node.id) if isinstance(node, ast.Name) else None
+            if known is None:
+                break
+            node = known
+        return node
+
+    def call(self, line: int, column: int, name: str) -> ast.Call | None:
+        """The call of a class at a place (column in bytes, -1 if it is not known)."""
+        at = [c for c in self._calls.get(line, ()) if column in (-1, c.col_offset)]
+        return next(
+            (c for c in at if last_name(c.func) == name), at[0] if len(at) == 1 or (at and column >= 0) else None
+        )
+
+    def span(self, node: ast.expr | ast.keyword) -> Span:
+        """Where a node stands; of a text what is between its quotes."""
+        start = self._offset(node.lineno, node.col_offset)
+        end = self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.lineno == node.end_lineno:
+            written = self.text[start:end]
+            quoted = re.match(r"[A-Za-z]{0,2}(\"\"\"|'''|\"|')", written)
+            if quoted and len(written) >= quoted.end() + len(quoted[1]):
+                return Span(start + quoted.end(), end - len(quoted[1]))
+        return Span(start, end)
+
+    def name_span(self, call: ast.Call) -> Span:
+        """The name of what is called."""
+        whole = self.span(call.func)
+        name = last_name(call.func)
+        return Span(max(whole.start, whole.end - len(name)), whole.end)
+
+    def keyword_span(self, keyword: ast.keyword) -> Span:
+        """The name of a keyword."""
+        start = self._offset(keyword.lineno, keyword.col_offset)
+        return Span(start, start + len(keyword.arg or ""))
+
+    def line_span(self, line: int) -> Span:
+        """A line without the blanks around its text; lines are counted from 1."""
+        whole = self.lines.line_span(line - 1)
+        text = self.text[whole.start : whole.end]
+        return Span(whole.start + len(text) - len(text.lstrip()), whole.start + len(text.rstrip()))
+
+    def _offset(self, line: int, column: int) -> int:
+        start = self.lines.line_start(line - 1)
+        if self._ascii:
+            return start + column
+        whole = self.lines.line_span(line - 1)
+        data = self.text[start : whole.end].encode(errors="surrogatepass")[:column]
+        return start + len(data.decode(errors="replace"))
+
+
+def last_name(node: ast.expr) -> str:
+    """`Node` of `launch_ros.actions.Node`."""
+    return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
+
+
+def _brackets(text: str) -> dict[int, int]:
+    """Each opening bracket with the one that closes it."""
+    found: dict[int, int] = {}
+    opened: list[int] = []
+    for token in _TOKEN.finditer(text):
+        if token["open"]:
+            opened.append(token.start())
+        elif token["close"] and opened:
+            found[opened.pop()] = token.start()
+    return found

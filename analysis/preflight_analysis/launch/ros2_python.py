@@ -1,0 +1,160 @@
+"""The frontend for ROS 2's Python launch files as long as they are not run: what can be read from their text.
+
+Only what is written out is read: literals, names that are assigned once, substitutions. The rest is not known, and
+nothing is concluded from what is not there. What a run tells takes the place of it (`evaluation/ros2/python_runs.py`).
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import Any
+
+from preflight_analysis.documents.document import Document, SyntaxProblem
+from preflight_analysis.documents.reading import Text
+from preflight_analysis.documents.span import LineIndex, Span
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.launch.python_actions import actions_of
+from preflight_analysis.launch.python_source import PythonSource, last_name
+
+_MAX_DEPTH = 40
+_SUBSTITUTIONS = {
+    "LaunchConfiguration": "var",
+    "EnvironmentVariable": "env",
+    "FindPackageShare": "find-pkg-share",
+    "FindPackagePrefix": "find-pkg-prefix",
+    "ThisLaunchFileDir": "dirname",
+    "ThisLaunchFile": "filename",
+    "PathJoinSubstitution": "path-join",
+    "PythonExpression": "eval",
+    "Command": "command",
+    "FindExecutable": "find-exec",
+    "get_package_share_directory": "find-pkg-share",
+}
+_ACTIONS = {
+    "DeclareLaunchArgument": ("arg", {"name": "name", "default_value": "default", "description": "description"}),
+    "Node": ("node", {"package": "pkg", "executable": "exec", "name": "name", "namespace": "namespace"}),
+    "IncludeLaunchDescription": ("include", {"launch_description_source": "file"}),
+    "GroupAction": ("group", {}),
+    "TimerAction": ("timer", {"period": "period"}),
+    "SetLaunchConfiguration": ("let", {"name": "name", "value": "value"}),
+    "SetEnvironmentVariable": ("set_env", {"name": "name", "value": "value"}),
+    "PushRosNamespace": ("push_ros_namespace", {"namespace": "namespace"}),
+    "PushROSNamespace": ("push_ros_namespace", {"namespace": "namespace"}),
+}
+_ACTIONS["LifecycleNode"] = ("lifecycle_node", _ACTIONS["Node"][1])
+_ACTIONS["ComposableNodeContainer"] = ("node_container", _ACTIONS["Node"][1])
+_FIRST = {
+    "arg": ("name",),
+    "let": ("name", "value"),
+    "set_env": ("name", "value"),
+    "push_ros_namespace": ("namespace",),
+    "include": ("launch_description_source",),
+}
+
+
+def read_ros2_python(source: Text) -> LaunchFile:
+    """What the text says of the launch file. Any text gives one."""
+    lines = LineIndex(source.text)
+    python = PythonSource(source.text, lines)
+    problems = (SyntaxProblem(*python.problem),) if python.problem is not None else ()
+    document = Document(source.path, source.text, source.digest, (), problems, lines)
+    whole = Span(0, len(source.text))
+    reader = _Reader(python)
+    children = actions_of(reader.actions(), python, whole)
+    root = Action("launch", Span(0, 0), (), children, (), Value("", whole, (Literal("", whole),)), Span(0, 0), whole)
+    return LaunchFile(source.path, 2, root, document, partial=True)
+
+
+class _Reader:
+    def __init__(self, source: PythonSource) -> None:
+        self._source = source
+
+    def actions(self) -> list[dict[str, Any]]:
+        """All actions that are written, each once, those within others inside of them."""
+        calls = [c for piece in self._source.pieces for c in ast.walk(piece) if isinstance(c, ast.Call)]
+        known = [call for call in calls if last_name(call.func) in _ACTIONS]
+        known.sort(key=lambda call: (call.lineno, call.col_offset))
+        inner = {id(each) for call in known for each in self._inside(call)}
+        return [self._action(call, 0) for call in known if id(call) not in inner]
+
+    def _inside(self, call: ast.Call) -> list[ast.Call]:
+        """The actions that an action holds: written in it, or in variables that it names."""
+        found: list[ast.Call] = []
+        given = {k.arg: k.value for k in call.keywords}
+        holder = given.get("actions", call.args[0] if call.args else None)
+        if last_name(call.func) not in ("GroupAction", "TimerAction") or holder is None:
+            return found
+        holder = self._source.resolved(holder)
+        for each in holder.elts if isinstance(holder, (ast.List, ast.Tuple)) else ():
+            inner = self._source.resolved(each)
+            if isinstance(inner, ast.Call) and last_name(inner.func) in _ACTIONS:
+                found.append(inner)
+        return found
+
+    def _action(self, call: ast.Call, depth: int) -> dict[str, Any]:
+        kind, names = _ACTIONS[last_name(call.func)]
+        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
+        for name, node in zip(_FIRST.get(kind, ()), call.args, strict=False):
+            given.setdefault(name, node)
+        told = {ours: self._value(given[theirs]) for theirs, ours in names.items() if theirs in given}
+        if "condition" in given:
+            # Taken for unknown: whether it is executed is not for us to say.
+            told["if"] = [_unknown()]
+        children: list[dict[str, Any]] = []
+        if kind == "arg" and "choices" in given:
+            children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
+        if kind in ("group", "timer") and depth < _MAX_DEPTH:
+            children = [self._action(inner, depth + 1) for inner in self._inside(call)]
+        if kind == "include" and "launch_arguments" in given:
+            children = self._passed(given["launch_arguments"])
+        place = [call.lineno, call.col_offset]
+        return {"k": kind, "n": last_name(call.func), "p": place, "a": told, "c": children}
+
+    def _passed(self, node: ast.expr) -> list[dict[str, Any]]:
+        """`{...}.items()`, or a list of pairs."""
+        node = self._source.resolved(node)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "items":
+            node = self._source.resolved(node.func.value)
+        pairs: list[tuple[ast.expr | None, ast.expr]] = []
+        if isinstance(node, ast.Dict):
+            pairs = list(zip(node.keys, node.values, strict=True))
+        elif isinstance(node, (ast.List, ast.Tuple)):
+            pairs = [(p.elts[0], p.elts[1]) for p in node.elts if isinstance(p, ast.Tuple) and len(p.elts) == 2]
+        return [
+            {"k": "arg", "a": {"name": [key.value], "value": self._value(value)}, "c": []}
+            for key, value in pairs
+            if isinstance(key, ast.Constant) and isinstance(key.value, str)
+        ]
+
+    def _texts(self, node: ast.expr) -> list[str]:
+        node = self._source.resolved(node)
+        elements = node.elts if isinstance(node, (ast.List, ast.Tuple)) else []
+        texts = [each.value for each in elements if isinstance(each, ast.Constant)]
+        found = [text for text in texts if isinstance(text, str)]
+        return found if len(found) == len(elements) else []
+
+    def _value(self, node: ast.expr, depth: int = 0) -> list[Any]:
+        node = self._source.resolved(node)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            return [node.value]
+        if depth < _MAX_DEPTH and isinstance(node, (ast.List, ast.Tuple)):
+            return [piece for each in node.elts for piece in self._value(each, depth + 1)]
+        if depth < _MAX_DEPTH and isinstance(node, ast.Call):
+            name = last_name(node.func)
+            if name.endswith("LaunchDescriptionSource") and len(node.args) == 1:
+                return self._value(node.args[0], depth + 1)
+            if name == "join" and isinstance(node.func, ast.Attribute) and last_name(node.func.value) == "path":
+                words = [self._value(each, depth + 1) for each in node.args]
+                return [{"s": "path-join", "w": words, "n": name, "p": [node.lineno, node.col_offset]}]
+            if name in _SUBSTITUTIONS:
+                arguments = [*node.args, *(k.value for k in node.keywords)]
+                if name == "PathJoinSubstitution" and arguments:
+                    inner = self._source.resolved(arguments[0])
+                    arguments = list(inner.elts) if isinstance(inner, (ast.List, ast.Tuple)) else arguments
+                words = [self._value(each, depth + 1) for each in arguments]
+                return [{"s": _SUBSTITUTIONS[name], "w": words, "n": name, "p": [node.lineno, node.col_offset]}]
+        return [_unknown()]
+
+
+def _unknown() -> dict[str, Any]:
+    return {"s": "python", "w": [], "n": "", "p": None}

@@ -1,0 +1,308 @@
+"""What everything else is made of: entities, substitutions, the context, and the place at which each was made."""
+
+from __future__ import annotations
+
+import collections.abc
+import itertools
+import os
+import sys
+from typing import Any, Iterable, Optional
+
+OURS = os.path.dirname(os.path.abspath(__file__))
+_STEPS = 200
+"""How far up the stack to look for the launch file."""
+_PARTS = 10_000
+
+
+class Recorder:
+    """What the run remembers. `file` is the launch file; whatever is made gets a number, in order."""
+
+    def __init__(self) -> None:
+        self.file = ""
+        self.folder = ""
+        self.count = itertools.count(1)
+        self.made: dict[int, Any] = {}
+        self.packages: dict[str, str] = {}
+        self.positions: dict[Any, list[tuple[Any, ...]]] = {}
+
+    def place(self) -> Optional[list[int]]:
+        """Line and column (-1: not known) in the launch file of the call that is going on."""
+        frame = sys._getframe(2)
+        for _ in range(_STEPS):
+            if frame.f_code.co_filename == self.file:
+                return self._position(frame)
+            if frame.f_back is None:
+                return None
+            frame = frame.f_back
+        return None
+
+    def _position(self, frame: Any) -> list[int]:
+        code = frame.f_code
+        if hasattr(code, "co_positions"):
+            known = self.positions.get(code)
+            if known is None:
+                known = self.positions[code] = list(code.co_positions())
+            line, _, column, _ = known[frame.f_lasti // 2]
+            if line is not None:
+                return [line, -1 if column is None else column]
+        return [frame.f_lineno, -1]
+
+
+RECORDER = Recorder()
+
+
+class Made:
+    """Whatever remembers where it was made."""
+
+    preflight_id = 0
+    preflight_place: Optional[list[int]] = None
+
+    def __new__(cls, *args: Any, **kwargs: Any) -> Any:
+        self = super().__new__(cls)
+        self.preflight_id = next(RECORDER.count)
+        self.preflight_place = RECORDER.place()
+        RECORDER.made[self.preflight_id] = self
+        return self
+
+
+def ours(cls: type) -> type:
+    """The class of this package that a class is, or is made from."""
+    return next(c for c in cls.__mro__ if c.__module__.startswith(__name__.rpartition(".")[0]))
+
+
+def overrides(thing: Any, method: str) -> bool:
+    """Whether the user's own class says what `method` does."""
+    return getattr(type(thing), method) is not getattr(ours(type(thing)), method)
+
+
+class LaunchDescriptionEntity(Made):
+    def describe(self) -> str:
+        return type(self).__name__ + "(...)"
+
+    def describe_sub_entities(self) -> list[Any]:
+        return []
+
+    def describe_conditional_sub_entities(self) -> list[Any]:
+        return []
+
+    def get_sub_entities(self) -> list[Any]:
+        return []
+
+    def visit(self, context: Any) -> Any:
+        return None
+
+    def get_asyncio_future(self) -> Any:
+        return None
+
+
+class Substitution(Made):
+    def describe(self) -> str:
+        return type(self).__name__
+
+    def perform(self, context: Any) -> str:
+        return type(self).__name__
+
+
+SomeSubstitutionsType_types_tuple = (str, Substitution, collections.abc.Iterable)
+
+
+class Condition(Made):
+    def __init__(self, *, predicate: Any = None) -> None:
+        self._predicate = predicate
+
+    def describe(self) -> str:
+        return type(self).__name__
+
+    def evaluate(self, context: Any) -> bool:
+        if self._predicate is None:
+            return False
+        return bool(self._predicate(context))
+
+
+class Action(LaunchDescriptionEntity):
+    def __init__(self, *, condition: Optional[Condition] = None) -> None:
+        self.__condition = condition
+
+    @staticmethod
+    def parse(entity: Any, parser: Any) -> Any:
+        return Action, {}
+
+    @property
+    def condition(self) -> Optional[Condition]:
+        return self.__condition
+
+    def visit(self, context: Any) -> Any:
+        condition = self.condition
+        return self.execute(context) if condition is None or condition.evaluate(context) else None
+
+    def execute(self, context: Any) -> Any:
+        """Of an action that the user's own one derives from: what that does besides is told, and then itself."""
+        context.preflight_executed.append(self)
+        return None
+
+
+class LaunchDescription(LaunchDescriptionEntity):
+    def __init__(self, initial_entities: Optional[Iterable[Any]] = None, *, deprecated_reason: Any = None) -> None:
+        self.__entities = list(initial_entities) if initial_entities is not None else []
+        self.__deprecated_reason = deprecated_reason
+
+    def visit(self, context: Any) -> Any:
+        return self.__entities
+
+    def describe_sub_entities(self) -> list[Any]:
+        return self.__entities
+
+    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[Any]:
+        return [e for e in self.__entities if type(e).__name__ == "DeclareLaunchArgument"]
+
+    @property
+    def entities(self) -> list[Any]:
+        return self.__entities
+
+    def add_entity(self, entity: Any) -> None:
+        self.entities.append(entity)
+
+    def add_action(self, action: Any) -> None:
+        self.add_entity(action)
+
+    @property
+    def deprecated(self) -> bool:
+        return self.__deprecated_reason is not None
+
+    @property
+    def deprecated_reason(self) -> Any:
+        return self.__deprecated_reason
+
+
+class _Locals:
+    def __init__(self, values: dict[str, Any]) -> None:
+        self.__dict__.update(values)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"context.locals does not contain attribute '{name}'")
+
+
+class LaunchContext:
+    """The context that opaque functions and substitutions get."""
+
+    def __init__(self, *, argv: Optional[Iterable[str]] = None, noninteractive: bool = False) -> None:
+        self.argv = list(argv or ())
+        self.noninteractive = noninteractive
+        self.launch_configurations: dict[str, Any] = {}
+        self.preflight_executed: list[Any] = []
+        self.is_shutdown = False
+        self.asyncio_loop: Any = None
+        self._event_handlers: list[Any] = []
+        self.__globals: dict[str, Any] = {}
+        self.__locals: dict[str, Any] = {}
+        self.__stack: list[Any] = []
+
+    @property
+    def environment(self) -> Any:
+        return os.environ
+
+    @property
+    def locals(self) -> Any:
+        return _Locals(self.get_locals_as_dict())
+
+    def get_locals_as_dict(self) -> dict[str, Any]:
+        return {**self.__globals, **self.__locals}
+
+    def extend_globals(self, extensions: dict[str, Any]) -> None:
+        self.__globals.update(extensions)
+
+    def extend_locals(self, extensions: dict[str, Any]) -> None:
+        self.__locals.update(extensions)
+
+    def add_completion_future(self, completion_future: Any) -> None:
+        return None
+
+    def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
+        self._event_handlers.append(event_handler)
+
+    def unregister_event_handler(self, event_handler: Any) -> None:
+        if event_handler in self._event_handlers:
+            self._event_handlers.remove(event_handler)
+
+    def would_handle_event(self, event: Any) -> bool:
+        return False
+
+    def emit_event_sync(self, event: Any) -> None:
+        return None
+
+    async def emit_event(self, event: Any) -> None:
+        return None
+
+    def perform_substitution(self, substitution: Substitution) -> str:
+        return substitution.perform(self)
+
+    def _push_launch_configurations(self) -> None:
+        self.__stack.append(dict(self.launch_configurations))
+
+    def _pop_launch_configurations(self) -> None:
+        self.launch_configurations = self.__stack.pop()
+
+
+class Event:
+    name = "launch.Event"
+
+
+def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: Optional[str] = None) -> None:
+    """Raise `TypeError` as launch does."""
+    allowed = tuple(types) if isinstance(types, collections.abc.Iterable) else (types,)
+    if not isinstance(argument, allowed):
+        where = "" if caller is None else f"{caller} "
+        named = " or ".join(str(t) for t in allowed)
+        raise TypeError(
+            f"{where}Expected '{argument_name}' to be of type '{named}' but got '{argument}' of type '{type(argument)}'"
+        )
+
+
+def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
+    from .substitutions import TextSubstitution  # noqa: PLC0415 - that module derives from ours
+
+    def one(x: Any) -> Substitution:
+        if isinstance(x, Substitution):
+            return x
+        if isinstance(x, str):
+            return TextSubstitution(text=x)
+        if isinstance(x, os.PathLike):
+            return TextSubstitution(text=os.fspath(x))
+        raise TypeError(
+            f"Failed to normalize given item of type '{type(x)}', "
+            "when only 'str' or 'launch.Substitution' were expected."
+        )
+
+    if isinstance(subs, (str, Substitution, os.PathLike)):
+        return [one(subs)]
+    if isinstance(subs, collections.abc.Iterable):
+        return [one(x) for x in itertools.islice(subs, _PARTS)]
+    return [one(subs)]
+
+
+def normalize_to_list_of_entities(entities: Any) -> list[Any]:
+    flat: list[Any] = []
+    for entity in entities:
+        if isinstance(entity, LaunchDescriptionEntity):
+            flat.append(entity)
+        else:
+            flat.extend(normalize_to_list_of_entities(entity))
+    return flat
+
+
+def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
+    return "".join([context.perform_substitution(sub) for sub in subs])
+
+
+def is_a(obj: Any, entity_type: type) -> bool:
+    return isinstance(obj, entity_type)
+
+
+def is_a_subclass(obj: Any, entity_type: type) -> bool:
+    if isinstance(obj, entity_type):
+        return True
+    return isinstance(obj, type) and issubclass(obj, entity_type)
+
+
+def isclassinstance(obj: Any) -> bool:
+    return hasattr(obj, "__class__")

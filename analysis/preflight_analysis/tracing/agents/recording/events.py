@@ -1,0 +1,194 @@
+"""`launch.events`, `launch.event_handlers` and those of `launch_ros`: what they would do, not when."""
+
+from __future__ import annotations
+
+import collections.abc
+from typing import Any
+
+from .base import Event, LaunchDescriptionEntity, Made
+
+
+class BaseEventHandler(Made):
+    preflight_entities: list[Any] = []
+    preflight_function: Any = None
+
+    def __init__(self, *, matcher: Any = None, handle_once: bool = False, **kwargs: Any) -> None:
+        if kwargs:
+            raise TypeError(f"__init__() got an unexpected keyword argument '{next(iter(kwargs))}'")
+        self.matcher, self.handle_once = matcher, handle_once
+
+    def matches(self, event: Any) -> bool:
+        return False
+
+    def handle(self, event: Any, context: Any) -> Any:
+        return None
+
+    def _does(self, what: Any) -> None:
+        if isinstance(what, LaunchDescriptionEntity):
+            self.preflight_entities = [what]
+        elif callable(what):
+            self.preflight_function = what
+        elif isinstance(what, collections.abc.Iterable):
+            self.preflight_entities = list(what)
+            for entity in self.preflight_entities:
+                if not isinstance(entity, LaunchDescriptionEntity):
+                    raise TypeError(
+                        "expected all items in 'on_event' iterable to be of type 'LaunchDescriptionEntity' "
+                        f"but got '{type(entity)}'"
+                    )
+        elif what is not None:
+            self.preflight_entities = [what]
+
+
+class EventHandler(BaseEventHandler):
+    def __init__(self, *, matcher: Any, entities: Any = None, handle_once: bool = False) -> None:
+        super().__init__(matcher=matcher, handle_once=handle_once)
+        self._does(entities)
+
+    @property
+    def entities(self) -> Any:
+        return self.preflight_entities
+
+
+class OnActionEventBase(BaseEventHandler):
+    def __init__(
+        self,
+        *,
+        action_matcher: Any = None,
+        on_event: Any = None,
+        target_event_cls: Any = None,
+        target_action_cls: Any = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self._does(on_event)
+
+
+class OnExecutionComplete(OnActionEventBase):
+    def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
+        super().__init__(action_matcher=target_action, on_event=on_completion, **kwargs)
+
+
+class OnProcessExit(OnActionEventBase):
+    def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
+        super().__init__(action_matcher=target_action, on_event=on_exit, **kwargs)
+
+
+class OnProcessStart(OnActionEventBase):
+    def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
+        super().__init__(action_matcher=target_action, on_event=on_start, **kwargs)
+
+
+class OnProcessIO(OnActionEventBase):
+    def __init__(
+        self,
+        *,
+        target_action: Any = None,
+        on_stdin: Any = None,
+        on_stdout: Any = None,
+        on_stderr: Any = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(action_matcher=target_action, on_event=on_stdout or on_stderr or on_stdin, **kwargs)
+
+
+class OnIncludeLaunchDescription(EventHandler):
+    def __init__(self, **kwargs: Any) -> None:
+        kwargs.setdefault("matcher", None)
+        super().__init__(**kwargs)
+
+
+class OnShutdown(BaseEventHandler):
+    """What it does nobody waits for: it is not told."""
+
+    def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+
+
+class OnStateTransition(EventHandler):
+    def __init__(
+        self,
+        *,
+        entities: Any,
+        target_lifecycle_node: Any = None,
+        transition: Any = None,
+        start_state: Any = None,
+        goal_state: Any = None,
+        matcher: Any = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(matcher=matcher, entities=entities, **kwargs)
+
+
+class _AnyEvent(Event):
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        self.__dict__.update(kwargs)
+
+
+class ExecutionComplete(_AnyEvent):
+    pass
+
+
+class IncludeLaunchDescriptionEvent(_AnyEvent):
+    pass
+
+
+class ShutdownEvent(_AnyEvent):
+    pass
+
+
+class TimerEvent(_AnyEvent):
+    pass
+
+
+class RunningProcessEvent(_AnyEvent):
+    pass
+
+
+class ProcessExited(RunningProcessEvent):
+    pass
+
+
+class ProcessIO(RunningProcessEvent):
+    pass
+
+
+class ProcessStarted(RunningProcessEvent):
+    pass
+
+
+class ProcessStderr(ProcessIO):
+    pass
+
+
+class ProcessStdin(ProcessIO):
+    pass
+
+
+class ProcessStdout(ProcessIO):
+    pass
+
+
+class ProcessTargetedEvent(_AnyEvent):
+    pass
+
+
+class ShutdownProcess(ProcessTargetedEvent):
+    pass
+
+
+class SignalProcess(ProcessTargetedEvent):
+    pass
+
+
+class ChangeState(_AnyEvent):
+    pass
+
+
+class StateTransition(_AnyEvent):
+    pass
+
+
+def matches_anything(*args: Any, **kwargs: Any) -> Any:
+    """In the place of all matchers."""
+    return lambda *_: True

@@ -1,0 +1,136 @@
+"""Runs a launch file, and what the host asks of it: `main` is called with the job in the arguments of the process."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import stat
+import sys
+import tempfile
+import traceback
+import types
+import zlib
+from typing import Any
+
+from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription
+from .modules import install
+from .tell import Teller
+
+MAX_FILES = 200
+MAX_FILE_BYTES = 500_000
+MAX_FRAMES = 30
+_SKIPPED = ("ros_home", "ros_log")
+
+
+def main() -> None:
+    """Tell what the launch file makes, or what a call of the job's gives, as JSON on standard output."""
+    job = json.loads(zlib.decompress(base64.b64decode("".join(sys.argv[1:]))))
+    output = os.dup(1)
+    os.dup2(2, 1)
+    RECORDER.file, RECORDER.packages = job["file"], job["packages"]
+    os.environ.update(job["env"])
+    sys.argv = ["ros2", "launch", job["file"]]
+    sys.path[:0] = job["paths"]
+    try:
+        result = _run(job)
+    except SystemExit as error:
+        result = {"error": {"type": "SystemExit", "message": str(error), "frames": []}}
+    except BaseException as error:
+        result = {"error": _told(error)}
+    result["files"] = _files()
+    with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
+        out.write(json.dumps(result))
+
+
+def _run(job: dict[str, Any]) -> dict[str, Any]:
+    install()
+    module = types.ModuleType("python_launch_file")
+    module.__file__ = job["file"]
+    sys.modules["python_launch_file"] = module
+    code = compile(job["text"], job["file"], "exec", dont_inherit=True)
+    exec(code, vars(module))  # noqa: S102 - what this is for; inside the sandbox
+    description = module.generate_launch_description()
+    if not isinstance(description, LaunchDescription):
+        kind = type(description).__name__
+        raise TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
+    result: dict[str, Any] = {"actions": Teller().description(description.entities)}
+    for call in job["calls"]:
+        result = _call(call)
+    return result
+
+
+def _call(call: dict[str, Any]) -> dict[str, Any]:
+    """Execute an action, or perform a substitution or condition."""
+    thing = RECORDER.made[call["id"]]
+    context = LaunchContext()
+    context.launch_configurations.update(call["configurations"])
+    context.extend_globals(
+        {"current_launch_file_path": call["file"], "current_launch_file_directory": os.path.dirname(call["file"])}
+    )
+    os.environ.update(call["env"])
+    environment = dict(os.environ)
+    if call["what"] == "perform":
+        if isinstance(thing, Condition):
+            return {"text": str(thing.evaluate(context)).lower()}
+        return {"text": str(thing.perform(context))}
+    given = thing.execute(context)
+    teller = Teller()
+    told: list[dict[str, Any]] = [teller.plain_entity(each) for each in context.preflight_executed]
+    if isinstance(given, LaunchDescription):
+        given = given.entities
+    if given is not None:
+        told += teller.description(given if isinstance(given, (list, tuple)) else [given])
+    before, after = call["configurations"], context.launch_configurations
+    return {
+        "actions": told,
+        "set": {k: str(v) for k, v in after.items() if isinstance(k, str) and before.get(k) != v},
+        "unset": [k for k in before if k not in after],
+        "env": {k: v for k, v in os.environ.items() if environment.get(k) != v},
+    }
+
+
+def _told(error: BaseException) -> dict[str, Any]:
+    frames = [
+        [frame.filename, frame.lineno, frame.name]
+        for frame in traceback.extract_tb(error.__traceback__)
+        if not frame.filename.startswith((OURS, "<frozen"))
+    ]
+    if isinstance(error, SyntaxError) and error.filename:
+        frames.append([error.filename, error.lineno or 1, ""])
+    message = error.msg if isinstance(error, SyntaxError) else str(error)
+    told = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
+    if isinstance(error, ImportError):
+        told["module"] = error.name or ""
+    if isinstance(error, OSError) and isinstance(error.filename, str):
+        told["path"] = error.filename
+    return told
+
+
+def _files() -> dict[str, str]:
+    """Texts that were written, which are gone when the sandbox is."""
+    found: dict[str, str] = {}
+    root = tempfile.gettempdir()
+    for folder, folders, names in os.walk(root):
+        folders[:] = [name for name in folders if folder != root or name not in _SKIPPED]
+        if _is_mount(folder, root):
+            folders[:] = []
+            continue
+        for name in names:
+            path = os.path.join(folder, name)
+            try:
+                info = os.lstat(path)
+                if len(found) < MAX_FILES and stat.S_ISREG(info.st_mode) and info.st_size <= MAX_FILE_BYTES:
+                    with open(path, encoding="utf-8") as file:
+                        found[path] = file.read()
+            except (OSError, ValueError):
+                continue
+    return found
+
+
+def _is_mount(folder: str, root: str) -> bool:
+    """Whether it was bound back from outside: nothing in it was made here."""
+    try:
+        return folder != root and os.stat(folder).st_dev != os.stat(root).st_dev
+    except OSError:
+        return True

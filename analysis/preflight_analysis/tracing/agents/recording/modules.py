@@ -1,0 +1,345 @@
+"""Which names the launch file finds in `launch`, `launch_ros` and the like, and the Python modules of packages."""
+
+from __future__ import annotations
+
+import importlib.abc
+import importlib.machinery
+import importlib.util
+import os
+import re
+import sys
+import types
+from typing import Any, Optional
+
+from . import actions, ament, base, conditions, events, ros, substitutions
+from .base import RECORDER
+
+
+def _public(*modules: Any) -> dict[str, Any]:
+    """The classes that modules define."""
+    return {
+        name: value
+        for module in modules
+        for name, value in vars(module).items()
+        if isinstance(value, type) and value.__module__ == module.__name__ and not name.startswith("_")
+    }
+
+
+def _named(module: Any, *names: str) -> dict[str, Any]:
+    return {name: getattr(module, name) for name in names}
+
+
+class InvalidLaunchFileError(Exception):
+    def __init__(self, extension: str = "", *, likely_errors: Any = None) -> None:
+        super().__init__(extension)
+
+
+class LaunchService:
+    """Nothing is launched."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        self.context = base.LaunchContext()
+
+    def include_launch_description(self, launch_description: Any) -> None:
+        return None
+
+    def run(self, *args: Any, **kwargs: Any) -> int:
+        return 0
+
+    async def run_async(self, *args: Any, **kwargs: Any) -> int:
+        return 0
+
+    def shutdown(self) -> None:
+        return None
+
+
+class _Logger:
+    def __getattr__(self, name: str) -> Any:
+        return lambda *args, **kwargs: None
+
+
+class _LogConfig:
+    level = 20
+    log_dir = "/tmp"  # noqa: S108 - the sandbox's own
+
+    def __getattr__(self, name: str) -> Any:
+        return lambda *args, **kwargs: None
+
+
+class Entity:
+    """`launch.frontend.Entity`."""
+
+
+class Parser:
+    """`launch.frontend.Parser`."""
+
+    @staticmethod
+    def parse_substitution(value: str) -> Any:
+        return base.normalize_to_list_of_substitutions(value)
+
+
+def _expose(name: str) -> Any:
+    return lambda thing: thing
+
+
+def _coerce(value: Any, *args: Any, **kwargs: Any) -> Any:
+    return value
+
+
+_SOURCES = _named(
+    actions,
+    "AnyLaunchDescriptionSource",
+    "FrontendLaunchDescriptionSource",
+    "PythonLaunchDescriptionSource",
+    "LaunchDescriptionSource",
+)
+_ACTIONS = {k: v for k, v in _public(actions).items() if k not in _SOURCES and not k.endswith("Source")}
+_ACTIONS.pop("Executable")
+_ROS_SUBSTITUTIONS = _named(
+    substitutions, "ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare", "Parameter"
+)
+_SUBSTITUTIONS = {k: v for k, v in _public(substitutions).items() if k not in _ROS_SUBSTITUTIONS and k != "Worded"}
+_HANDLERS = {k: v for k, v in _public(events).items() if k.startswith("On")}
+_PROCESS = {k: v for k, v in _public(events).items() if "Process" in k and k not in _HANDLERS}
+_MATCH = dict.fromkeys(("matches_pid", "matches_name", "matches_executable"), events.matches_anything)
+_DESCRIPTIONS = _named(ros, "ComposableNode", "Parameter", "ParameterFile", "ParameterValue")
+_NOT_ROS_ACTIONS = ("ComposableNode", "Parameter", "ParameterFile", "ParameterValue")
+_ROS_ACTIONS = {k: v for k, v in _public(ros).items() if k not in _NOT_ROS_ACTIONS}
+_ROS_ACTIONS["PushRosNamespace"] = ros.PushROSNamespace
+_ENTITY = (base.LaunchDescriptionEntity, base.LaunchDescription)
+_CORE = _named(
+    base,
+    "Action",
+    "Condition",
+    "Event",
+    "LaunchContext",
+    "LaunchDescription",
+    "LaunchDescriptionEntity",
+    "Substitution",
+    "SomeSubstitutionsType_types_tuple",
+)
+_UTILITIES = _named(
+    base,
+    "ensure_argument_type",
+    "is_a",
+    "is_a_subclass",
+    "isclassinstance",
+    "normalize_to_list_of_entities",
+    "normalize_to_list_of_substitutions",
+    "perform_substitutions",
+)
+_TYPES = {"SomeSubstitutionsType": Any, "SomeEntitiesType": Any, "SomeEntitiesType_types_tuple": _ENTITY}
+_FRONTEND = {"Entity": Entity, "Parser": Parser, "expose_action": _expose, "expose_substitution": _expose}
+_LOG = {"get_logger": lambda name=None: _Logger(), "launch_config": _LogConfig(), "reset": lambda: None}
+_PACKAGES = _named(
+    ament,
+    "PackageNotFoundError",
+    "get_package_prefix",
+    "get_package_share_directory",
+    "get_package_share_path",
+    "get_packages_with_prefixes",
+)
+_RESOURCES = _named(ament, "get_resource", "get_resources", "has_resource")
+_ROS_EVENTS = _named(events, "ChangeState", "StateTransition")
+_MATCHES_NODE = {"matches_node_name": events.matches_anything}
+_PARAMETER_TYPES = dict.fromkeys(
+    ("ParametersDict", "Parameters", "ParameterName", "ParameterValue", "SomeParameters", "SomeParametersDict"), Any
+)
+_ROS_UTILITIES = {
+    **_named(
+        ros,
+        "normalize_parameter_dict",
+        "normalize_parameters",
+        "normalize_remap_rule",
+        "normalize_remap_rules",
+        "prefix_namespace",
+        "make_namespace_absolute",
+        "is_root_namespace",
+        "is_namespace_absolute",
+    ),
+    "evaluate_parameters": _coerce,
+    "to_parameters_list": _coerce,
+    "add_node_name": lambda *a: None,
+    "get_node_name_count": lambda *a: 1,
+}
+
+TABLE: dict[str, dict[str, Any]] = {
+    "launch": {
+        **_CORE,
+        **_TYPES,
+        "EventHandler": events.EventHandler,
+        "InvalidLaunchFileError": InvalidLaunchFileError,
+        "LaunchDescriptionSource": actions.LaunchDescriptionSource,
+        "LaunchService": LaunchService,
+        "LaunchIntrospector": _Logger,
+    },
+    "launch.action": {"Action": base.Action},
+    "launch.actions": _ACTIONS,
+    "launch.condition": {"Condition": base.Condition},
+    "launch.conditions": {
+        **_public(conditions),
+        "evaluate_condition_expression": conditions.evaluate_condition_expression,
+    },
+    "launch.descriptions": {"Executable": actions.Executable},
+    "launch.event": {"Event": base.Event},
+    "launch.event_handler": _named(events, "BaseEventHandler", "EventHandler"),
+    "launch.event_handlers": _HANDLERS,
+    "launch.events": {
+        **_named(events, "ExecutionComplete", "TimerEvent"),
+        "IncludeLaunchDescription": events.IncludeLaunchDescriptionEvent,
+        "Shutdown": events.ShutdownEvent,
+        "matches_action": events.matches_anything,
+    },
+    "launch.events.matchers": {"matches_action": events.matches_anything},
+    "launch.events.process": {**_PROCESS, **_MATCH},
+    "launch.frontend": _FRONTEND,
+    "launch.frontend.parse_substitution": {"parse_substitution": base.normalize_to_list_of_substitutions},
+    "launch.invalid_launch_file_error": {"InvalidLaunchFileError": InvalidLaunchFileError},
+    "launch.launch_context": {"LaunchContext": base.LaunchContext},
+    "launch.launch_description": {"LaunchDescription": base.LaunchDescription},
+    "launch.launch_description_entity": {"LaunchDescriptionEntity": base.LaunchDescriptionEntity},
+    "launch.launch_description_source": {"LaunchDescriptionSource": actions.LaunchDescriptionSource},
+    "launch.launch_description_sources": _SOURCES,
+    "launch.launch_introspector": {"LaunchIntrospector": _Logger},
+    "launch.launch_service": {"LaunchService": LaunchService},
+    "launch.logging": _LOG,
+    "launch.some_entities_type": _TYPES,
+    "launch.some_substitutions_type": {
+        **_TYPES,
+        "SomeSubstitutionsType_types_tuple": base.SomeSubstitutionsType_types_tuple,
+    },
+    "launch.substitution": {"Substitution": base.Substitution},
+    "launch.substitutions": _SUBSTITUTIONS,
+    "launch.utilities": _UTILITIES,
+    "launch.utilities.type_utils": {"normalize_typed_substitution": _coerce, "perform_typed_substitution": _coerce},
+    "launch_ros": {},
+    "launch_ros.actions": _ROS_ACTIONS,
+    "launch_ros.descriptions": _DESCRIPTIONS,
+    "launch_ros.event_handlers": {"OnStateTransition": events.OnStateTransition},
+    "launch_ros.events": _MATCHES_NODE,
+    "launch_ros.events.lifecycle": {**_ROS_EVENTS, **_MATCHES_NODE},
+    "launch_ros.events.matchers": _MATCHES_NODE,
+    "launch_ros.parameter_descriptions": _named(ros, "Parameter", "ParameterFile", "ParameterValue"),
+    "launch_ros.parameters_type": _PARAMETER_TYPES,
+    "launch_ros.remap_rule_type": dict.fromkeys(("RemapRules", "SomeRemapRules", "RemapRule", "SomeRemapRule"), Any),
+    "launch_ros.substitutions": _ROS_SUBSTITUTIONS,
+    "launch_ros.utilities": _ROS_UTILITIES,
+    "launch_xml": {},
+    "launch_xml.launch_description_sources": {"XMLLaunchDescriptionSource": actions.XMLLaunchDescriptionSource},
+    "launch_yaml": {},
+    "launch_yaml.launch_description_sources": {"YAMLLaunchDescriptionSource": actions.YAMLLaunchDescriptionSource},
+    "ament_index_python": {**_PACKAGES, **_RESOURCES, "get_search_paths": ament.get_search_paths},
+    "ament_index_python.packages": _PACKAGES,
+    "ament_index_python.resources": _RESOURCES,
+    "ament_index_python.search_paths": {"get_search_paths": ament.get_search_paths},
+}
+_TOP = {name.partition(".")[0] for name in TABLE}
+# lifecycle_msgs/msg/Transition.msg and State.msg: launch files name their constants.
+_TRANSITIONS = {
+    "TRANSITION_CREATE": 0,
+    "TRANSITION_CONFIGURE": 1,
+    "TRANSITION_CLEANUP": 2,
+    "TRANSITION_ACTIVATE": 3,
+    "TRANSITION_DEACTIVATE": 4,
+    "TRANSITION_UNCONFIGURED_SHUTDOWN": 5,
+    "TRANSITION_INACTIVE_SHUTDOWN": 6,
+    "TRANSITION_ACTIVE_SHUTDOWN": 7,
+    "TRANSITION_DESTROY": 8,
+}
+_STATES = {
+    "PRIMARY_STATE_UNKNOWN": 0,
+    "PRIMARY_STATE_UNCONFIGURED": 1,
+    "PRIMARY_STATE_INACTIVE": 2,
+    "PRIMARY_STATE_ACTIVE": 3,
+    "PRIMARY_STATE_FINALIZED": 4,
+}
+FALLBACK: dict[str, dict[str, Any]] = {
+    "lifecycle_msgs": {},
+    "lifecycle_msgs.msg": {"Transition": type("Transition", (), _TRANSITIONS), "State": type("State", (), _STATES)},
+    "launch_testing": {},
+    "launch_testing.actions": {"ReadyToTest": actions.PushEnvironment},
+}
+
+
+def _snake(name: str) -> str:
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+
+
+def _contents(fullname: str, table: dict[str, dict[str, Any]]) -> Optional[dict[str, Any]]:
+    """What a module has: `launch.actions.node` what `launch.actions` has."""
+    found = table.get(fullname)
+    if found is None:
+        parent, _, name = fullname.rpartition(".")
+        above = table.get(parent)
+        if above and any(_snake(each) == name for each in above):
+            return above
+    return found
+
+
+class _Loader(importlib.abc.Loader):
+    def __init__(self, contents: dict[str, Any]) -> None:
+        self._contents = contents
+
+    def create_module(self, spec: Any) -> Any:
+        module = types.ModuleType(spec.name)
+        vars(module).update(self._contents)
+        return module
+
+    def exec_module(self, module: Any) -> None:
+        return None
+
+
+class _Finder(importlib.abc.MetaPathFinder):
+    def __init__(self, table: dict[str, dict[str, Any]]) -> None:
+        self._table = table
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        contents = _contents(fullname, self._table)
+        if contents is None:
+            if fullname.partition(".")[0] in _TOP and self._table is TABLE:
+                raise ModuleNotFoundError(f"No module named '{fullname}'", name=fullname)
+            return None
+        spec = importlib.machinery.ModuleSpec(fullname, _Loader(contents), is_package=True)
+        spec.submodule_search_locations = []
+        return spec
+
+
+class _PackageFinder(importlib.abc.MetaPathFinder):
+    """Python modules of ROS packages that are only source."""
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        share = RECORDER.packages.get(fullname) if path is None else None
+        for folder in (share, os.path.join(share, "src")) if share is not None else ():
+            init = os.path.join(folder, fullname, "__init__.py")
+            if os.path.isfile(init):
+                return importlib.util.spec_from_file_location(
+                    fullname, init, submodule_search_locations=[os.path.dirname(init)]
+                )
+        return None
+
+
+def install() -> None:
+    """From now on these modules are ours."""
+    sys.meta_path.insert(0, _Finder(TABLE))
+    found: list[Any] = [_PackageFinder(), _Finder(FALLBACK)]
+    sys.meta_path.extend(found)
+    # `import launch; launch.actions.Node`: launch itself imports these.
+    for name in ("actions", "conditions", "descriptions", "events", "frontend", "logging", "substitutions"):
+        TABLE["launch"][name] = _module(f"launch.{name}")
+    for name in ("event_handlers", "launch_description_sources", "utilities", "some_substitutions_type"):
+        TABLE["launch"][name] = _module(f"launch.{name}")
+    for name in ("actions", "descriptions", "event_handlers", "events", "substitutions", "parameter_descriptions"):
+        TABLE["launch_ros"][name] = _module(f"launch_ros.{name}")
+    TABLE["ament_index_python"]["packages"] = _module("ament_index_python.packages")
+
+
+def _module(name: str) -> Any:
+    module = types.ModuleType(name)
+    vars(module).update(TABLE[name])
+    module.__path__ = []
+    module.__spec__ = importlib.machinery.ModuleSpec(name, None, is_package=True)
+    sys.modules[name] = module
+    for below in TABLE:
+        if below.rpartition(".")[0] == name:
+            setattr(module, below.rpartition(".")[2], _module(below))
+    return module

@@ -1,0 +1,447 @@
+"""`launch.substitutions` and `launch_ros.substitutions`. `words` are what the host performs them from; `perform` is for
+code of the user's that asks for the text in the middle of a run."""
+
+from __future__ import annotations
+
+import collections.abc
+import importlib
+import math
+import os
+import shlex
+import shutil
+import subprocess
+from typing import Any, List, Optional
+
+from .base import (
+    RECORDER,
+    LaunchContext,
+    Substitution,
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+
+Parts = List[Substitution]
+
+
+class SubstitutionFailure(RuntimeError):
+    def __init__(self, msg: str) -> None:
+        super().__init__(msg)
+
+
+def _truth(text: str) -> bool:
+    if text.lower() in ("true", "1", "yes", "on"):
+        return True
+    if text.lower() in ("false", "0", "no", "off"):
+        return False
+    raise SubstitutionFailure(f"Failed to convert '{text}' to a boolean")
+
+
+class TextSubstitution(Substitution):
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
+        self.__text = text
+
+    @property
+    def text(self) -> str:
+        return self.__text
+
+    def describe(self) -> str:
+        return f"'{self.text}'"
+
+    def perform(self, context: LaunchContext) -> str:
+        return self.text
+
+
+class Worded(Substitution):
+    """One that the host knows by `command`, with the texts that `words` are."""
+
+    command = ""
+    words: tuple[Parts, ...] = ()
+
+    def _words(self, *values: Any) -> None:
+        self.words = tuple(normalize_to_list_of_substitutions(value) for value in values)
+
+    def _text(self, context: LaunchContext, index: int) -> str:
+        return perform_substitutions(context, self.words[index])
+
+
+class LaunchConfiguration(Worded):
+    command = "var"
+
+    def __init__(self, variable_name: Any, *, default: Any = None) -> None:
+        ensure_argument_type(
+            variable_name, (str, Substitution, collections.abc.Iterable), "variable_name", "LaunchConfiguration"
+        )
+        if default is None:
+            self._words(variable_name)
+            return
+        if isinstance(default, collections.abc.Iterable) and not isinstance(default, str):
+            default = [x if isinstance(x, Substitution) else str(x) for x in default]
+        elif not isinstance(default, Substitution):
+            default = str(default)
+        self._words(variable_name, default)
+
+    @property
+    def variable_name(self) -> Parts:
+        return self.words[0]
+
+    def describe(self) -> str:
+        return f"LaunchConfig({' + '.join(sub.describe() for sub in self.variable_name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        name = self._text(context, 0)
+        if name in context.launch_configurations:
+            return str(context.launch_configurations[name])
+        if len(self.words) == 2:
+            return self._text(context, 1)
+        raise SubstitutionFailure(f"launch configuration '{name}' does not exist")
+
+
+class EnvironmentVariable(Worded):
+    command = "env"
+
+    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+        self._words(*((name,) if default_value is None else (name, default_value)))
+
+    @property
+    def name(self) -> Parts:
+        return self.words[0]
+
+    @property
+    def default_value(self) -> Optional[Parts]:
+        return self.words[1] if len(self.words) == 2 else None
+
+    def perform(self, context: LaunchContext) -> str:
+        name = self._text(context, 0)
+        if name in context.environment:
+            return str(context.environment[name])
+        if len(self.words) == 2:
+            return self._text(context, 1)
+        raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+
+
+class PathJoinSubstitution(Worded):
+    command = "path-join"
+
+    def __init__(self, substitutions: Any) -> None:
+        self._words(*substitutions)
+
+    @property
+    def substitutions(self) -> list[Parts]:
+        return list(self.words)
+
+    def perform(self, context: LaunchContext) -> str:
+        return os.path.join(*(self._text(context, i) for i in range(len(self.words))))
+
+
+class Command(Worded):
+    command = "command"
+
+    def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
+        self._words(command, on_stderr)
+
+    @property
+    def on_stderr(self) -> Parts:
+        return self.words[1]
+
+    def perform(self, context: LaunchContext) -> str:
+        line = self._text(context, 0)
+        words = shlex.split(line)
+        found = shutil.which(words[0]) if words else None
+        if found is None:
+            raise SubstitutionFailure(f"executable '{words[0] if words else ''}' not found on the PATH")
+        done = subprocess.run([found, *words[1:]], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise SubstitutionFailure(f"executed command failed. Command: {line}")
+        if done.stderr and self._text(context, 1) == "fail":
+            raise SubstitutionFailure(f"executed command showed stderr output. Command: {line}")
+        return done.stdout
+
+
+class PythonExpression(Worded):
+    command = "eval"
+
+    def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
+        ensure_argument_type(
+            expression, (str, Substitution, collections.abc.Iterable), "expression", "PythonExpression"
+        )
+        modules = [python_modules] if isinstance(python_modules, str) else list(python_modules)
+        joined: list[Any] = []
+        for module in modules:
+            joined += [", "] if joined else []
+            joined += normalize_to_list_of_substitutions(module)
+        self._words(expression, joined)
+
+    @property
+    def expression(self) -> Parts:
+        return self.words[0]
+
+    def perform(self, context: LaunchContext) -> str:
+        names = [name.strip() for name in self._text(context, 1).split(",")]
+        values: Any = {name: importlib.import_module(name) for name in names if name}
+        if "math" in values:
+            values.update({k: v for k, v in vars(math).items() if not k.startswith("__")})
+        return str(eval(self._text(context, 0), {}, values))  # noqa: S307 - what launch does, in the sandbox
+
+
+class ThisLaunchFileDir(Worded):
+    command = "dirname"
+
+    def __init__(self) -> None:
+        self._words()
+
+    def perform(self, context: LaunchContext) -> str:
+        return os.path.dirname(ThisLaunchFile().perform(context))
+
+
+class ThisLaunchFile(Worded):
+    command = "filename"
+
+    def __init__(self) -> None:
+        self._words()
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(context.get_locals_as_dict().get("current_launch_file_path", RECORDER.file))
+
+
+class LaunchLogDir(Worded):
+    command = "launch_log_dir"
+
+    def __init__(self) -> None:
+        self._words()
+
+    def perform(self, context: LaunchContext) -> str:
+        return os.environ.get("ROS_LOG_DIR", "/tmp")  # noqa: S108
+
+
+class AnonName(Worded):
+    command = "anon"
+
+    def __init__(self, name: Any) -> None:
+        self._words(name)
+
+    @property
+    def name(self) -> Parts:
+        return self.words[0]
+
+    def perform(self, context: LaunchContext) -> str:
+        name = self._text(context, 0)
+        return str(context.launch_configurations.setdefault("anon" + name, name + "_ANON1"))
+
+
+class FindExecutable(Worded):
+    command = "find-exec"
+
+    def __init__(self, *, name: Any) -> None:
+        self._words(name)
+
+    @property
+    def name(self) -> Parts:
+        return self.words[0]
+
+    def perform(self, context: LaunchContext) -> str:
+        found = shutil.which(self._text(context, 0))
+        if found is None:
+            raise SubstitutionFailure(f"executable '{self._text(context, 0)}' not found on the PATH")
+        return found
+
+
+class FileContent(Worded):
+    command = "file-content"
+
+    def __init__(self, path: Any) -> None:
+        self._words(path)
+
+    def perform(self, context: LaunchContext) -> str:
+        with open(self._text(context, 0)) as file:
+            return file.read()
+
+
+class IfElseSubstitution(Worded):
+    command = "if"
+
+    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
+        if if_value == else_value == "":
+            raise RuntimeError("One of if_value and else_value must be specified")
+        self._words(condition, if_value, else_value)
+
+    def perform(self, context: LaunchContext) -> str:
+        return self._text(context, 1 if _truth(self._text(context, 0)) else 2)
+
+
+class NotSubstitution(Worded):
+    command = "not"
+
+    def __init__(self, value: Any) -> None:
+        self._words(value)
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(not _truth(self._text(context, 0))).lower()
+
+
+class AndSubstitution(Worded):
+    command = "and"
+
+    def __init__(self, left: Any, right: Any) -> None:
+        self._words(left, right)
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(_truth(self._text(context, 0)) and _truth(self._text(context, 1))).lower()
+
+
+class OrSubstitution(Worded):
+    command = "or"
+
+    def __init__(self, left: Any, right: Any) -> None:
+        self._words(left, right)
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(_truth(self._text(context, 0)) or _truth(self._text(context, 1))).lower()
+
+
+class AnySubstitution(Worded):
+    command = "any"
+
+    def __init__(self, *args: Any) -> None:
+        self._words(*args)
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(any(_truth(self._text(context, i)) for i in range(len(self.words)))).lower()
+
+
+class AllSubstitution(Worded):
+    command = "all"
+
+    def __init__(self, *args: Any) -> None:
+        self._words(*args)
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(all(_truth(self._text(context, i)) for i in range(len(self.words)))).lower()
+
+
+class EqualsSubstitution(Worded):
+    command = "equals"
+
+    def __init__(self, left: Any, right: Any) -> None:
+        self._words(_as_text(left), _as_text(right))
+
+    def _equal(self, context: LaunchContext) -> bool:
+        left, right = self._text(context, 0), self._text(context, 1)
+        booleans = ("true", "false", "1", "0")
+        if left.lower() in booleans and right.lower() in booleans:
+            return _truth(left) == _truth(right)
+        try:
+            return math.isclose(float(left), float(right))
+        except ValueError:
+            return left == right
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(self._equal(context)).lower()
+
+
+class NotEqualsSubstitution(EqualsSubstitution):
+    command = "not-equals"
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(not self._equal(context)).lower()
+
+
+class LocalSubstitution(Worded):
+    command = "local"
+
+    def __init__(self, expression: str, description: Optional[str] = None) -> None:
+        ensure_argument_type(expression, str, "expression", "LocalSubstitution")
+        self.__expression = expression
+        self._words(expression)
+
+    @property
+    def expression(self) -> str:
+        return self.__expression
+
+    def perform(self, context: LaunchContext) -> str:
+        return str(eval("context.locals." + self.__expression, {}, {"context": context}))  # noqa: S307 - as launch
+
+
+class FindPackage(Worded):
+    def __init__(self, package: Any) -> None:
+        self._words(package)
+
+    @property
+    def package(self) -> Parts:
+        return self.words[0]
+
+    def find(self, package_name: str) -> str:
+        return _share(package_name)
+
+    def perform(self, context: LaunchContext) -> str:
+        return self.find(self._text(context, 0))
+
+
+class FindPackageShare(FindPackage):
+    command = "find-pkg-share"
+
+
+class FindPackagePrefix(FindPackage):
+    command = "find-pkg-prefix"
+
+    def find(self, package_name: str) -> str:
+        return prefix_of(package_name, _share(package_name))
+
+
+class ExecutableInPackage(FindPackagePrefix):
+    command = "exec-in-pkg"
+
+    def __init__(self, executable: Any, package: Any) -> None:
+        self._words(executable, package)
+
+    @property
+    def executable(self) -> Parts:
+        return self.words[0]
+
+    def perform(self, context: LaunchContext) -> str:
+        package = self._text(context, 1)
+        return os.path.join(self.find(package), "lib", package, self._text(context, 0))
+
+
+class Parameter(Worded):
+    command = "param"
+
+    def __init__(self, name: Any, *, default: Any = None) -> None:
+        self._words(*((name,) if default is None else (name, str(default) if _plain(default) else default)))
+
+    @property
+    def name(self) -> Parts:
+        return self.words[0]
+
+    def perform(self, context: LaunchContext) -> str:
+        name = self._text(context, 0)
+        for pair in context.launch_configurations.get("global_params", ()):
+            if isinstance(pair, (list, tuple)) and pair[0] == name:
+                return str(pair[1])
+        if len(self.words) == 2:
+            return self._text(context, 1)
+        raise SubstitutionFailure(f"parameter '{name}' not found")
+
+
+def _plain(value: Any) -> bool:
+    return isinstance(value, (bool, int, float))
+
+
+def _as_text(value: Any) -> Any:
+    if value is None:
+        return ""
+    return str(value).lower() if isinstance(value, bool) else str(value) if _plain(value) else value
+
+
+def _share(package: str) -> str:
+    from .ament import get_package_share_directory  # noqa: PLC0415 - a cycle
+
+    return get_package_share_directory(package)
+
+
+def prefix_of(package: str, share: str) -> str:
+    """The install prefix of a share folder; a package that is only source has none, and counts as its own."""
+    end = os.path.join("share", package)
+    return share[: -len(end)].rstrip("/") if share.endswith("/" + end) else share

@@ -1,0 +1,211 @@
+"""What was made, as JSON for the host: kind, attributes (pieces of text and substitutions), children, and where.
+
+An action is `{"k": kind, "n": class, "p": [line, column], "a": {name: value}, "c": [children]}`, with `"i"` its number
+if the host may ask for its execution. A value is a list of pieces, or `{"v": plain}`. A piece is a text, or
+`{"s": command, "w": [words], "n": class, "p": place}`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Any, Iterable, Iterator, Optional
+
+from .actions import ExecuteProcess
+from .base import Action, Condition, LaunchDescription, Substitution, normalize_to_list_of_substitutions, overrides
+from .conditions import IfCondition, LaunchConfigurationEquals
+from .ros import ComposableNode, ParameterValue
+from .substitutions import TextSubstitution, Worded
+
+MAX_ACTIONS = 20_000
+MAX_DEPTH = 100
+
+
+class TooMuchError(Exception):
+    """More actions than anyone writes."""
+
+
+class Teller:
+    """Tells one launch description."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._open: list[dict[str, Any]] = []
+
+    def description(self, entities: Iterable[Any]) -> list[dict[str, Any]]:
+        """The actions of a launch description."""
+        root: dict[str, Any] = {"c": []}
+        self._open.append(root)
+        self.entities(entities)
+        self._open.pop()
+        found: list[dict[str, Any]] = root["c"]
+        return found
+
+    # What the actions call
+
+    @property
+    def kind(self) -> str:
+        """That of the action that is told."""
+        return str(self._open[-1]["k"])
+
+    @kind.setter
+    def kind(self, kind: str) -> None:
+        self._open[-1]["k"] = kind
+
+    def opaque(self) -> None:
+        """It has to be executed for what it does."""
+        self.kind = "opaque"
+
+    def entities(self, entities: Iterable[Any]) -> None:
+        """Its children."""
+        for entity in entities:
+            if isinstance(entity, (list, tuple)):
+                self.entities(entity)
+            elif entity is not None:
+                self.entity(entity)
+
+    def attribute(self, name: str, value: Any) -> None:
+        """One value; None is left out."""
+        if value is not None:
+            self._open[-1]["a"][name] = self._value(value)
+
+    def child(self, kind: str, **attributes: Any) -> None:
+        """A child that is no object of the user's."""
+        told = {name: self._value(value) for name, value in attributes.items() if value is not None}
+        self._open[-1]["c"].append({"k": kind, "a": told, "c": []})
+
+    @contextlib.contextmanager
+    def inside(self, kind: str) -> Iterator[None]:
+        """A child that has children."""
+        made: dict[str, Any] = {"k": kind, "a": {}, "c": []}
+        self._open[-1]["c"].append(made)
+        self._open.append(made)
+        yield
+        self._open.pop()
+
+    def parameter(self, name: Any, value: Any) -> None:
+        """A parameter of a node: `form` says how its value is to be read."""
+        made: dict[str, Any] = {"k": "param", "a": {"name": self._value(name)}, "c": []}
+        self._open[-1]["c"].append(made)
+        told = made["a"]
+        if isinstance(value, ParameterValue):
+            self._typed(made, value)
+        elif isinstance(value, tuple):
+            form, inner = value
+            told["form"] = [form]
+            if form == "yaml":
+                told["value"] = self.parts(inner)
+            elif form == "list":
+                told["value"] = {"v": inner}
+            else:
+                self._items(made, inner)
+        else:
+            told["form"] = ["plain"]
+            told["value"] = {"v": value.decode(errors="replace") if isinstance(value, bytes) else value}
+
+    def _typed(self, made: dict[str, Any], value: ParameterValue) -> None:
+        inner, told = value.value, made["a"]
+        told["type"] = [value.preflight_type or "yaml"]
+        told["form"] = ["typed"]
+        if isinstance(inner, (bool, int, float, str)):
+            told["form"], told["value"] = ["plain"], {"v": inner}
+        elif isinstance(inner, Substitution) or (
+            isinstance(inner, (list, tuple))
+            and any(isinstance(x, Substitution) for x in inner)
+            and all(isinstance(x, (str, Substitution)) for x in inner)
+        ):
+            told["value"] = self.parts(inner)
+        elif isinstance(inner, (list, tuple)):
+            told["form"] = ["items"]
+            self._items(made, [x if isinstance(x, (bool, int, float, str)) else list(x) for x in inner])
+        else:
+            told["value"] = self.parts(inner)
+
+    def _items(self, made: dict[str, Any], items: Iterable[Any]) -> None:
+        for each in items:
+            made["c"].append({"k": "item", "a": {"value": self._value(each if _plain(each) else list(each))}, "c": []})
+
+    # Entities
+
+    def entity(self, entity: Any) -> None:
+        """One of the user's objects."""
+        self.count += 1
+        if self.count > MAX_ACTIONS or len(self._open) > MAX_DEPTH:
+            raise TooMuchError
+        made: dict[str, Any] = {"k": "unknown", "n": type(entity).__name__, "a": {}, "c": []}
+        made["p"], made["i"] = getattr(entity, "preflight_place", None), getattr(entity, "preflight_id", 0)
+        self._open[-1]["c"].append(made)
+        self._open.append(made)
+        try:
+            self._tell(entity)
+        except TooMuchError:
+            raise
+        except Exception as error:
+            made["error"] = f"{type(error).__name__}: {error}"
+        finally:
+            self._open.pop()
+
+    def _tell(self, entity: Any) -> None:
+        if isinstance(entity, LaunchDescription):
+            self.kind = "inline"
+            self.entities(entity.entities)
+        elif isinstance(entity, Action):
+            self.condition(entity.condition)
+            if overrides(entity, "execute"):
+                self.opaque()
+            elif hasattr(entity, "preflight_tell"):
+                entity.preflight_tell(self)
+        elif isinstance(entity, ComposableNode):
+            entity.preflight_tell(self)
+        elif not isinstance(entity, ExecuteProcess):
+            raise TypeError(f"'{type(entity).__name__}' is no action")
+
+    def plain_entity(self, entity: Any) -> dict[str, Any]:
+        """An action that the user's own one is made from, as if it were just that."""
+        made: dict[str, Any] = {"k": "unknown", "n": type(entity).__name__, "a": {}, "c": []}
+        made["p"], made["i"] = getattr(entity, "preflight_place", None), 0
+        self._open.append(made)
+        if hasattr(entity, "preflight_tell"):
+            entity.preflight_tell(self)
+        self._open.pop()
+        return made
+
+    def condition(self, condition: Optional[Condition]) -> None:
+        """`if` or `unless`."""
+        if condition is None:
+            return
+        known = isinstance(condition, (IfCondition, LaunchConfigurationEquals))
+        if known and not overrides(condition, "evaluate"):
+            self.attribute(condition.attribute, condition.expression)  # type: ignore[attr-defined]
+        else:
+            self._open[-1]["a"]["if"] = [_own(condition)]
+
+    # Values
+
+    def _value(self, value: Any) -> Any:
+        if _plain(value) and not isinstance(value, str):
+            return {"v": value}
+        if isinstance(value, dict):
+            return {"v": str(value)}
+        return self.parts(value)
+
+    def parts(self, value: Any) -> list[Any]:
+        """The pieces of a text."""
+        return [self._part(sub) for sub in normalize_to_list_of_substitutions(value)]
+
+    def _part(self, sub: Any) -> Any:
+        if type(sub) is TextSubstitution:
+            return sub.text
+        if isinstance(sub, Worded) and not overrides(sub, "perform"):
+            words = [[self._part(each) for each in word] for word in sub.words]
+            return {"s": sub.command, "w": words, "n": type(sub).__name__, "p": sub.preflight_place}
+        return _own(sub)
+
+
+def _own(thing: Any) -> dict[str, Any]:
+    """A substitution or condition that the user's code performs."""
+    name = type(thing).__name__
+    return {"s": "own", "w": [[str(thing.preflight_id)], [name]], "n": name, "p": thing.preflight_place}
+
+
+def _plain(value: Any) -> bool:
+    return isinstance(value, (bool, int, float, str))

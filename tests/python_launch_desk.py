@@ -1,0 +1,61 @@
+"""Python launch files of a small workspace, run in the sandbox and evaluated."""
+
+from __future__ import annotations
+
+import textwrap
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner
+from preflight_analysis.workspace.commands import CommandResults
+from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+MANIFEST = """<package format="3"><name>{}</name><version>0.1.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>BSD</license><export><build_type>ament_python</build_type></export>
+</package>"""
+
+
+@dataclass
+class PythonDesk:
+    """A folder with the package `p`."""
+
+    folder: Path
+
+    def write(self, name: str, text: str) -> Path:
+        """A file of the package."""
+        path = self.folder / "src" / "p" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+        return path
+
+    def launch(
+        self,
+        path: Path,
+        args: Mapping[str, str] | None = None,
+        *,
+        why_not: str | None = None,
+        sources: Sources | None = None,
+    ) -> Analysis:
+        """The analysis after all that it asks for was run; `why_not` is why nothing is."""
+        manifest = self.folder / "src" / "p" / "package.xml"
+        manifest.write_text(MANIFEST.format("p"))
+        variables = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
+        environment = detect_environment(None, variables, (str(self.folder / "src"),))
+        results = CommandResults(lambda: why_not)
+        workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
+        if why_not is not None:
+            return workspace.static(str(path), args)
+        runner = CommandRunner(environment, str(self.folder), CommandCache(self.folder / "cache"))
+        return settled(workspace, str(path), args or {}, results, runner, threading.Event())
+
+
+def line_of(analysis: Analysis, index: int = 0) -> tuple[str, int]:
+    """Rule and line (counted from 1) of a finding."""
+    finding = analysis.findings[index]
+    document = analysis.documents[finding.location.file]
+    return finding.rule, document.lines.position(finding.location.span.start)[0] + 1

@@ -1,0 +1,100 @@
+"""LCH032, and what the other rules say of Python launch files, from made-up answers of their runs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.ros2.python_runs import parse_request
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+TEXT = """\
+from helper import made
+
+def generate_launch_description():
+    return made(
+        1)
+"""
+
+
+class Answers:
+    """The answers of runs, by the name of the file."""
+
+    def __init__(self, answer: CommandResult | None) -> None:
+        self.answer = answer
+
+    def result(self, line: str) -> CommandResult | None:
+        """The same to all requests for a run."""
+        return self.answer if parse_request(line) is not None else None
+
+
+def _launched(folder: Path, answer: Any) -> Analysis:
+    path = folder / "a.launch.py"
+    path.write_text(TEXT)
+    (folder / "helper.py").write_text("def made(n):\n    return {}[n]\n")
+    environment = detect_environment(None, {"PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(folder),))
+    result = (
+        answer if isinstance(answer, CommandResult) or answer is None else CommandResult("done", json.dumps(answer))
+    )
+    return Workspace(environment, Sources(), str(folder), Answers(result)).static(str(path))
+
+
+def _error(folder: Path, error: str, message: str, **more: Any) -> dict[str, Any]:
+    path = str(folder / "a.launch.py")
+    frames = [[path, 4, "generate_launch_description"], [str(folder / "helper.py"), 2, "made"]]
+    return {"error": {"type": error, "message": message, "frames": frames, **more}}
+
+
+def test_an_exception_is_shown_on_the_line_of_the_launch_file(tmp_path: Path) -> None:
+    analysis = _launched(tmp_path, _error(tmp_path, "KeyError", "1"))
+    (finding,) = analysis.findings
+    assert (finding.rule, finding.message, finding.stops_launch) == ("LCH032", "KeyError: 1", True)
+    assert TEXT[finding.location.span.start : finding.location.span.end] == "return made("
+    (other,) = finding.related
+    helper = analysis.documents[other.location.file]
+    assert helper.text[other.location.span.start : other.location.span.end].strip() == "return {}[n]"
+
+
+def test_a_module_that_is_missing_here_need_not_be_missing_there(tmp_path: Path) -> None:
+    error = _error(tmp_path, "ModuleNotFoundError", "No module named 'x'", module="x")
+    (finding,) = _launched(tmp_path, error).findings
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH032", "warning", False)
+
+
+def test_a_run_that_ends_badly(tmp_path: Path) -> None:
+    (finding,) = _launched(tmp_path, CommandResult("failed", reason="it was killed by SIGSEGV")).findings
+    assert (finding.rule, finding.message) == ("LCH032", "the launch file cannot be run: it was killed by SIGSEGV")
+
+
+def test_a_run_that_goes_well_is_not_spoken_of(tmp_path: Path) -> None:
+    assert _launched(tmp_path, {"actions": [], "files": {}}).findings == ()
+    assert _launched(tmp_path, None).findings == (), "it has yet to be run"
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        [],
+        1,
+        {"actions": 5},
+        {"actions": [1, None, {"k": 2}, {"k": "node", "a": [], "c": {}, "p": "x"}]},
+        {
+            "actions": [
+                {"k": "node", "a": {"pkg": [{"s": "var", "w": 3}], "exec": [{"s": "var", "w": [[]]}], "name": 7}}
+            ]
+        },
+        {"actions": [{"k": "opaque", "i": 10**30, "a": {"id": ["x"]}}]},
+        {"actions": [{"k": "arg", "p": [10**9, 10**9], "n": "X", "a": {"name": ["a"]}, "c": []}]},
+        {"error": {"frames": [[1, 2, 3], ["/x", -5, ""], ["/nowhere.py", 10**12, ""]]}},
+        {"error": {"frames": "x", "type": ["KeyError"]}},
+        {"actions": [], "files": {"/tmp/x": 5, "y": "z"}},
+    ],
+)
+def test_nothing_of_an_answer_is_relied_on(tmp_path: Path, answer: Any) -> None:
+    analysis = _launched(tmp_path, answer)
+    assert {finding.rule for finding in analysis.findings} <= {"LCH032", "ARG001", "ARG003"}

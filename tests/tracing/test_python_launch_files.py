@@ -1,0 +1,295 @@
+"""Python launch files: run in the sandbox against our recording of launch, evaluated like any other launch file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.tracing import run
+from preflight_analysis.workspace.sources import Sources
+from python_launch_desk import PythonDesk, line_of
+
+HEAD = """\
+from launch import LaunchDescription, Substitution
+from launch.actions import *
+from launch.conditions import IfCondition, LaunchConfigurationEquals, UnlessCondition
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import AnyLaunchDescriptionSource, PythonLaunchDescriptionSource
+from launch.substitutions import *
+from launch_ros.actions import *
+from launch_ros.descriptions import ComposableNode, ParameterFile, ParameterValue
+from launch_ros.substitutions import FindPackageShare
+from ament_index_python.packages import get_package_share_directory
+"""
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> PythonDesk:
+    return PythonDesk(tmp_path)
+
+
+def _described(desk: PythonDesk, *actions: str, before: str = "", name: str = "launch/a.launch.py") -> Path:
+    text = HEAD + before + "\ndef generate_launch_description():\n    return LaunchDescription([\n"
+    return desk.write(name, text + "".join(f"        {action},\n" for action in actions) + "    ])\n")
+
+
+def test_actions_are_evaluated_like_those_of_xml(desk: PythonDesk) -> None:
+    params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n")
+    path = _described(
+        desk,
+        "DeclareLaunchArgument('robot', default_value='r1', choices=['r1', 'r2'])",
+        "PushRosNamespace(LaunchConfiguration('robot'))",
+        "SetParameter('use_sim_time', True)",
+        "Node(package='p', executable='x', name='one', arguments=['-a', ['--id=', LaunchConfiguration('robot')]],"
+        " remappings=[('scan', '/lidar')], parameters=[PathJoinSubstitution([FindPackageShare('p'), 'config',"
+        " 'p.yaml']), {'count': 1, 'text': '1', 'list': [1, 2.5], 'of': LaunchConfiguration('robot'),"
+        " 'in': {'side': True}}])",
+        "Node(package='p', executable='y', name='two', condition=IfCondition('false'))",
+        "Node(package='p', executable='y', name='three', condition=LaunchConfigurationEquals('robot', 'r2'))",
+        "ComposableNodeContainer(package='rclcpp_components', executable='component_container', name='c', namespace='',"
+        " composable_node_descriptions=[ComposableNode(package='p', plugin='p::N', name='n')])",
+        "LifecycleNode(package='p', executable='z', name='four', namespace='/other')",
+        "TimerAction(period=2.0, actions=[Node(package='p', executable='x', name='later')])",
+        "ExecuteProcess(cmd=['echo', 'hello'])",
+    )
+    tree = desk.launch(path, {"robot": "r2"}).tree
+    assert not tree.problems
+    found = {node.name: node for node in tree.nodes if node.kind != "process"}
+    assert {name: node.kind for name, node in found.items()} == {
+        "/r2/one": "node",
+        "/r2/three": "node",
+        "/r2/c": "container",
+        "/r2/n": "composable",
+        "/other/four": "lifecycle",
+        "/r2/later": "node",
+    }
+    one = found["/r2/one"]
+    assert one.args == "-a --id=r2"
+    assert [(remap.source, remap.target) for remap in one.remaps] == [("scan", "/lidar")]
+    assert {param.name: param.value for param in one.params} == {
+        "use_sim_time": True,
+        "rate": 5,
+        "count": 1,
+        "text": "1",
+        "list": [1.0, 2.5],
+        "of": "r2",
+        "in.side": True,
+    }
+    assert str(params) in [source.path for source in one.param_sources]
+    assert found["/r2/later"].deferred
+    assert not one.deferred
+    assert [node.args for node in tree.nodes if node.kind == "process"] == ["hello"]
+    text = path.read_text()
+    where = {name: text[node.location.span.start : node.location.span.end] for name, node in found.items()}
+    assert where["/r2/one"] == "Node"
+    assert where["/r2/n"] == "ComposableNode"
+    count = next(p for p in one.params if p.name == "count").name_location
+    assert count is not None
+    assert text[count.span.start : count.span.end] == "count"
+
+
+def test_a_wrong_keyword_is_a_finding_on_its_line(desk: PythonDesk) -> None:
+    path = _described(desk, "Node(package='p', executable='x', name='a')", "Node(package='p', node_executable='y')")
+    analysis = desk.launch(path)
+    assert [(f.rule, f.stops_launch) for f in analysis.findings] == [("LCH032", True)]
+    assert "node_executable" in analysis.findings[0].message or "executable" in analysis.findings[0].message
+    text = path.read_text().splitlines()
+    assert "node_executable" in text[line_of(analysis)[1] - 1]
+
+
+def test_an_exception_in_a_helper_leads_to_the_call(desk: PythonDesk) -> None:
+    desk.write("p/__init__.py", "")
+    desk.write("p/helper.py", "def made():\n    return {}['nothing']\n")
+    path = _described(desk, "made()", before="from p.helper import made\n")
+    analysis = desk.launch(path)
+    assert [f.rule for f in analysis.findings] == ["LCH032"]
+    assert "made()" in path.read_text().splitlines()[line_of(analysis)[1] - 1]
+    assert "KeyError" in analysis.findings[0].message
+
+
+def test_what_is_not_there_is_told(desk: PythonDesk) -> None:
+    path = _described(desk, before="SHARE = get_package_share_directory('missing_package')\n")
+    analysis = desk.launch(path)
+    assert [f.rule for f in analysis.findings] == ["PKG001"]
+    path = _described(desk, "Node(package='p', executable='x', name='n')", before="import no_such_module\n")
+    analysis = desk.launch(path)
+    assert [(f.rule, f.severity) for f in analysis.findings if f.rule == "LCH032"] == [("LCH032", "warning")]
+    assert [node.name for node in analysis.tree.nodes] == ["/n"], "what is written is read all the same"
+    assert not analysis.tree.complete
+
+
+OPAQUE = """
+def setup(context, prefix):
+    robot = LaunchConfiguration('robot').perform(context)
+    context.launch_configurations['found'] = robot.upper()
+    inner = OpaqueFunction(function=lambda c: [
+        Node(package='p', executable='x', name=LaunchConfiguration('found').perform(c).lower() + '_inner')])
+    return [Node(package='p', executable='x', name=prefix + robot), inner]
+"""
+
+
+def test_an_opaque_function_gets_the_context(desk: PythonDesk) -> None:
+    path = _described(
+        desk,
+        "DeclareLaunchArgument('robot', default_value='r1')",
+        "OpaqueFunction(function=setup, args=['my_'])",
+        "Node(package='p', executable='x', name=LaunchConfiguration('found'))",
+        before=OPAQUE,
+    )
+    assert [n.name for n in desk.launch(path).tree.nodes] == ["/my_r1", "/r1_inner", "/R1"]
+    analysis = desk.launch(path, {"robot": "r2"})
+    assert [n.name for n in analysis.tree.nodes] == ["/my_r2", "/r2_inner", "/R2"]
+    assert analysis.tree.complete
+
+
+CUSTOM = """
+import tempfile
+import yaml
+
+
+class Rewritten(Substitution):
+    def __init__(self, source_file, values):
+        super().__init__()
+        self.source_file, self.values = source_file, values
+
+    def perform(self, context):
+        source = context.perform_substitution(self.source_file)
+        content = yaml.safe_load(open(source))
+        for section in content.values():
+            section['ros__parameters'].update({k: v.perform(context) for k, v in self.values.items()})
+        made = tempfile.NamedTemporaryFile('w', delete=False)
+        yaml.safe_dump(content, made)
+        made.close()
+        return made.name
+
+
+class Twice(Action):
+    def __init__(self, name, **kwargs):
+        super().__init__(**kwargs)
+        self.name = name
+
+    def execute(self, context):
+        name = self.name.perform(context)
+        return [Node(package='p', executable='x', name=name + side) for side in ('_left', '_right')]
+"""
+
+
+def test_substitutions_and_actions_of_the_users_own(desk: PythonDesk) -> None:
+    params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
+    path = _described(
+        desk,
+        "DeclareLaunchArgument('robot', default_value='r1')",
+        f"Node(package='p', executable='x', name='n', parameters=[Rewritten(TextSubstitution(text={str(params)!r}),"
+        " {'frame': LaunchConfiguration('robot')})])",
+        "Twice(LaunchConfiguration('robot'))",
+        before="from launch import Action\n" + CUSTOM,
+    )
+    tree = desk.launch(path, {"robot": "r7"}).tree
+    assert not tree.problems
+    assert {p.name: p.value for p in tree.nodes[0].params} == {"rate": 5, "frame": "r7"}
+    assert [n.name for n in tree.nodes] == ["/n", "/r7_left", "/r7_right"]
+
+
+def test_includes_of_all_four_formats(desk: PythonDesk) -> None:
+    desk.write("launch/b.launch.xml", '<launch><arg name="n"/><node pkg="p" exec="x" name="$(var n)_xml"/></launch>')
+    desk.write(
+        "launch/c.launch.yaml",
+        "launch:\n- arg: {name: n}\n- node: {pkg: p, exec: x, name: $(var n)_yaml}\n"
+        "- include: {file: $(dirname)/d.launch.py, arg: [{name: n, value: $(var n)}]}\n",
+    )
+    _described(
+        desk,
+        "DeclareLaunchArgument('n')",
+        "Node(package='p', executable='x', name=[LaunchConfiguration('n'), '_python'])",
+        name="launch/d.launch.py",
+    )
+    include = "IncludeLaunchDescription(AnyLaunchDescriptionSource([ThisLaunchFileDir(), '/{}']), launch_arguments={})"
+    path = _described(
+        desk,
+        include.format("b.launch.xml", "{'n': 'one'}.items()"),
+        include.format("c.launch.yaml", "[('n', 'two')]"),
+        include.format("d.launch.py", "{}.items()"),
+    )
+    analysis = desk.launch(path)
+    assert [n.name for n in analysis.tree.nodes][:3] == ["/one_xml", "/two_yaml", "/two_python"]
+    found = {(f.rule, line_of(analysis, i)[1]) for i, f in enumerate(analysis.findings)}
+    assert found == {("ARG002", 16), ("LCH016", 15)}, "launch wants each include to pass it, and then uses what is set"
+
+
+HOSTILE = {
+    "hangs": "while True: pass",
+    "sleeps": "import time; time.sleep(10_000)",
+    "floods": "import os\nwhile True: os.write(1, b'x' * 100_000)",
+    "forks": "import os\nfor _ in range(40):\n    if os.fork() == 0:\n        while True: pass",
+    "kills": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
+    "exits": "raise SystemExit(0)",
+    "leaves": "import os; os._exit(0)",
+    "lies": "import os\nfor n in range(3, 30):\n    try: os.write(n, b'[1, {')\n    except OSError: pass\nos._exit(0)",
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_is_stopped(desk: PythonDesk, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "COMMAND_SECONDS", 1.0)
+    path = _described(desk, "Node(package='p', executable='x', name='n')", before=HOSTILE[name] + "\n")
+    analysis = desk.launch(path)
+    assert not analysis.tree.complete
+    assert {f.rule for f in analysis.findings} <= {"LCH018", "LCH032", "PKG002"}
+    assert [node.name for node in analysis.tree.nodes] == ["/n"]
+
+
+def test_the_home_folder_is_hidden_and_nothing_is_written(desk: PythonDesk, tmp_path: Path) -> None:
+    victim = tmp_path / "src" / "p" / "victim"
+    secret = tmp_path.parent / f"secret of {tmp_path.name}"
+    secret.write_text("password")
+    path = _described(
+        desk,
+        f"Node(package='p', executable='x', name=('seen' if os.path.exists({str(secret)!r}) else 'hidden'))",
+        before=f"import os\ntry: open({str(victim)!r}, 'w')\nexcept OSError: pass\n",
+    )
+    assert [n.name for n in desk.launch(path).tree.nodes] == ["/hidden"]
+    assert not victim.exists()
+
+
+def test_a_file_that_is_not_run_is_read_as_far_as_it_goes(desk: PythonDesk) -> None:
+    ran = desk.folder / "ran"
+    path = _described(
+        desk,
+        "DeclareLaunchArgument('model', default_value='s1', choices=['a1', 's2'])",
+        "Node(package='p', executable='x', name='a')",
+        "Node(package=NAME, executable=EXE, name='b')",
+        "Node(package='p', executable='x', name=LaunchConfiguration('never_declared'))",
+        before=f"open({str(ran)!r}, 'w')\nNAME = 'p'\nEXE = NAME + 'x'\n",
+    )
+    analysis = desk.launch(path, why_not="not trusted")
+    assert sorted({f.rule for f in analysis.findings}) == ["ARG009", "LCH018"]
+    assert [node.name for node in analysis.tree.nodes][:2] == ["/a", "/b"]
+    assert all(node.unknowns for node in analysis.tree.nodes)
+    assert not ran.exists()
+
+
+def test_a_half_typed_file(desk: PythonDesk) -> None:
+    path = _described(
+        desk, "DeclareLaunchArgument('model', default_value='a1')", "Node(package='p', executable='x', name='a')"
+    )
+    path.write_text(path.read_text().replace("    ])", "        Node(package='p', na\n    ])"))
+    analysis = desk.launch(path)
+    assert [f.rule for f in analysis.findings] == ["LCH001"]
+    assert [node.name for node in analysis.tree.nodes] == ["/a"]
+    assert list(analysis.tree.args) == ["model"]
+
+
+def test_the_editors_text_counts(desk: PythonDesk) -> None:
+    path = _described(desk, "Node(package='p', executable='x', name='disk')")
+    sources = Sources()
+    sources.open(str(path), path.read_text().replace("disk", "buffer"))
+    assert [n.name for n in desk.launch(path, sources=sources).tree.nodes] == ["/buffer"]
+
+
+def test_a_module_that_changed_is_run_again(desk: PythonDesk) -> None:
+    desk.write("p/__init__.py", "")
+    helper = desk.write("p/names.py", "NAME = 'before'\n")
+    path = _described(desk, "Node(package='p', executable='x', name=NAME)", before="from p.names import NAME\n")
+    assert [n.name for n in desk.launch(path).tree.nodes] == ["/before"]
+    helper.write_text("NAME = 'afterwards'\n")
+    assert [n.name for n in desk.launch(path).tree.nodes] == ["/afterwards"]
