@@ -286,3 +286,25 @@ def test_qos_that_does_not_fit() -> None:
                   "qos": {"map": {"reliability": "reliable", "durability": "transient_local"},
                           "scan": {"reliability": "best_effort"}}}}
     """)
+
+
+def test_comments_of_ours_in_yaml() -> None:
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          # preflight: <topics><topic name="chatter" type="std_msgs/msg/String" class="pub"/></topics>
+          - node: {pkg: p, exec: talker, name: talker}
+          # preflight: <topics>
+          #   <topic name="chater" type="std_msgs/msg/String" class="sub"/>
+          # </topics>
+          - node:
+            ^^^^ warning[TOP001] publishes '/chater', to which /listener subscribes; did you mean '/chatter'
+              pkg: p
+              exec: listener
+              name: listener
+          # preflight: ignore[LCH016] two of them, on purpose
+          - node: {pkg: p, exec: talker, name: talker}
+          - log: {message: $(var nothing)}  # preflight: ignore[ARG001] never reached
+          - log: {message: hello}  # preflight: ignore[ARG001] not needed
+                                                       ^^^^^^ warning[LCH019]
+    """)

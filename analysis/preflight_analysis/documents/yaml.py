@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import yaml
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
+from preflight_analysis.documents.hash_comments import preflight_comments
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Span
 
@@ -46,7 +47,8 @@ def parse_yaml(path: str, text: str) -> YamlDocument:
             break
         else:
             break
-    return YamlDocument(node, Document(path, text, digest(text), (), tuple(problems), lines))
+    comments = preflight_comments(text, lines)
+    return YamlDocument(node, Document(path, text, digest(text), comments, tuple(problems), lines))
 
 
 def span_of(node: yaml.Node) -> Span:

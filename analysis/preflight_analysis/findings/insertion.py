@@ -1,4 +1,4 @@
-"""Text edits of launch files that need to know how XML tags are written."""
+"""Text edits of launch files that need to know how tags, attributes and comments are written."""
 
 from __future__ import annotations
 
@@ -34,6 +34,18 @@ def insert_child(action: Action, document: Document, child: str) -> Edit:
         return Edit(Location(document.path, Span(blank, end)), f">{body}{newline}{base}</{action.kind}>")
     tail = "" if _REST_IS_BLANK.match(text, end) else newline + base
     return Edit(Location(document.path, Span(end, end)), body + tail)
+
+
+def insert_comment_above(action: Action, document: Document, comment: str) -> Edit:
+    """The edit that writes the lines of `comment` above the line on which `action` begins, indented as that is."""
+    text = document.text
+    newline = "\r\n" if "\r\n" in text else "\n"
+    line, _ = document.lines.position(action.span.start)
+    start = document.lines.line_start(line)
+    blanks = _BLANKS.match(text, start)
+    indent = blanks.group() if blanks is not None else ""
+    body = "".join(f"{indent}{part}{newline}" for part in comment.split("\n"))
+    return Edit(Location(document.path, Span(start, start)), body)
 
 
 def insert_attribute(action: Action, document: Document, name: str, value: str = "") -> Edit:

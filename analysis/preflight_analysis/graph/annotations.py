@@ -6,6 +6,8 @@ They stand there as elements, or in a comment, since roslaunch warns of elements
       <!-- <topics><topic name="chatter" type="std_msgs/String" class="sub"/></topics> -->
     </node>
 
+In YAML and Python they stand in a comment right above the node: `# preflight: <topics>...</topics>`.
+
 An annotation is the user's word for all that a node does. It is used where no run tells better.
 """
 
@@ -18,12 +20,13 @@ from functools import lru_cache
 from xml.sax.saxutils import quoteattr
 
 from preflight_analysis.documents.document import Document, Element, SpannedText
+from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, MARK
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
-from preflight_analysis.findings.insertion import insert_child
+from preflight_analysis.findings.insertion import insert_child, insert_comment_above
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.launch.model import Action
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
@@ -45,7 +48,7 @@ GROUPS = tuple(_ITEMS)
 
 _WRAPPER = "<_>"
 _STARTS_ANNOTATION = re.compile(rf"\s*<({'|'.join(GROUPS)})\b")
-_TYPE = re.compile(r"[A-Za-z]\w*/[A-Za-z]\w*\Z|\*\Z")
+_TYPE = re.compile(r"[A-Za-z]\w*/(?:(?:msg|srv|action)/)?[A-Za-z]\w*\Z|\*\Z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,10 +247,19 @@ def annotation_edit(node: LaunchNode, text: str, document: Document) -> Edit | N
     `document` is the file of the node's tag. None if there is nothing to write, an annotation stands there already, or
     the tag is still being typed.
     """
-    head = node.action.head_span
-    if not text or read_annotation(node.action)[0] is not None or not document.text[: head.end].endswith(">"):
+    if not text or read_annotation(node.action)[0] is not None:
+        return None
+    if document.path.endswith(HASH_SUFFIXES):
+        return insert_comment_above(node.action, document, _for_hash(text))
+    if not document.text[: node.action.head_span.end].endswith(">"):
         return None
     return insert_child(node.action, document, text)
+
+
+def _for_hash(text: str) -> str:
+    """The lines of a comment of XML as those of one that begins with a hash."""
+    inside = [line.strip() for line in text.splitlines()[1:-1]]
+    return "\n".join([f"# {MARK} {inside[0]}", *(f"# {line}" for line in inside[1:])]) if inside else ""
 
 
 def _from_action(action: Action) -> _Tag:

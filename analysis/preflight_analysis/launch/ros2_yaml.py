@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import yaml
 
-from preflight_analysis.documents.document import Document, SpannedText
+from preflight_analysis.documents.document import Comment, Document, SpannedText
+from preflight_analysis.documents.hash_comments import above
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import YamlDocument, span_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Literal, Typed, Value
@@ -27,6 +28,7 @@ def read_ros2_yaml(parsed: YamlDocument) -> LaunchFile:
 class _Reader:
     def __init__(self, document: Document) -> None:
         self._document = document
+        self._comments = tuple(c for c in document.children if isinstance(c, Comment))
         self._actions = 0
 
     def file(self, node: yaml.Node | None) -> LaunchFile:
@@ -55,7 +57,7 @@ class _Reader:
             kind_span,
             tuple(attributes),
             tuple(children),
-            (),
+            above(self._comments, self._document.lines, kind_span.start),
             Value("", Span(stop, stop), ()),
             kind_span,
             Span(kind_span.start, max(stop, kind_span.end)),

@@ -7,6 +7,7 @@ import threading
 from dataclasses import dataclass, field
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.launch.model import LaunchFile
@@ -80,7 +81,9 @@ class Sources:
             text = entry.text if entry.text.plain else self._plain(path)
             if isinstance(text, Unreadable):
                 return text
-            found = Document(path, text.text, text.digest, (), (), LineIndex(text.text))
+            lines = LineIndex(text.text)
+            comments = preflight_comments(text.text, lines) if path.endswith(HASH_SUFFIXES) else ()
+            found = Document(path, text.text, text.digest, comments, (), lines)
             entry.parsed["text"] = found
         return found
 
