@@ -83,6 +83,8 @@ class Fixture:
 class _Results:
     """What the fixture says of its commands."""
 
+    placeholder: str | None = None
+
     def __init__(self, given: Mapping[str, Any]) -> None:
         self._given = given
 

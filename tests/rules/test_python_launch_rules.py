@@ -23,7 +23,9 @@ def generate_launch_description():
 
 
 class Answers:
-    """The answers of runs, by the name of the file."""
+    """The answer of all runs."""
+
+    placeholder: str | None = None
 
     def __init__(self, answer: CommandResult | None) -> None:
         self.answer = answer

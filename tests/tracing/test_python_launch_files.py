@@ -293,3 +293,59 @@ def test_a_module_that_changed_is_run_again(desk: PythonDesk) -> None:
     assert [n.name for n in desk.launch(path).tree.nodes] == ["/before"]
     helper.write_text("NAME = 'afterwards'\n")
     assert [n.name for n in desk.launch(path).tree.nodes] == ["/afterwards"]
+
+
+def test_what_the_file_sets_in_the_environment_stays(desk: PythonDesk) -> None:
+    path = _described(
+        desk,
+        "Node(package='p', executable='x', name=EnvironmentVariable('ROBOT'))",
+        before="import os\nos.environ['ROBOT'] = 'r9'\n",
+    )
+    (node,) = desk.launch(path).tree.nodes
+    assert node.name == "/r9"
+    assert dict(node.env) == {"ROBOT": "r9"}
+
+
+def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(desk: PythonDesk) -> None:
+    params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
+    _described(
+        desk,
+        "DeclareLaunchArgument('params')",
+        "Node(package='p', executable='x', name='n', parameters=["
+        "Rewritten(LaunchConfiguration('params'), {'rate': TextSubstitution(text='7')})])",
+        before=CUSTOM.replace("class Twice(Action)", "class Twice"),
+        name="launch/inner.launch.py",
+    )
+    path = _described(
+        desk,
+        f"SetLaunchConfiguration('params', Rewritten(TextSubstitution(text={str(params)!r}),"
+        " {'frame': TextSubstitution(text='y')}))",
+        "IncludeLaunchDescription(PythonLaunchDescriptionSource([ThisLaunchFileDir(), '/inner.launch.py']),"
+        " launch_arguments={'params': LaunchConfiguration('params')}.items())",
+        before=CUSTOM.replace("class Twice(Action)", "class Twice"),
+    )
+    (node,) = desk.launch(path).tree.nodes
+    assert {p.name: p.value for p in node.params} == {"rate": "7", "frame": "y"}
+
+
+def test_a_file_that_the_build_makes(desk: PythonDesk) -> None:
+    desk.write("launch/made.launch.xml.in", '<launch><node pkg="p" exec="x" name="v@VERSION@"/></launch>')
+    path = _described(
+        desk, "IncludeLaunchDescription(AnyLaunchDescriptionSource([ThisLaunchFileDir(), '/made.launch.xml']))"
+    )
+    tree = desk.launch(path).tree
+    assert [n.name for n in tree.nodes] == ["/v0"]
+    assert [u.what for u in tree.unknowns] == ["@VERSION@"]
+
+
+def test_a_file_of_a_test_framework(desk: PythonDesk) -> None:
+    path = _described(
+        desk,
+        "Node(package='p', executable='x', name='n')",
+        "launch_testing.actions.ReadyToTest()",
+        before="import launch_testing.actions\n"
+        + "from launch_testing.legacy import LaunchTestService\nfrom launch_testing.markers import keep_alive\n",
+    )
+    analysis = desk.launch(path)
+    assert [n.name for n in analysis.tree.nodes] == ["/n"]
+    assert analysis.findings == ()

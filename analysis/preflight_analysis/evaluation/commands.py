@@ -27,12 +27,18 @@ class CommandResult:
 class Commands(Protocol):
     """The results that are known."""
 
+    @property
+    def placeholder(self) -> str | None:
+        """What counts as the result of all commands of ROS 2's `$(command)` where none is run, None for no such."""
+
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line, None as long as it has none: it has not been run, or runs right now."""
 
 
 class NoResults:
     """Nothing was run."""
+
+    placeholder: str | None = None
 
     def result(self, line: str) -> CommandResult | None:
         """None."""

@@ -17,7 +17,8 @@ class CommandResults:
     `why_not_run` tells why commands are not run; None where they are, and those without a result have yet to be.
     """
 
-    def __init__(self, why_not_run: Callable[[], str | None]) -> None:
+    def __init__(self, why_not_run: Callable[[], str | None], placeholder: str | None = None) -> None:
+        self.placeholder = placeholder
         self._why_not_run = why_not_run
         self._results: Mapping[str, CommandResult] = {}
 

@@ -52,6 +52,8 @@ BASE_ENV_ROS2: Mapping[str, str] = {
 """The same for ROS 2, with the home folder as the recorded answers of the real launch name it."""
 
 NO_RUN = "--no-run was given"
+_COMMAND = "<command>"
+"""What the recorded answers of the real launch have for the output of commands, which are not run."""
 _ROOT = "$ROOT"
 _CWD = "/"
 """Relative include paths are relative to where roslaunch is called; a batch is called from nowhere in particular."""
@@ -76,7 +78,7 @@ def answer_all(jobs: Path, *, no_run: bool = False) -> int:
         launch_file = sources.launch_file(job.file)
         generation = 1 if isinstance(launch_file, Unreadable) else launch_file.generation
         environment = environment_of(generation, job.package_path, tuple(sorted(job.env.items())))
-        results = CommandResults(lambda: NO_RUN if no_run else None)
+        results = CommandResults(lambda: NO_RUN if no_run else None, _COMMAND)
         workspace = Workspace(environment, sources, _CWD, results)
         if no_run:
             analysis = workspace.static(job.file, job.args)

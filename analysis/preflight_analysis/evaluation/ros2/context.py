@@ -67,6 +67,8 @@ class PythonRun:
     variables: Mapping[str, str]
     calls: tuple[Mapping[str, Any], ...]
     source: PythonSource
+    files: Mapping[str, str] = field(default_factory=dict)
+    """Texts that earlier runs wrote and that the configurations name."""
 
 
 class Context:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 
-from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.shares import located
@@ -29,8 +30,9 @@ from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
-from preflight_analysis.launch.read import PYTHON_SUFFIX
+from preflight_analysis.launch.read import PYTHON_SUFFIX, read_launch
 
+_FILLED_IN = re.compile(r"@[A-Za-z_]\w*@")
 MAX_DEPTH = 150
 """Of groups and includes within each other."""
 MAX_INCLUDES = 2_000
@@ -350,6 +352,8 @@ class _Walk:
             state.problem("include-cycle", origin, path=path, chain=[*chain, place.file])
             return None
         found = state.read_launch_file(path)
+        if isinstance(found, Unreadable) and found.kind == "missing":
+            found = self._configured(path) or found
         if not isinstance(found, Unreadable):
             return found
         if found.kind == "missing":
@@ -358,6 +362,17 @@ class _Walk:
             state.problem("include-unreadable", origin, path=path, reason=found.reason)
         state.note_unknown("<include>", f"{path} {found.reason}", at)
         return None
+
+    def _configured(self, path: str) -> LaunchFile | None:
+        """A file that CMake makes of one with `.in` behind its name: that, with 0 for what the build fills in."""
+        template = self._state.read_text(path + ".in")
+        if isinstance(template, Unreadable):
+            return None
+        names = sorted(set(_FILLED_IN.findall(template.text)))
+        if names:
+            at = Location(path + ".in", Span(0, 0))
+            self._state.note_unknown(", ".join(names), "the build fills it in", at)
+        return read_launch(Text(path, _FILLED_IN.sub("0", template.text), template.digest), 2)
 
     def _required_arguments(self, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
         """Before it executes a file launch looks whether each required argument is passed by the include itself:

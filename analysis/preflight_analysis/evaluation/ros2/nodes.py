@@ -293,7 +293,8 @@ def _words(performer: Performer, action: Action, name: str) -> list[str]:
     (`ExecuteProcess._parse_cmdline`)."""
     given = [value for child in action.children if child.kind == "argument" and (value := child.value("value"))]
     if given:
-        return [performer.value(value).text for value in given]
+        texts = (performer.value(value).text for value in given)
+        return [located(performer.state.environment, text) if text.startswith("/") else text for text in texts]
     value = action.value(name)
     if value is None:
         return []

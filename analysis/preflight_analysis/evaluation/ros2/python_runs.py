@@ -47,6 +47,8 @@ class Answer:
 def request(run: PythonRun) -> str:
     """The name of a run."""
     told = {"file": run.file, "text": run.text, "env": dict(run.variables), "calls": list(run.calls)}
+    if run.files:
+        told["files"] = dict(run.files)
     return MARK + json.dumps(told, sort_keys=True)
 
 
@@ -75,6 +77,7 @@ def recorded(
     if told is None or launch_file.root is None:
         return launch_file, None
     children = actions_of(told.get("actions"), source, whole)
+    context.scope.environment.update(_texts(told.get("env")) or {})
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
@@ -95,7 +98,9 @@ def called(
         "env": _variables(context),
         "file": context.launch_file,
     }
-    run = replace(place.run, calls=(*place.run.calls, call))
+    given = {v for v in configurations.values() if isinstance(v, str)}
+    files = {path: document.text for path, document in state.made.items() if path in given}
+    run = replace(place.run, calls=(*place.run.calls, call), files={**place.run.files, **files})
     told = _ask(state, place, run, place.origin(at), sure=complete)
     if told is None:
         return None

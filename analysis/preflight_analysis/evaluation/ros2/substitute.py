@@ -14,6 +14,7 @@ import yaml
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.resolved import Resolved
@@ -187,6 +188,8 @@ class Performer:
         return self.context.launch_file
 
     def _command(self, part: Substitution) -> str:
+        if self.state.results.placeholder is not None:
+            return self.state.results.placeholder
         line = self._word(part, 0)
         try:
             shlex.split(line)
@@ -274,7 +277,8 @@ class Performer:
     # Those of Python launch files only
 
     def _path_join(self, part: Substitution) -> str:
-        return os.path.join(*(self._word(part, index) for index in range(len(part.words)))) if part.words else ""
+        words = [self._word(part, index) for index in range(len(part.words))]
+        return located(self.state.environment, os.path.join(*words)) if words else ""
 
     def _config_equals(self, part: Substitution) -> str:
         found = self.context.get(self._word(part, 0))

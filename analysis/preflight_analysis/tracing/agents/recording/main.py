@@ -45,6 +45,10 @@ def main() -> None:
 
 def _run(job: dict[str, Any]) -> dict[str, Any]:
     install()
+    environment = dict(os.environ)
+    for path, text in job.get("files", {}).items():
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
     module = types.ModuleType("python_launch_file")
     module.__file__ = job["file"]
     sys.modules["python_launch_file"] = module
@@ -54,7 +58,8 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(description, LaunchDescription):
         kind = type(description).__name__
         raise TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
-    result: dict[str, Any] = {"actions": Teller().description(description.entities)}
+    changed = {k: v for k, v in os.environ.items() if environment.get(k) != v}
+    result: dict[str, Any] = {"actions": Teller().description(description.entities), "env": changed}
     for call in job["calls"]:
         result = _call(call)
     return result

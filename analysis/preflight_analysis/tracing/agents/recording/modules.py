@@ -9,6 +9,7 @@ import os
 import re
 import sys
 import types
+import xml.etree.ElementTree
 from typing import Any, Optional
 
 from . import actions, ament, base, conditions, events, ros, substitutions
@@ -224,6 +225,7 @@ TABLE: dict[str, dict[str, Any]] = {
     "launch_ros.remap_rule_type": dict.fromkeys(("RemapRules", "SomeRemapRules", "RemapRule", "SomeRemapRule"), Any),
     "launch_ros.substitutions": _ROS_SUBSTITUTIONS,
     "launch_ros.utilities": _ROS_UTILITIES,
+    **{f"launch_testing{name}": {} for name in ("", ".actions", ".asserts", ".legacy", ".markers", ".tools", ".util")},
     "launch_xml": {},
     "launch_xml.launch_description_sources": {"XMLLaunchDescriptionSource": actions.XMLLaunchDescriptionSource},
     "launch_yaml": {},
@@ -253,11 +255,40 @@ _STATES = {
     "PRIMARY_STATE_ACTIVE": 3,
     "PRIMARY_STATE_FINALIZED": 4,
 }
+
+
+class _Manifest:
+    """What launch files ask of a `package.xml`."""
+
+    def __init__(self, path: str) -> None:
+        root = xml.etree.ElementTree.parse(path).getroot()  # noqa: S314 - in the sandbox
+        self.name, self.version = root.findtext("name"), root.findtext("version")
+        self.exports = [_Export(each) for each in root.findall("export/*")]
+
+
+class _Export:
+    def __init__(self, element: Any) -> None:
+        self.tagname, self.attributes, self.content = element.tag, dict(element.attrib), element.text
+
+
+def _manifest(path: str, **_: Any) -> _Manifest:
+    return _Manifest(os.path.join(path, "package.xml") if os.path.isdir(path) else path)
+
+
 FALLBACK: dict[str, dict[str, Any]] = {
     "lifecycle_msgs": {},
     "lifecycle_msgs.msg": {"Transition": type("Transition", (), _TRANSITIONS), "State": type("State", (), _STATES)},
-    "launch_testing": {},
-    "launch_testing.actions": {"ReadyToTest": actions.PushEnvironment},
+    "ros2pkg": {},
+    "ros2pkg.api": {
+        "get_package_names": lambda: list(RECORDER.packages),
+        "get_prefix_path": lambda name: ament.get_package_prefix(name) if name in RECORDER.packages else None,
+    },
+    "catkin_pkg": {},
+    "catkin_pkg.package": {
+        "PACKAGE_MANIFEST_FILENAME": "package.xml",
+        "InvalidPackage": type("InvalidPackage", (Exception,), {}),
+        "parse_package": _manifest,
+    },
 }
 
 
@@ -276,12 +307,35 @@ def _contents(fullname: str, table: dict[str, dict[str, Any]]) -> Optional[dict[
     return found
 
 
+class _Anything(actions.PushEnvironment):
+    """Whatever tests are made of: it starts no node."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__()
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return lambda *args, **kwargs: None
+
+    def preflight_tell(self, t: Any) -> None:
+        t.kind = "test"
+
+
+def _anything(name: str) -> Any:
+    if name.startswith("__"):
+        raise AttributeError(name)
+    return _Anything
+
+
 class _Loader(importlib.abc.Loader):
     def __init__(self, contents: dict[str, Any]) -> None:
         self._contents = contents
 
     def create_module(self, spec: Any) -> Any:
         module = types.ModuleType(spec.name)
+        if spec.name.partition(".")[0] == "launch_testing":
+            module.__getattr__ = _anything  # type: ignore[method-assign]
         vars(module).update(self._contents)
         return module
 
