@@ -349,3 +349,15 @@ def test_a_file_of_a_test_framework(desk: PythonDesk) -> None:
     analysis = desk.launch(path)
     assert [n.name for n in analysis.tree.nodes] == ["/n"]
     assert analysis.findings == ()
+
+
+def test_what_only_the_sandbox_refuses_is_no_error(desk: PythonDesk, tmp_path: Path) -> None:
+    hidden = tmp_path.parent / f"hidden from {tmp_path.name}"
+    hidden.write_text("x")
+    written = desk.folder / "src" / "p" / "written"
+    for before in (f"open({str(hidden)!r})\n", f"open({str(written)!r}, 'w')\n"):
+        path = _described(desk, "Node(package='p', executable='x', name='n')", before=before)
+        analysis = desk.launch(path)
+        assert [(f.rule, f.severity) for f in analysis.findings] == [("LCH018", "hint")]
+        assert "the sandbox" in analysis.findings[0].message
+    assert not written.exists()

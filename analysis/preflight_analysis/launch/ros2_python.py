@@ -7,6 +7,7 @@ nothing is concluded from what is not there. What a run tells takes the place of
 from __future__ import annotations
 
 import ast
+from functools import cached_property
 from typing import Any
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
@@ -69,6 +70,18 @@ class _Reader:
     def __init__(self, source: PythonSource) -> None:
         self._source = source
 
+    @cached_property
+    def _sure(self) -> set[int]:
+        """The calls that are made whatever happens: in `generate_launch_description`, outside of `if` and the like."""
+        found: set[int] = set()
+        for function in self._source.module.body if self._source.module is not None else ():
+            if not isinstance(function, ast.FunctionDef) or function.name != "generate_launch_description":
+                continue
+            for statement in function.body:
+                if isinstance(statement, (ast.Expr, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)):
+                    found.update(id(node) for node in ast.walk(statement))
+        return found
+
     def actions(self) -> list[dict[str, Any]]:
         """All actions that are written, each once, those within others inside of them."""
         calls = [c for piece in self._source.pieces for c in ast.walk(piece) if isinstance(c, ast.Call)]
@@ -101,7 +114,7 @@ class _Reader:
             # Taken for unknown: whether it is executed is not for us to say.
             told["if"] = [_unknown()]
         children: list[dict[str, Any]] = []
-        if kind == "arg" and "choices" in given:
+        if kind == "arg" and "choices" in given and id(call) in self._sure:
             children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
         if kind in ("group", "timer") and depth < _MAX_DEPTH:
             children = [self._action(inner, depth + 1) for inner in self._inside(call)]

@@ -25,7 +25,7 @@ from typing import Any
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.ros2.python_runs import parse_request
+from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
 from preflight_analysis.tracing import compiled, launch_files, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.observation import paths, stderr_tail
@@ -194,6 +194,10 @@ class CommandRunner:
                 why = f"{result.reason} in the sandbox by {status.backend}, which refuses more than bubblewrap would"
                 return CommandResult("not-run", reason=why, stderr_tail=result.stderr_tail)
             return _sandbox_to_blame(result, job, ended) or result
+        if result.status == "done" and line.startswith(MARK):
+            refused = launch_files.sandbox_to_blame(result.output, job.visible, narrow=status.narrow)
+            if refused is not None:
+                return CommandResult("not-run", reason=refused)
         if result.status == "done" and self.cache is not None:
             files = (*job.named, *on_host(ended.files, job.visible))
             self.cache.store(job.recipe, self._packages, result.output, files, started=raw.started)

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import base64
+import errno
 import json
 import os
 import sys
 import zlib
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing import sandbox
 
+_NETWORK = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.ECONNREFUSED, errno.ENETDOWN)
 _WORD = 100_000
 """Characters of one argument; the system's limit is 128 KiB."""
 _START = (
@@ -37,6 +41,26 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     if "AMENT_PREFIX_PATH" in environment.variables:
         fixed["AMENT_PREFIX_PATH"] = environment.variables["AMENT_PREFIX_PATH"]
     return replace(recipe, env={**recipe.env, **fixed}, stable={**recipe.stable, **fixed})
+
+
+def sandbox_to_blame(output: str, visible: Iterable[str], *, narrow: bool) -> str | None:
+    """Why a launch file that raised would most likely not do so outside; None where there is no reason to think so.
+    `narrow`: the sandbox refuses more than it must."""
+    try:
+        error = json.loads(output).get("error")
+    except (ValueError, RecursionError, AttributeError):
+        return None
+    if not isinstance(error, dict):
+        return None
+    path, number, message = error.get("path"), error.get("errno"), str(error.get("message"))
+    said = f"{error.get('type')}: {message}"
+    if number == errno.EROFS:
+        return f"{said}: the sandbox lets no files be written"
+    if isinstance(path, str) and os.path.isabs(path) and not sandbox.shown(path, visible) and os.path.exists(path):
+        return f"{said}: the sandbox hides the file"
+    if number in _NETWORK:
+        return f"{said}: the sandbox has no network"
+    return f"{said}: it may be the sandbox that refuses it" if narrow and isinstance(number, int) else None
 
 
 def _module_folders(environment: Environment) -> list[str]:

@@ -104,11 +104,13 @@ def _told(error: BaseException) -> dict[str, Any]:
     if isinstance(error, SyntaxError) and error.filename:
         frames.append([error.filename, error.lineno or 1, ""])
     message = error.msg if isinstance(error, SyntaxError) else str(error)
-    told = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
+    told: dict[str, Any] = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
     if isinstance(error, ImportError):
         told["module"] = error.name or ""
     if isinstance(error, OSError) and isinstance(error.filename, str):
         told["path"] = error.filename
+    if isinstance(error, OSError):
+        told["errno"] = error.errno
     return told
 
 

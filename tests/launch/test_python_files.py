@@ -1,0 +1,81 @@
+"""Python launch files that are not run: any text is read, and what is written out is found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from preflight_analysis.documents.reading import Text
+from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.ros2_python import read_ros2_python
+
+WHOLE = """\
+from launch import LaunchDescription
+import launch_ros.actions as ros
+
+MODEL = "a1"
+
+def generate_launch_description():
+    größe = DeclareLaunchArgument("model", default_value=MODEL, choices=["a1", "s2"], description="é")
+    ld = LaunchDescription([größe, GroupAction([
+        PushRosNamespace(LaunchConfiguration("model")),
+        ros.Node(package="p", executable="x", name="n" + "m"),
+    ])])
+    ld.add_action(IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(os.path.join(get_package_share_directory("p"), "launch", "b.launch.py")),
+        launch_arguments={"model": LaunchConfiguration("model"), "n": "1"}.items(),
+    ))
+    return ld
+"""
+
+
+def _read(text: str) -> tuple[Action, ...]:
+    found = read_ros2_python(Text("/a.launch.py", text, "digest"))
+    assert found.partial
+    assert found.root is not None
+    return found.root.children
+
+
+def test_what_is_written_out() -> None:
+    arg, group, include = _read(WHOLE)
+    assert (arg.kind, [c.attributes[0].value.text for c in arg.children]) == ("arg", ["a1", "s2"])
+    default = arg.value("default")
+    assert default is not None
+    assert (default.text, WHOLE[default.span.start : default.span.end]) == ("a1", "MODEL")
+    description = arg.value("description")
+    assert description is not None
+    assert WHOLE[description.span.start : description.span.end] == "é"
+    assert [c.kind for c in group.children] == ["push_ros_namespace", "node"]
+    node = group.children[1]
+    assert WHOLE[node.head_span.start : node.head_span.end] == "Node"
+    name = node.value("name")
+    assert name is not None
+    assert not name.is_literal, "what is computed is not known"
+    file = include.value("file")
+    assert file is not None
+    assert file.text == "$(path-join $(find-pkg-share p) launch b.launch.py)"
+    assert [(c.attributes[0].value.text, c.attributes[1].value.text) for c in include.children] == [
+        ("model", "$(var model)"),
+        ("n", "1"),
+    ]
+
+
+def test_half_of_it() -> None:
+    """Each call that is whole counts, wherever the text breaks off."""
+    cut = WHOLE[: WHOLE.index('name="n"')]
+    assert [action.kind for action in _read(cut)] == ["arg", "push_ros_namespace"]
+
+
+@settings(max_examples=150, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.integers(0, len(WHOLE)), st.integers(0, 40), st.text(max_size=20))
+def test_any_text_is_read(at: int, removed: int, added: str) -> None:
+    _read(WHOLE[:at] + added + WHOLE[at + removed :])
+
+
+def test_strange_texts() -> None:
+    for text in ("", "\f\r\n\r", "Node(" * 3000, "(" * 100_000, "[" * 500 + "]" * 500, "\ufeffNode()", "x = '\ud800'"):
+        _read(text)
+    deep = "Node(name=" + "[" * 80 + "'x'" + "]" * 80 + ")"
+    _read(deep)
+    _read(Path(__file__).read_text(encoding="utf-8"))
