@@ -7,19 +7,21 @@ from collections.abc import Iterator
 
 from preflight_analysis.launch.check_language import LanguageProblem
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
 _ANNOTATIONS = ("topics", "services", "params", "actions")
 
 
-def check_language_ros2(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
+@per_file
+def check_language_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
     """Everything in the file at which launch would stop while it reads it, in document order."""
     if launch_file.root is None:
-        return
-    for problem in _check(launch_file.root, None):
-        # In the middle of typing the line that has the attribute may be the one that is left out.
-        if problem.kind != "missing-attribute" or not launch_file.document.problems:
-            yield problem
+        return ()
+    # In the middle of typing the line that has the attribute may be the one that is left out.
+    typing = bool(launch_file.document.problems)
+    found = _check(launch_file.root, None)
+    return tuple(problem for problem in found if problem.kind != "missing-attribute" or not typing)
 
 
 def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:

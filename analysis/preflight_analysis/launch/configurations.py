@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.substitutions_ros2 import nested
 
 IMPLICIT = frozenset({"launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout"})
@@ -21,6 +22,7 @@ class Configurations:
     computed: bool
 
 
+@per_file
 def configurations_of(launch_file: LaunchFile) -> Configurations:
     """All names of one file."""
     declared: set[str] = set()

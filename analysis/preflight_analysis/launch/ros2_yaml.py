@@ -132,6 +132,8 @@ def _head(node: yaml.Node, otherwise: Span) -> Span:
 
 def _scalar(node: yaml.ScalarNode) -> object:
     """What YAML makes of a scalar: a str, bool, int, float or None; text for what it cannot make (`!tag`, a date)."""
+    if node.tag == "tag:yaml.org,2002:str":
+        return str(node.value)
     try:
         value = yaml.SafeLoader("").construct_object(node)
     except (yaml.YAMLError, ValueError):

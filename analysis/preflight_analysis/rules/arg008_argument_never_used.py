@@ -8,8 +8,8 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import LaunchFile, Value
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.arguments import declarations
-from preflight_analysis.rules.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")

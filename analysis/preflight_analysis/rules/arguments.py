@@ -9,7 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import insert_child, remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
-from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.model import Action, LaunchFile, Literal
-from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
 _END = r"[^\s'\":;,<>|)]*"

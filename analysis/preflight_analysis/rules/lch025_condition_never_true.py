@@ -11,8 +11,8 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import expression, values
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.substitutions import is_eval
-from preflight_analysis.rules.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import CONDITIONS, has_condition
 

@@ -11,7 +11,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile
-from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename, shown
 from preflight_analysis.rules.rule import Context, Rule

@@ -10,7 +10,7 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)

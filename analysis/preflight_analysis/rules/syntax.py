@@ -9,7 +9,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile
-from preflight_analysis.rules.per_file import per_file
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context
 
 CONDITIONS = ("if", "unless")

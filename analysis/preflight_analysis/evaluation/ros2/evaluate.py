@@ -317,7 +317,7 @@ class _Walk:
         known = self._names[-1]
         found = configurations_of(launch_file)
         partial = found.computed or launch_file.root is None or bool(launch_file.document.problems)
-        partial = partial or launch_file.partial or calls_own_code(launch_file.root)
+        partial = partial or launch_file.partial or calls_own_code(launch_file)
         self._names[-1] = None if known is None or partial else known | found.declared | found.used
 
     def _report_unused(self, place: Place, path: str, passed: list[tuple[str, Action]], names: set[str]) -> None:
@@ -325,7 +325,7 @@ class _Walk:
         includer itself may use it later, as what an include sets stays set."""
         own = self._recorded.get(place.file) or self._state.files.launch_file(place.file, 2)
         used = frozenset[str]() if isinstance(own, Unreadable) else configurations_of(own).used
-        if isinstance(own, LaunchFile) and (own.partial or calls_own_code(own.root)):
+        if isinstance(own, LaunchFile) and (own.partial or calls_own_code(own)):
             return
         for name, child in passed:
             if name not in names and name not in used and name not in IMPLICIT:

@@ -279,8 +279,8 @@ def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:
 def _environment(performer: Performer, action: Action) -> list[tuple[str, str]]:
     """What the process gets beyond, or in place of, what the launch was started with."""
     context = performer.context
-    initial = context.initial_environment
-    changed = {k: v for k, v in context.scope.environment.items() if initial.get(k) != v}
+    initial, now = context.initial_environment, context.scope.environment
+    changed = {} if now == initial else {k: v for k, v in now.items() if initial.get(k) != v}
     for child in action.children:
         name, value = child.value("name"), child.value("value")
         if child.kind == "env" and name is not None and value is not None:

@@ -22,6 +22,7 @@ from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
 from preflight_analysis.evaluation.tree import Command
 from preflight_analysis.launch.configurations import substitutions_of
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_source import PythonSource
 
@@ -113,9 +114,10 @@ def called(
     return Answer(replace(place, run=run), actions, None, changed, gone, _texts(told.get("env")))
 
 
-def calls_own_code(root: Action | None) -> bool:
+@per_file
+def calls_own_code(launch_file: LaunchFile) -> bool:
     """Whether there is code of the file's own, which may do with configurations what it likes."""
-    for action in root.walk() if root is not None else ():
+    for action in launch_file.root.walk() if launch_file.root is not None else ():
         if action.kind in ("opaque", "opaque_coroutine", "function"):
             return True
         if any(substitution.command == "own" for substitution in substitutions_of(action)):

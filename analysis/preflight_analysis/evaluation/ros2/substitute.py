@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.python_runs import called
+from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.evaluation.tree import Command, Use
 from preflight_analysis.launch.model import Literal, Substitution, Value
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
@@ -345,7 +346,7 @@ def yaml_bool(text: str) -> bool | None:
     if text in ("1", "0"):
         return text == "1"
     try:
-        value = yaml.safe_load(text)
+        value = loaded(text)
     except yaml.YAMLError:
         return None
     return value if isinstance(value, bool) else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import yaml
@@ -46,7 +47,7 @@ def _as_yaml(text: str, or_text: bool) -> Any:
     if not text:
         return text
     try:
-        value = yaml.safe_load(text)
+        value = loaded(text)
     except yaml.YAMLError as error:
         if or_text:
             return text
@@ -54,6 +55,12 @@ def _as_yaml(text: str, or_text: bool) -> Any:
     if not is_valid(value, or_text=or_text):
         raise NotOfTypeError("a bool, a number, a text or a list of one of them")
     return value
+
+
+@lru_cache(maxsize=4096)
+def loaded(text: str) -> Any:
+    """What YAML makes of a value: the same few ones come again on every key, and PyYAML is slow."""
+    return yaml.safe_load(text)
 
 
 def is_valid(value: Any, *, or_text: bool = False) -> bool:
