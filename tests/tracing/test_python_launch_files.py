@@ -76,6 +76,8 @@ def test_actions_are_evaluated_like_those_of_xml(desk: PythonDesk) -> None:
         "in.side": True,
     }
     assert str(params) in [source.path for source in one.param_sources]
+    kinds = {child.kind for child in one.action.children}
+    assert kinds == {"argument", "param", "param_dict", "remap"}, "none of them is an annotation"
     assert found["/r2/later"].deferred
     assert not one.deferred
     assert [node.args for node in tree.nodes if node.kind == "process"] == ["hello"]

@@ -28,7 +28,7 @@ _KEYWORDS = {
     "target": "target_container",
     "env": "additional_env",
     "param": "parameters",
-    "params": "parameters",
+    "param_dict": "parameters",
     "remap": "remappings",
     "argument": "arguments",
     "choice": "choices",

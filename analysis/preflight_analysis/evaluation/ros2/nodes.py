@@ -229,7 +229,7 @@ def _sources(performer: Performer, action: Action, node: str, *, must_exist: boo
         _add(sources, pushed_source(performer, pushed, node, must_exist=True))
     for child in action.children:
         origin = performer.place.origin(child.head_span)
-        if child.kind == "params":
+        if child.kind == "param_dict":
             _add(sources, ParamSource(None, tuple(dict_params(performer, child, node)), origin))
         if child.kind != "param":
             continue

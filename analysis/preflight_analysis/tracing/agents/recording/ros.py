@@ -161,10 +161,10 @@ def _tell_parameters(t: Any, parameters: Any) -> None:
             allow = param.allow_substs
             t.child("param", **{"from": param.param_file, "allow_substs": allow if allow else None})
         elif isinstance(param, Parameter):
-            with t.inside("params"):
+            with t.inside("param_dict"):
                 t.parameter(param.name, param.preflight_value)
         else:
-            with t.inside("params"):
+            with t.inside("param_dict"):
                 for name, value in param.items():
                     t.parameter(list(name), value)
 
