@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from preflight_analysis.tracing import run
+from preflight_analysis.tracing import launch_files, run
 from preflight_analysis.workspace.sources import Sources
 from python_launch_desk import PythonDesk, line_of
 
@@ -363,3 +363,16 @@ def test_what_only_the_sandbox_refuses_is_no_error(desk: PythonDesk, tmp_path: P
         assert [(f.rule, f.severity) for f in analysis.findings] == [("LCH018", "hint")]
         assert "the sandbox" in analysis.findings[0].message
     assert not written.exists()
+
+
+def test_what_another_version_of_ours_told_is_not_kept(desk: PythonDesk, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = _described(desk, "Node(package='p', executable='x', name='n')")
+    desk.launch(path)
+    runs: list[object] = []
+    execute = run.execute_command
+    monkeypatch.setattr(run, "execute_command", lambda *args: runs.append(args) or execute(*args))
+    desk.launch(path)
+    assert not runs, "it is cached"
+    monkeypatch.setattr(launch_files, "_edition", lambda: "another")
+    desk.launch(path)
+    assert len(runs) == 1
