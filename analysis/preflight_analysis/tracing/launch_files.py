@@ -17,6 +17,7 @@ from typing import Any
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.backend import AGENTS
 
 _NETWORK = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.ECONNREFUSED, errno.ENETDOWN)
 _WORD = 100_000
@@ -51,7 +52,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
 def _edition() -> str:
     """Names the code that tells what a launch file makes."""
     digest = hashlib.sha256()
-    for path in sorted((sandbox.AGENTS.library / "recording").glob("*.py")):
+    for path in sorted((AGENTS.library / "recording").glob("*.py")):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
