@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
+import json
+import os
+import pty
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
+import jsonschema
 import pytest
 from editor_desk import Desk
+from sarif_schema import SARIF_SCHEMA
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -141,3 +149,46 @@ def test_what_is_wrong_with_the_settings_is_a_finding(desk: Desk, preflight: Run
         f for f in preflight("check", fixed, "--no-run", "--format", "json").json["findings"] if f["rule"] == "LCH031"
     ]
     assert (finding["file"], finding["range"]["start"]) == (str(settings), {"line": 2, "column": 3})
+
+
+def test_sarif_junit_and_github(desk: Desk, preflight: Run) -> None:
+    run = json.loads(preflight("check", desk.launch_file, "--format", "sarif").out)
+    jsonschema.validate(run, SARIF_SCHEMA)
+    (result,) = run["runs"][0]["results"]
+    assert result["ruleId"] == "TOP001"
+    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "launch/talker_listener.launch"
+    done = preflight("check", desk.launch_file, "--format", "junit", "--fail-on", "warning")
+    assert done.code == 1
+    (failure,) = ElementTree.fromstring(done.out).iter("failure")
+    assert str(failure.get("message")).startswith("none of the 2 nodes of this launch publishes '/chater'")
+    out = preflight("check", desk.launch_file, "--format", "github").out
+    assert out.startswith(
+        "::warning file=launch/talker_listener.launch,line=7,endLine=7,col=31,endColumn=37,title=TOP001"
+    )
+
+
+@pytest.mark.parametrize(
+    ("environment", "coloured"),
+    [({"TERM": "xterm"}, True), ({"TERM": "xterm", "NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)],
+)
+def test_colours_on_a_terminal_only(desk: Desk, environment: dict[str, str], coloured: bool) -> None:
+    out = on_terminal([str(desk.server), "check", str(desk.launch_file), "--no-run"], desk, environment)
+    assert ("\x1b[34minfo (possible) TOP001" in out) == coloured
+    assert ("\x1b[34m^^^^^^\x1b[0m" in out) == coloured
+    assert "talker_listener.launch:7:31" in out
+
+
+def on_terminal(command: list[str], desk: Desk, environment: dict[str, str]) -> str:
+    """What a command shows on a terminal, on either stream."""
+    ours, its = pty.openpty()
+    process = subprocess.Popen(
+        command, stdout=its, stderr=its, cwd=desk.workspace, env={**desk.environment, **environment}
+    )
+    os.close(its)
+    shown = b""
+    with contextlib.suppress(OSError):  # the other end is closed
+        while chunk := os.read(ours, 1 << 16):
+            shown += chunk
+    os.close(ours)
+    assert process.wait(60) == 0
+    return shown.decode()

@@ -50,8 +50,8 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False, sh
     at the end how many findings there are and what was looked at. Ends with a newline. Files below the folder `base`
     are shown relative to it."""
     shown = [f for f in report.findings if show_hints or f.severity != "hint"]
-    blocks = ["\n".join(_finding_lines(finding, report.documents, base, colour=colour)) for finding in shown]
-    return "\n\n".join([*blocks, _summary(report)]) + "\n"
+    blocks = ["\n".join(finding_lines(finding, report.documents, base, colour=colour)) for finding in shown]
+    return "\n\n".join([*blocks, summary(report)]) + "\n"
 
 
 def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[str, Any]:
@@ -73,14 +73,14 @@ def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[s
 
 
 def _range_json(location: Location, documents: Mapping[str, Document]) -> dict[str, Any]:
-    (line, column), (end_line, end_column) = _positions(location, documents)
+    (line, column), (end_line, end_column) = positions(location, documents)
     return {
         "start": {"line": line + 1, "column": column + 1},
         "end": {"line": end_line + 1, "column": end_column + 1},
     }
 
 
-def _positions(location: Location, documents: Mapping[str, Document]) -> tuple[tuple[int, int], tuple[int, int]]:
+def positions(location: Location, documents: Mapping[str, Document]) -> tuple[tuple[int, int], tuple[int, int]]:
     """Start and end as line and column, counted from 0; the start of the file where its text is not known."""
     document = documents.get(location.file)
     if document is None:
@@ -88,14 +88,15 @@ def _positions(location: Location, documents: Mapping[str, Document]) -> tuple[t
     return document.lines.position(location.span.start), document.lines.position(location.span.end)
 
 
-def _finding_lines(
-    finding: Finding, documents: Mapping[str, Document], base: str | None, *, colour: bool
+def finding_lines(
+    finding: Finding, documents: Mapping[str, Document], base: str | None, *, colour: bool = False
 ) -> Iterator[str]:
+    """One finding for reading, without the line breaks."""
     severity = f"{finding.severity}{_unsure(finding.confidence)} {finding.rule} {finding.name}"
-    if colour:
-        severity = f"\x1b[{_COLOURS[finding.severity]}m{severity}\x1b[0m"
+    paint = f"\x1b[{_COLOURS[finding.severity]}m{{}}\x1b[0m" if colour else "{}"
+    severity = paint.format(severity)
     yield f"{place(finding.location, documents, base)}: {severity}: {printable(finding.message)}"
-    yield from _underlined(finding.location, documents)
+    yield from _underlined(finding.location, documents, paint)
     for related in finding.related:
         yield f"  {place(related.location, documents, base)}: {printable(related.message)}"
     for fix in finding.fixes:
@@ -108,19 +109,23 @@ def _unsure(confidence: Confidence) -> str:
 
 def place(location: Location, documents: Mapping[str, Document], base: str | None = None) -> str:
     """`file:line:column`, both counted from 1; the file relative to the folder `base` where it lies below it."""
-    (line, column), _ = _positions(location, documents)
-    file = location.file
+    (line, column), _ = positions(location, documents)
+    return f"{printable(relative(location.file, base))}:{line + 1}:{column + 1}"
+
+
+def relative(file: str, base: str | None) -> str:
+    """The path from the folder `base` where the file lies below it, else the path as it is."""
     if base is not None and file.startswith(base.rstrip("/") + "/"):
-        file = file[len(base.rstrip("/")) + 1 :]
-    return f"{printable(file)}:{line + 1}:{column + 1}"
+        return file[len(base.rstrip("/")) + 1 :]
+    return file
 
 
-def _underlined(location: Location, documents: Mapping[str, Document]) -> Iterator[str]:
-    """The source line and, below it, carets under the place, to the end of its first line."""
+def _underlined(location: Location, documents: Mapping[str, Document], paint: str) -> Iterator[str]:
+    """The source line and, below it, carets under the place, to the end of its first line; `paint` colours them."""
     document = documents.get(location.file)
     if document is None:
         return
-    (line, column), (end_line, end_column) = _positions(location, documents)
+    (line, column), (end_line, end_column) = positions(location, documents)
     span = document.lines.line_span(line)
     text = document.text[span.start : span.end].rstrip("\r\n")
     if not text.strip():
@@ -129,7 +134,7 @@ def _underlined(location: Location, documents: Mapping[str, Document]) -> Iterat
     number = str(line + 1)
     before, under = _widths(text[:column]), max(1, _widths(text[:stop]) - _widths(text[:column]))
     yield f"  {number} | {printable(text.expandtabs(_TAB))}"
-    yield f"  {' ' * len(number)} | {' ' * before}{'^' * under}"
+    yield f"  {' ' * len(number)} | {' ' * before}{paint.format('^' * under)}"
 
 
 def _widths(text: str) -> int:
@@ -150,7 +155,8 @@ def printable(text: str) -> str:
     return "".join(char if char.isprintable() or char == " " else "\N{REPLACEMENT CHARACTER}" for char in text)
 
 
-def _summary(report: Report) -> str:
+def summary(report: Report) -> str:
+    """How many findings there are, and what was looked at."""
     counts = [(severity, sum(f.severity == severity for f in report.findings)) for severity in reversed(SEVERITIES)]
     found = ", ".join(_plural(count, severity) for severity, count in counts if count) or "no findings"
     looked_at = f"{_plural(report.files, 'file')}, {_plural(report.nodes, 'node')}, {report.traced} of them traced"

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Iterable, Sequence
 
 from preflight_analysis.evaluation.arguments import parse_arguments
-from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
+from preflight_analysis.findings.finding import SEVERITIES, Finding
 
 from preflight_server.cli.errors import CannotDoError
 
@@ -14,16 +15,16 @@ NEVER = "never"
 _ASSIGNMENT = ":="
 
 
-def add_format(parser: argparse.ArgumentParser) -> None:
+def add_format(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
     """`--format`."""
     parser.add_argument(
-        "--format", choices=("text", "json"), default="text", help="json goes to standard output, with sorted keys"
+        "--format", choices=formats, default="text", help="json goes to standard output, with sorted keys"
     )
 
 
-def add_common(parser: argparse.ArgumentParser) -> None:
+def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
     """The options of every verb that looks at a workspace."""
-    add_format(parser)
+    add_format(parser, formats)
     parser.add_argument("--no-run", action="store_true", help="execute nothing")
     parser.add_argument(
         "--jobs", type=_positive, default=2, metavar="N", help="how many nodes are run at a time (default: %(default)s)"
@@ -79,9 +80,9 @@ def package_path(args: argparse.Namespace) -> tuple[str, ...] | None:
     return tuple(os.path.abspath(folder) for folder in args.package_path.split(os.pathsep) if folder)
 
 
-def fails(findings: list[Finding] | tuple[Finding, ...], fail_on: str) -> bool:
-    """Whether one of the findings is at or above `--fail-on`."""
+def failing(findings: Iterable[Finding], fail_on: str) -> tuple[Finding, ...]:
+    """Those of the findings that are at or above `--fail-on`."""
     if fail_on == NEVER:
-        return False
-    order: dict[Severity, int] = {severity: rank for rank, severity in enumerate(SEVERITIES)}
-    return any(order[finding.severity] >= SEVERITIES.index(fail_on) for finding in findings)
+        return ()
+    order: dict[str, int] = {severity: rank for rank, severity in enumerate(SEVERITIES)}
+    return tuple(finding for finding in findings if order[finding.severity] >= order[fail_on])
