@@ -122,3 +122,52 @@ def test_nothing_is_said_where_the_build_files_do_more_than_is_understood(worksp
     (workspace / "src/arm/CMakeLists.txt").unlink()
     found = [f.rule for f in findings(workspace, renamed=False)]
     assert found == ["PKG002"], "an executable that no entry point makes"
+
+
+COMPONENTS = """cmake_minimum_required(VERSION 3.8)
+project(vision)
+add_library(detector SHARED src/detector.cpp)
+rclcpp_components_register_nodes(detector "vision::Detector" "vision::Tracker")
+ament_package()
+"""
+LOADS = """<launch>
+  <node_container pkg="vision" exec="component_container" name="box" namespace="">
+    <composable_node pkg="vision" plugin="vision::Detector" name="a"/>
+    <composable_node pkg="vision" plugin="Tracker" name="b"/>
+    <composable_node pkg="vision" plugin="vision::Segmentation" name="c"/>
+  </node_container>
+</launch>
+"""
+
+
+def test_a_component_that_is_not_registered(tmp_path: Path) -> None:
+    folder = tmp_path / "src" / "vision"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "package.xml").write_text(manifest("vision", "ament_cmake"))
+    (folder / "CMakeLists.txt").write_text(COMPONENTS)
+    launch = folder / "launch" / "box.launch.xml"
+    launch.write_text(LOADS)
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG006"]
+    assert [(f.severity, f.message) for f in findings] == [
+        (
+            "warning",
+            "package 'vision' registers no component 'Tracker'; it registers 2; did you mean 'vision::Tracker'?",
+        ),
+        ("info", "package 'vision' registers no component 'vision::Segmentation'; it registers 2"),
+    ]
+
+
+def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> None:
+    folder = tmp_path / "src" / "vision"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "package.xml").write_text(manifest("vision", "ament_cmake"))
+    launch = folder / "launch" / "box.launch.xml"
+    launch.write_text(
+        '<launch><executable cmd="ls -l"/><load_composable_node target="/box">'
+        '<composable_node pkg="vision" plugin="A" name="a"/><composable_node pkg="nowhere_known" plugin="B" name="b"/>'
+        "</load_composable_node></launch>"
+    )
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001"]
+    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("info", "package 'nowhere_known'")]

@@ -308,3 +308,17 @@ def test_comments_of_ours_in_yaml() -> None:
           - log: {message: hello}  # preflight: ignore[ARG001] not needed
                                                        ^^^^^^ warning[LCH019]
     """)
+
+
+def test_an_attribute_that_ros2_needs() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <load_composable_node target="/box">
+                                        ^^^^ info[LCH034] no node '/box' is started by this launch
+            <composable_node pkg="p" plugin="p::A" nam="a"/>
+             ^^^^^^^^^^^^^^^ error[LCH006] <composable_node> needs 'name'; is 'nam' meant to be it?
+                                                   ^^^ error[LCH005] <composable_node> has no attribute 'nam'
+          </load_composable_node>
+        </launch>
+    """)

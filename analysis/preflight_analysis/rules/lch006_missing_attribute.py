@@ -9,6 +9,7 @@ from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -37,7 +38,9 @@ def _message(problem: Problem) -> str:
 
 def _misspelt(context: Context, problem: Problem, tag: Tag, needed: list[str]) -> tuple[str | None, tuple[Fix, ...]]:
     """An attribute of the tag that nobody knows and whose name is near to one that is missing, and its correction."""
-    known = TAGS[tag.action.kind.lower()].attributes
+    kind = tag.action.kind
+    schema = TAGS_ROS2.get(kind) if context.tree.generation == 2 else TAGS.get(kind.lower())
+    known = schema.attributes if schema is not None else {}
     unknown = {attribute.name: attribute for attribute in tag.action.attributes if attribute.name not in known}
     for name in needed:
         near = nearest(name, unknown)
@@ -49,7 +52,7 @@ def _misspelt(context: Context, problem: Problem, tag: Tag, needed: list[str]) -
 
 def _insertion(context: Context, problem: Problem, tag: Tag, name: str) -> tuple[Fix, ...]:
     document = context.documents.get(problem.location.file)
-    if document is None:
+    if document is None or document.path.endswith((".yaml", ".yml", ".py")):
         return ()
     return (Fix(f"Add '{name}'", (insert_attribute(tag.action, document, name),), True),)
 

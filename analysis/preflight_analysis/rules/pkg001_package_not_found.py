@@ -12,14 +12,20 @@ from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
+_CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
+"""Packages of which each installation of ROS 2 has at least one."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     meant = cache(partial(_meant, context))
     for problem in problems_of(rule, context):
         name, chain = str(problem.data["name"]), include_chain(problem.origin)
         yield _finding(rule, context, name, meant(name), problem.location, chain, stops=problem.fatal)
+    packages = context.environment.packages
     for node in context.tree.nodes:
-        if node.resolved.package_path is None and not node.unknowns:
+        # A plain process is of no package, and a component has no executable in its one.
+        there = node.resolved.package_path is not None or node.package in packages
+        if node.package and not there and not node.unknowns:
             location, chain = attribute_location(node, "pkg"), include_chain(node.origin)
             yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
 
@@ -44,7 +50,7 @@ def _finding(
     renamed, near = meant
     fixes = rename(context, location, name, near) if near else ()
     # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
-    expected = near is None and context.environment.python is None
+    expected = near is None and not _has_ros(context)
     note = "; no ROS is installed here, so the packages of ROS itself are not known" if expected else ""
     hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     return rule.finding(
@@ -56,6 +62,13 @@ def _finding(
         fixes=fixes,
         stops_launch=stops,
     )
+
+
+def _has_ros(context: Context) -> bool:
+    """Whether ROS itself is installed, and not only a workspace there."""
+    if context.tree.generation == 1:
+        return context.environment.python is not None
+    return not _CORE.isdisjoint(context.environment.packages)
 
 
 def _in_folder_of_that_name(context: Context, name: str) -> Package | None:

@@ -1,0 +1,75 @@
+"""ARG010: an argument of a file that an include in it sets to another value (ROS 2)."""
+
+from collections.abc import Iterator, Mapping
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.arguments import declarations
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    tags = Tags(context.launch_files)
+    below: Mapping[str, set[str]] | None = None
+    own: dict[tuple[str, str], str | None] = {}
+    said: set[Location] = set()
+    for use in context.tree.uses:  # in the order in which they are evaluated
+        if use.kind != "arg":
+            continue
+        file, key = use.location.file, (use.location.file, use.name)
+        if use.target == use.location:
+            own[key] = use.value
+            continue
+        if use.target is None or own.get(key) in (None, use.value) or use.value is None or use.location in said:
+            continue
+        launch_file = context.launch_files.get(file)
+        if launch_file is None or use.name not in declarations(launch_file):
+            continue
+        tag = tags.around(use.target)
+        if use.target.file == file:
+            passed = tag is not None and tag.action.kind == "arg" and bool(tag.above) and tag.above[0].kind == "include"
+            what = "an include above was passed this"
+        else:
+            below = below if below is not None else _below(context.tree)
+            passed, what = use.target.file in below.get(file, set()), "a file that is included above sets it"
+        if passed:
+            said.add(use.location)
+            yield rule.finding(
+                f"'{use.name}' is '{use.value}' here, no longer '{own[key]}': {what}, and what is set there stays set "
+                "after the include; put the <include> into a <group>",
+                use.location,
+                related=(Related("set here", use.target),),
+            )
+        elif use.target.file == file:
+            own[key] = use.value
+
+
+def _below(tree: LaunchTree) -> Mapping[str, set[str]]:
+    """The files that each one includes, directly or further down."""
+    found: dict[str, set[str]] = {}
+    for include in tree.includes:
+        if include.path is not None:
+            for location in include.origin:
+                found.setdefault(location.file, set()).add(include.path)
+    return found
+
+
+RULE = Rule(
+    id="ARG010",
+    name="overwritten-by-include",
+    severity="warning",
+    what="Reports `$(var name)` of an argument that has another value there than its file gave it, because an include "
+    "before that place was passed a value for an argument of the same name, or set it itself (ROS 2).",
+    why="Includes of ROS 2 share the launch configurations of what includes them: what is passed to one, or set in it, "
+    "stays set afterwards. Only a `<group>` around the include brings the old values back.",
+    example='<arg name="name" default="robot"/>\n'
+    '<include file="$(find-pkg-share camera)/launch/camera.launch.xml">\n  <arg name="name" value="front"/>\n'
+    '</include>\n<node pkg="drive" exec="base" name="$(var name)_base"/>',
+    instead='<arg name="name" default="robot"/>\n<group>\n'
+    '  <include file="$(find-pkg-share camera)/launch/camera.launch.xml">\n    <arg name="name" value="front"/>\n'
+    '  </include>\n</group>\n<node pkg="drive" exec="base" name="$(var name)_base"/>',
+    generations=(2,),
+    check=_check,
+)

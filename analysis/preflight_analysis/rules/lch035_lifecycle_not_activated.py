@@ -1,0 +1,97 @@
+"""LCH035: a lifecycle node that nothing activates (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+_KNOWN = frozenset(
+    {
+        ("nav2_amcl", "amcl"),
+        ("nav2_behaviors", "behavior_server"),
+        ("nav2_bt_navigator", "bt_navigator"),
+        ("nav2_collision_monitor", "collision_monitor"),
+        ("nav2_controller", "controller_server"),
+        ("nav2_map_server", "costmap_filter_info_server"),
+        ("nav2_map_server", "map_saver_server"),
+        ("nav2_map_server", "map_server"),
+        ("nav2_planner", "planner_server"),
+        ("nav2_route", "route_server"),
+        ("nav2_smoother", "smoother_server"),
+        ("nav2_velocity_smoother", "velocity_smoother"),
+        ("nav2_waypoint_follower", "waypoint_follower"),
+    }
+)
+"""Executables that are lifecycle nodes, in every distribution, and wait to be activated."""
+_ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine", "function", "timer"})
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    waiting = [node for node in context.tree.nodes if _waits(node)]
+    if not waiting or _others_may_act(context):
+        return
+    managed: list[str] = []
+    for node in context.tree.nodes:
+        if node.executable == "lifecycle_manager" or "lifecycle_manager" in node.name:
+            names = next((param.value for param in node.params if param.name == "node_names"), None)
+            if not isinstance(names, list):
+                return
+            managed += [_full(node, str(name)) for name in names]
+    for node in waiting:
+        if node.name in managed:
+            continue
+        free = [name for name in managed if name not in {other.name for other in context.tree.nodes}]
+        near = nearest(node.name, free)
+        by = f"; the lifecycle managers have {quoted(managed[:3])}" if managed else " and no lifecycle manager is"
+        yield rule.finding(
+            f"{node.name} is a lifecycle node, which does nothing until it is activated: nothing in this launch does "
+            + (f"that{by}" if managed else f"that,{by} started")
+            + did_you_mean(near),
+            attribute_location(node, "exec"),
+            severity="warning" if near and context.tree.complete else None,
+            confidence="likely" if context.tree.complete else "possible",
+            related=include_chain(node.origin),
+        )
+
+
+def _waits(node: LaunchNode) -> bool:
+    if node.unknowns or not (node.kind == "lifecycle" or (node.package, node.executable) in _KNOWN):
+        return False
+    if node.action.value("autostart") is not None or "autostart" in node.args:
+        return False
+    return not any(param.name in ("autostart_node", "autostart") and param.value for param in node.params)
+
+
+def _others_may_act(context: Context) -> bool:
+    """Whether something else may activate nodes: handlers of events, code, a command line."""
+    if any(node.kind == "process" for node in context.tree.nodes):
+        return True
+    roots = (file.root for file in context.launch_files.values() if file.root is not None)
+    return any(action.kind in _ACTING for root in roots for action in root.walk())
+
+
+def _full(manager: LaunchNode, name: str) -> str:
+    return name if name.startswith("/") else f"{manager.namespace}{name}"
+
+
+RULE = Rule(
+    id="LCH035",
+    name="lifecycle-not-activated",
+    severity="info",
+    what="Points out a lifecycle node, one of the servers of Nav2 for instance, that no `lifecycle_manager` of the "
+    "launch has among its `node_names`. Where there are handlers of events, timers or commands that may activate it, "
+    "nothing is said (ROS 2).",
+    why="A lifecycle node starts unconfigured: it publishes nothing and offers only the services to change its state, "
+    "until somebody configures and activates it.",
+    example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>',
+    instead='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>\n'
+    '<node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="lifecycle_manager_map">\n'
+    '  <param name="autostart" value="true"/>\n  <param name="node_names" value="[map_server]"/>\n</node>',
+    generations=(2,),
+    check=_check,
+    every_root=True,
+)

@@ -1,0 +1,131 @@
+"""Rules on what ROS 2 accepts and then does not do: leaking configurations, containers, lifecycle nodes."""
+
+from preflight_check import check
+
+
+def test_an_argument_that_an_include_overwrites() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="name" default="robot"/>
+          <include file="/camera.launch.xml">
+            <arg name="name" value="front"/>
+          </include>
+          <node pkg="p" exec="base" name="$(var name)_base"/>
+                                          ^^^^^^^^^^^ warning[ARG010] 'name' is 'front' here, no longer 'robot'
+        </launch>
+        //- /camera.launch.xml
+        <launch>
+          <arg name="name"/>
+          <node pkg="p" exec="camera" name="$(var name)_camera"/>
+        </launch>
+    """)
+
+
+def test_an_argument_that_an_included_file_sets() -> None:
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - arg: {name: mode, default: slow}
+          - include: {file: /arm.launch.xml}
+          - node: {pkg: p, exec: base, name: $(var mode)}
+                                             ^^^^^^^^^^^ warning[ARG010] 'mode' is 'fast' here, no longer 'slow'
+        //- /arm.launch.xml
+        <launch>
+          <let name="mode" value="fast"/>
+          <log message="$(var mode)"/>
+        </launch>
+    """)
+
+
+def test_arguments_that_stay_what_they_are() -> None:
+    """In a group, with the same value, not used any more, or set by the file itself."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="name" default="robot"/>
+          <arg name="rate" default="5"/>
+          <group>
+            <include file="/camera.launch.xml"><arg name="name" value="front"/></include>
+          </group>
+          <include file="/camera.launch.xml"><arg name="name" value="robot"/></include>
+          <node pkg="p" exec="base" name="$(var name)_base"/>
+          <let name="rate" value="10"/>
+          <log message="$(var rate)"/>
+          <include file="/camera.launch.xml"><arg name="name" value="rear"/></include>
+        </launch>
+        //- /camera.launch.xml
+        <launch>
+          <arg name="name" default="camera"/>
+          <log message="$(var name)"/>
+        </launch>
+    """)
+
+
+def test_a_container_that_is_not_there() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <group>
+            <push_ros_namespace namespace="robot"/>
+            <node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>
+            <load_composable_node target="vision">
+                                          ^^^^^^ warning[LCH034] no node '/vision' is started by this launch
+              <composable_node pkg="p" plugin="p::Detector" name="detector"/>
+            </load_composable_node>
+            <load_composable_node target="/robot/vision">
+              <composable_node pkg="p" plugin="p::Tracker" name="tracker"/>
+            </load_composable_node>
+          </group>
+          <load_composable_node target="/elsewhere">
+                                        ^^^^^^^^^^ info[LCH034] no node '/elsewhere' is started by this launch
+            <composable_node pkg="p" plugin="p::Mapper" name="mapper"/>
+          </load_composable_node>
+        </launch>
+        //- /rclcpp_components/package.xml
+        <package><name>rclcpp_components</name></package>
+    """)
+
+
+def test_a_lifecycle_node_that_nobody_activates() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+                                            ^^^^^^^^^^ info[LCH035] /map_server is a lifecycle node
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+    """)
+
+
+def test_a_lifecycle_manager_that_has_another_name() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+                                            ^^^^^^^^^^ warning[LCH035] did you mean '/map_sever'?
+          <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
+          <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
+            <param name="node_names" value="[map_sever, amcl]"/>
+          </node>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+        //- /nav2_amcl/package.xml
+        <package><name>nav2_amcl</name></package>
+        //- /nav2_lifecycle_manager/package.xml
+        <package><name>nav2_lifecycle_manager</name></package>
+    """)
+
+
+def test_what_may_be_activated() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+          <executable cmd="ros2 lifecycle set /map_server configure"/>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+    """)
