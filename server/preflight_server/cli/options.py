@@ -16,14 +16,25 @@ _ASSIGNMENT = ":="
 
 
 def add_format(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
-    """`--format`."""
+    """`--format`; the first one is the default."""
     parser.add_argument(
-        "--format", choices=formats, default="text", help="json goes to standard output, with sorted keys"
+        "--format", choices=formats, default=formats[0], help="json goes to standard output, with sorted keys"
     )
 
 
 def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
-    """The options of every verb that looks at a workspace."""
+    """The options of every verb that looks at a workspace and fails on findings."""
+    add_running(parser, formats)
+    parser.add_argument(
+        "--fail-on",
+        choices=(*reversed(SEVERITIES), NEVER),
+        default="error",
+        help="exit with 1 if there is a finding of this severity or worse (default: %(default)s)",
+    )
+
+
+def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None:
+    """`--format`, and how nodes are found and run."""
     add_format(parser, formats)
     parser.add_argument("--no-run", action="store_true", help="execute nothing")
     parser.add_argument(
@@ -33,12 +44,6 @@ def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text"
         "--package-path",
         metavar="A:B",
         help="look for packages in these folders, in this order, and nowhere else",
-    )
-    parser.add_argument(
-        "--fail-on",
-        choices=(*reversed(SEVERITIES), NEVER),
-        default="error",
-        help="exit with 1 if there is a finding of this severity or worse (default: %(default)s)",
     )
 
 
@@ -68,9 +73,14 @@ def launch_file(args: argparse.Namespace) -> str:
 def launch_args(given: list[str]) -> dict[str, str]:
     """`name:=value` words as roslaunch takes them. Raises `CannotDoError` for a word that is nothing of the kind."""
     for each in given:
-        if _ASSIGNMENT not in each or each.startswith(_ASSIGNMENT):
+        if not is_assignment(each):
             raise CannotDoError(f"{each!r} is not of the form name:=value")
     return parse_arguments(given)
+
+
+def is_assignment(word: str) -> bool:
+    """Whether a word is `name:=value`."""
+    return _ASSIGNMENT in word and not word.startswith(_ASSIGNMENT)
 
 
 def package_path(args: argparse.Namespace) -> tuple[str, ...] | None:

@@ -11,7 +11,12 @@ from preflight_analysis.evaluation.tree_json import dumps
 
 def print_json(data: Mapping[str, Any], *, indent: int | None = 2) -> None:
     """A JSON document and a newline."""
-    print_text(dumps(data, indent=indent) + "\n")
+    print_text(dumps_json(data, indent=indent))
+
+
+def dumps_json(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
+    """A JSON document with sorted keys, and a newline."""
+    return dumps(data, indent=indent) + "\n"
 
 
 def print_text(text: str) -> None:

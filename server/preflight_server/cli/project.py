@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.environment.detect import detect
@@ -49,9 +50,21 @@ def open_project(args: argparse.Namespace) -> Project:
     """
     path = options.launch_file(args)
     values = options.launch_args(args.launch_args)
-    environment = detect(path, package_path=options.package_path(args))
+    return analyse(path, values, detect(path, package_path=options.package_path(args)), args)
+
+
+def analyse(
+    path: str,
+    values: Mapping[str, str],
+    environment: Environment,
+    args: argparse.Namespace,
+    *,
+    similar: bool = True,
+) -> Project:
+    """The same in an environment that is known. `similar`: whether what executables did elsewhere is of interest."""
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
-    workspace = Workspace(environment, Sources(), commands=results, similar=SimilarTraces(TraceCache()))
+    elsewhere = SimilarTraces(TraceCache()) if similar else None
+    workspace = Workspace(environment, Sources(), commands=results, similar=elsewhere)
     if args.no_run:
         return Project(workspace, workspace.static(path, values))
     runner, cancel = CommandRunner(environment, workspace.cwd, CommandCache()), threading.Event()

@@ -1,0 +1,166 @@
+"""A revision of a git repository as a folder, and the environment of a workspace with that folder in the repository's
+place.
+
+Only git's own reading commands are run, and neither hooks nor filters nor a file monitor of the repository: the files
+are written as they are stored.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from preflight_analysis.environment.detect import BUILT
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.packages import find_packages
+
+_COMMIT = re.compile(r"[0-9a-f]{40,64}")
+
+
+class NoRevisionError(Exception):
+    """What was asked for is not there; says what, in a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Revision:
+    """A commit of the repository at `repository`, and the path of a file in it, relative to that."""
+
+    repository: str
+    commit: str
+    file: str
+
+
+def find_revision(text: str, folder: str) -> Revision:
+    """What `REV:path` means in `folder`. As for git the path is one from the top of the repository, or with `./` from
+    the folder; without it that is tried too. Raises `NoRevisionError`."""
+    name, _, path = text.partition(":")
+    if shutil.which("git") is None:
+        raise NoRevisionError("git is not installed")
+    top = _git(folder, "rev-parse", "--show-toplevel")
+    if top is None:
+        raise NoRevisionError(f"{folder} is in no git repository")
+    repository = os.fsdecode(top.rstrip(b"\n"))
+    found = _git(repository, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{name}^{{commit}}")
+    commit = (found or b"").decode("ascii", "replace").strip()
+    if not name or not _COMMIT.fullmatch(commit):
+        raise NoRevisionError(f"{name!r} is no revision of {repository}")
+    here = os.path.normpath(os.path.join(os.path.relpath(os.path.realpath(folder), repository), path))
+    for candidate in (here,) if path.startswith("./") else (os.path.normpath(path), here):
+        if (
+            not candidate.startswith(("..", "/"))
+            and _git(repository, "cat-file", "-e", f"{commit}:{candidate}") is not None
+        ):
+            return Revision(repository, commit, candidate)
+    raise NoRevisionError(f"{path} is not in {name}")
+
+
+def write_revision(revision: Revision, folder: str) -> None:
+    """All files of the revision, below an empty folder. What lies in submodules is not there. Raises `NoRevisionError`
+    if git fails, and `OSError`."""
+    listed = _git(revision.repository, "ls-tree", "-r", "-z", "--full-tree", revision.commit)
+    if listed is None:
+        raise NoRevisionError(f"git does not list the files of {revision.commit}")
+    with subprocess.Popen(
+        [*_command(revision.repository), "cat-file", "--batch"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as git:
+        assert git.stdin is not None
+        assert git.stdout is not None
+        for mode, name, path in _entries(listed):
+            git.stdin.write(name + b"\n")
+            git.stdin.flush()
+            size = git.stdout.readline().split()[-1]
+            if not size.isdigit():
+                raise NoRevisionError(f"git does not have {os.fsdecode(path)} of {revision.commit}")
+            content = git.stdout.read(int(size))
+            git.stdout.read(1)
+            _write(os.path.join(folder, os.fsdecode(path)), mode, content)
+
+
+def environment_at(environment: Environment, repository: str, folder: str) -> Environment:
+    """The environment with `folder` in the place of the repository. What was built of it, or lies outside, is that of
+    now."""
+
+    def moved(path: str) -> str:
+        return os.path.normpath(os.path.join(folder, os.path.relpath(path, repository)))
+
+    entries = [
+        (moved(path) if _is_below(path, repository) else folder, path)
+        for path in environment.package_path
+        if _is_below(path, repository) or _is_below(repository, path)
+    ]
+    known: dict[str, list[Package]] = {}
+    for name, package in environment.packages.items():
+        known[name] = [package, *environment.shadowed.get(name, ())]
+    elsewhere = {
+        name: others[0]
+        for name, packages in known.items()
+        if (others := [p for p in packages if not _is_below(p.share, repository)])
+    }
+    overlaid = {name for name, packages in known.items() if not _is_below(packages[0].share, repository)}
+    there = find_packages(dict.fromkeys(place for place, _ in entries), skip=BUILT)
+    packages = {**elsewhere, **{name: p for name, p in there.packages.items() if name not in overlaid}}
+    path = [*dict.fromkeys(place for place, _ in entries)]
+    path += [entry for entry in environment.package_path if not _is_below(entry, repository)]
+    workspace = environment.workspace
+    variables = dict(environment.variables)
+    if "ROS_PACKAGE_PATH" in variables:
+        variables["ROS_PACKAGE_PATH"] = os.pathsep.join(path)
+    return replace(
+        environment,
+        packages=packages,
+        shadowed={},
+        package_path=tuple(path),
+        variables=variables,
+        workspace=moved(workspace) if workspace and _is_below(workspace, repository) else workspace,
+    )
+
+
+def _is_below(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(folder.rstrip("/") + "/")
+
+
+def _command(folder: str) -> list[str]:
+    return ["git", "--no-optional-locks", "-c", "core.hooksPath=/dev/null", "-c", "core.fsmonitor=false", "-C", folder]
+
+
+def _git(folder: str, *arguments: str) -> bytes | None:
+    """What git prints, None if it says no."""
+    try:
+        done = subprocess.run(
+            [*_command(folder), *arguments],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+            # A blob that a partial clone lacks would be fetched by programs that the repository's settings name.
+            env={**os.environ, "GIT_NO_LAZY_FETCH": "1"},
+        )
+    except OSError:
+        return None
+    return done.stdout if done.returncode == 0 else None
+
+
+def _entries(listed: bytes) -> Iterator[tuple[bytes, bytes, bytes]]:
+    """Mode, object and path of each file; without what git itself would not check out."""
+    for entry in listed.split(b"\0"):
+        about, _, path = entry.partition(b"\t")
+        parts = path.split(b"/")
+        if path and about.split()[1] == b"blob" and not {b"", b".", b"..", b".git"} & {part.lower() for part in parts}:
+            yield about.split()[0], about.split()[2], path
+
+
+def _write(path: str, mode: bytes, content: bytes) -> None:
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    if mode == b"120000":
+        os.symlink(content, os.fsencode(path))
+        return
+    # Never through a link that the tree has put there.
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o755 if mode == b"100755" else 0o644)
+    with open(descriptor, "wb") as file:
+        file.write(content)

@@ -1,0 +1,186 @@
+"""Snapshots as files: YAML that reads well in a review, a block a node, the same on each machine."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping
+from typing import Any
+
+import yaml
+
+from preflight_analysis.snapshot.model import GROUPS, SCHEMA, End, NodeSnapshot, Snapshot
+
+_INTRODUCTION = """\
+# What this launch configuration is expected to start, and who talks to whom then.
+# Written by `ros-preflight snapshot`, compared by `ros-preflight diff`.
+"""
+_NODE_KEYS = {"interface", "outcome", "from", "parameters", "reads", "remaps", "env", *GROUPS}
+
+
+class NotASnapshotError(Exception):
+    """The text is no snapshot; says why in a sentence without a subject."""
+
+
+class _Line(dict[str, Any]):
+    """A mapping that is written on one line."""
+
+
+class _List(list[Any]):
+    """A list that is."""
+
+
+class _Dumper(yaml.SafeDumper):
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+    def increase_indent(self, flow: bool = False, indentless: bool = False) -> None:
+        super().increase_indent(flow, False)
+
+
+_Dumper.add_representer(
+    _Line, lambda dumper, data: dumper.represent_mapping("tag:yaml.org,2002:map", data, flow_style=True)
+)
+_Dumper.add_representer(
+    _List, lambda dumper, data: dumper.represent_sequence("tag:yaml.org,2002:seq", data, flow_style=True)
+)
+
+
+def to_json(snapshot: Snapshot) -> dict[str, Any]:
+    """The snapshot as plain data, of which the file is made (schema `ros-preflight/snapshot/1`)."""
+    return {
+        "schema": SCHEMA,
+        "launch": snapshot.launch,
+        "generation": snapshot.generation,
+        **_given(args=dict(snapshot.args), errors=list(snapshot.errors), unknown=list(snapshot.unknown)),
+        **_given(parameters=dict(snapshot.parameters)),
+        "nodes": {name: node_json(node) for name, node in snapshot.nodes.items()},
+    }
+
+
+def to_yaml(snapshot: Snapshot) -> str:
+    """The text of the file."""
+    data = to_json(snapshot)
+    nodes = data.pop("nodes")
+    data.update({"parameters": _short(data["parameters"])} if "parameters" in data else {})
+    blocks = [_INTRODUCTION + _dump(data)]
+    blocks += ["nodes:\n" if nodes else "nodes: {}\n"]
+    for name, node in nodes.items():
+        lines = {key: _short(value) if isinstance(value, dict) else value for key, value in node.items()}
+        blocks.append(textwrap.indent(_dump({name: lines}), "  "))
+    return "\n".join(blocks).replace("nodes:\n\n", "nodes:\n", 1)
+
+
+def from_yaml(text: str) -> Snapshot:
+    """The snapshot of a file's text; JSON is read too. Raises `NotASnapshotError`."""
+    try:
+        data = yaml.safe_load(text)
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        mark = getattr(error, "problem_mark", None)
+        where = f" (line {mark.line + 1})" if mark is not None else ""
+        raise NotASnapshotError(f"is no YAML{where}") from None
+    if not isinstance(data, Mapping) or "schema" not in data:
+        raise NotASnapshotError("has no schema line")
+    if data["schema"] != SCHEMA:
+        raise NotASnapshotError(f"has the schema {data['schema']}; this release reads {SCHEMA}")
+    nodes = _mapping(data, "nodes", "")
+    return Snapshot(
+        str(data.get("launch", "")),
+        data["generation"] if data.get("generation") in (1, 2) else 1,
+        {str(name): str(value) for name, value in _mapping(data, "args", "").items()},
+        {str(name): _node(_mapping(nodes, name, "nodes "), str(name)) for name in nodes},
+        {str(name): value for name, value in _mapping(data, "parameters", "").items()},
+        _texts(data, "errors"),
+        _texts(data, "unknown"),
+    )
+
+
+def is_snapshot(text: str) -> bool:
+    """Whether a text says of itself that it is a snapshot, of whichever version."""
+    start = "\n".join(line for line in text.splitlines()[:100] if not line.lstrip().startswith("#"))
+    return "ros-preflight/snapshot/" in start and "<launch" not in start
+
+
+def node_json(node: NodeSnapshot) -> dict[str, Any]:
+    """One node as plain data."""
+    return {
+        **node.facts,
+        **_given(**{"from": node.origin}),
+        "interface": node.interface,
+        **({"outcome": node.outcome} if node.outcome != "not-run" else {}),
+        **{
+            group: {name: {"type": end.type, **end.qos} for name, end in node.ends[role].items()}
+            for group, role in GROUPS.items()
+            if node.ends.get(role)
+        },
+        **_given(
+            parameters=dict(node.parameters),
+            reads={name: dict(read) for name, read in node.reads.items()},
+            remaps=dict(node.remaps),
+            env=dict(node.env),
+        ),
+    }
+
+
+def _short(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The same, each value on a line."""
+    return {
+        name: _Line(value) if isinstance(value, dict) else _List(value) if isinstance(value, list) else value
+        for name, value in values.items()
+    }
+
+
+def _given(**values: Any) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value}
+
+
+def _dump(data: Mapping[str, Any]) -> str:
+    text: str = yaml.dump(
+        data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, default_flow_style=False, width=float("inf")
+    )
+    return text
+
+
+def _node(data: Mapping[str, Any], name: str) -> NodeSnapshot:
+    ends: dict[str, dict[str, End]] = {}
+    for group, role in GROUPS.items():
+        found = _mapping(data, group, f"{name} ")
+        if found:
+            ends[role] = {str(of): _end(said, f"{name} {group} {of}") for of, said in found.items()}
+    reads = _mapping(data, "reads", f"{name} ")
+    return NodeSnapshot(
+        {str(key): value for key, value in data.items() if key not in _NODE_KEYS},
+        data.get("from"),
+        str(data.get("interface", "none")),
+        str(data.get("outcome", "not-run")),
+        ends,
+        {str(key): value for key, value in _mapping(data, "parameters", f"{name} ").items()},
+        {str(key): _mapping(reads, key, f"{name} reads ") for key in reads},
+        {str(key): str(value) for key, value in _mapping(data, "remaps", f"{name} ").items()},
+        {str(key): str(value) for key, value in _mapping(data, "env", f"{name} ").items()},
+    )
+
+
+def _end(said: Any, where: str) -> End:
+    """A type, or a mapping with the type and the QoS."""
+    if said is None or isinstance(said, str):
+        return End(said)
+    if not isinstance(said, Mapping):
+        raise NotASnapshotError(f"has no type at {where}")
+    type_ = said.get("type")
+    return End(None if type_ is None else str(type_), {str(k): v for k, v in said.items() if k != "type"})
+
+
+def _mapping(data: Mapping[Any, Any], key: Any, where: str) -> Mapping[Any, Any]:
+    found = data.get(key)
+    if found is None:
+        return {}
+    if not isinstance(found, Mapping):
+        raise NotASnapshotError(f"has no names with values at {where}{key}")
+    return found
+
+
+def _texts(data: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    found = data.get(key) or ()
+    if not isinstance(found, (list, tuple)):
+        raise NotASnapshotError(f"has no list at {key}")
+    return tuple(map(str, found))

@@ -1,0 +1,60 @@
+"""`ros-preflight diff`: what is not the same in two launch configurations."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+from contextlib import ExitStack
+from types import FrameType
+
+from preflight_analysis.snapshot import report
+from preflight_analysis.snapshot.difference import difference
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.output import print_json, print_text
+from preflight_server.cli.side import sides, snapshot_of_side
+
+HELP = "what is not the same in two launch configurations"
+DESCRIPTION = """Compares the nodes, connections, types, QoS and parameters of two launch configurations. Each side is
+a launch file followed by its own arguments, a file that `snapshot` wrote, or one of either in a git revision, as
+REV:path. The nodes are run in a sandbox, those of revisions too: calling this command is your consent; --no-run
+executes nothing. Exit codes: 0 the same, 1 not the same, 2 could not compare."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_running(parser, formats=("text", "json", "markdown"))
+    parser.add_argument(
+        "launch_args",
+        metavar="SIDE",
+        nargs="+",
+        help="two of: FILE [name:=value ...], SNAPSHOT, REV:FILE [name:=value ...], REV:SNAPSHOT",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what came, went or changed."""
+    both = sides(args.launch_args)
+    if len(both) != 2:
+        raise CannotDoError(f"two sides are compared, and {len(both)} given: {', '.join(s.title for s in both)}")
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _leave)
+    with ExitStack() as cleanup:
+        before, after = (snapshot_of_side(side, args, cleanup) for side in both)
+    found = difference(before, after)
+    if args.format == "json":
+        print_json(report.to_json(found))
+    elif args.format == "markdown":
+        print_text(report.to_markdown(found, both[0].title, both[1].title))
+    else:
+        colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
+        print_text(report.to_text(found, both[0].title, both[1].title, colour=colour))
+    return int(not found.same)
+
+
+def _leave(_number: int, _frame: FrameType | None) -> None:
+    """Through what stops the runs and cleans up."""
+    raise KeyboardInterrupt

@@ -1,0 +1,46 @@
+"""`ros-preflight snapshot`: the known good graph, in a file."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from preflight_analysis.snapshot.files import to_json, to_yaml
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.output import dumps_json, print_text, say
+from preflight_server.cli.project import exit_code, say_errors
+from preflight_server.cli.side import from_launch
+
+HELP = "write the expected graph to a file"
+DESCRIPTION = """Writes what a launch file starts, and who talks to whom then, to a file that reads well in a review and
+is the same on each machine; `diff` compares with it. The nodes are run in a sandbox to see what they do: calling this
+command is your consent; --no-run executes nothing."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_common(parser, formats=("yaml", "json"))
+    options.add_file(parser)
+    parser.add_argument(
+        "--output", "-o", metavar="FILE", type=Path, help="write to this file instead of standard output"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Write the snapshot."""
+    analysis, snapshot = from_launch(options.launch_file(args), options.launch_args(args.launch_args), args)
+    text = dumps_json(to_json(snapshot)) if args.format == "json" else to_yaml(snapshot)
+    if args.output is None:
+        print_text(text)
+    else:
+        try:
+            args.output.write_text(text, encoding="utf-8", errors="backslashreplace")
+        except OSError as error:
+            raise CannotDoError(f"{args.output} cannot be written: {error.strerror}") from None
+    unsure = [name for name, node in snapshot.nodes.items() if not node.sure]
+    if unsure:
+        say(f"not all is known of {', '.join(unsure)}; `ros-preflight check` says why")
+    say_errors(analysis)
+    return exit_code(analysis, args.fail_on)
