@@ -172,7 +172,7 @@ class Editor:
         assert process is not None
         return process.pid
 
-    async def until(self, what: Callable[[], T | None], seconds: float = 20) -> T:
+    async def until(self, what: Callable[[], T | None], seconds: float = 60) -> T:
         """Wait until `what()` is something true; it is asked again at each message of the server."""
         deadline = asyncio.get_running_loop().time() + seconds
         while not (found := what()):
@@ -198,13 +198,13 @@ class Editor:
         found = self.diagnostics(path)
         return None if found is None else sorted(str(d.code) for d in found)
 
-    async def having(self, path: Path, rule: str, seconds: float = 20) -> types.Diagnostic:
+    async def having(self, path: Path, rule: str, seconds: float = 60) -> types.Diagnostic:
         """The diagnostic of that rule, as soon as it is there."""
         return await self.until(
             lambda: next((d for d in self.diagnostics(path) or () if d.code == rule), None), seconds
         )
 
-    async def without(self, path: Path, rule: str, seconds: float = 20) -> None:
+    async def without(self, path: Path, rule: str, seconds: float = 60) -> None:
         """Wait until the rule is silent on the file's present version."""
         await self.until(lambda: (found := self.rules(path)) is not None and rule not in found, seconds)
 

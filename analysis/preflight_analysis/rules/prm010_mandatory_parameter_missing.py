@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import likeness
-from preflight_analysis.rules.parameters import by_namespace, name_place, renamed
+from preflight_analysis.rules.parameters import name_place, renamed
 from preflight_analysis.rules.places import node_location, related_param_read
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import unread_params
-from preflight_analysis.rules.well_known import is_for_tools
-from preflight_analysis.tracing.interface import Interface
-
-_COMPLAINT = re.compile(r"KeyError|param|not set|missing|required|mandatory|not (found|given|specified|defined)", re.I)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    if graph is None or not graph.param_reads or not context.tree.complete:
-        return
-    missing = _missing(context, graph)
-    if not missing:
+    missing = context.once(missing_params)
+    if graph is None or not missing:
         return
     # A parameter that was meant for it and that nobody reads is where to mend it: there PRM001 says it.
     explained = {unread.meant.name for unread in context.once(unread_params) if unread.meant is not None}
@@ -36,10 +30,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if param.name not in read:
             unread.setdefault(param.name.rpartition("/")[2], []).append(param)
             private.setdefault(_namespace(param), []).append(param)
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
+    for node in graph.tree.nodes:
         optional: list[str] = []
-        for lacking in missing.get(id(node), ()):
-            died = _last_words(interface, lacking)
+        for each in missing.get(id(node), ()):
+            lacking, died = each.read, each.died
             if lacking.name in explained or (died is None and not lacking.use.mandatory):
                 continue
             if died is not None:
@@ -58,47 +52,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 confidence="possible",
                 related=include_chain(node.origin),
             )
-
-
-def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
-    """By the id of the node what it reads without a default, or asks for, and nobody sets, each name once.
-
-    A node that asks whether there is such a parameter, or reads it with a default too, may go on without it: of these
-    it stands here as not mandatory.
-    """
-    namespaces: set[str] = set()
-    for namespace in context.once(by_namespace):
-        above = namespace
-        while above and above not in namespaces:
-            namespaces.add(above)
-            above = above.rpartition("/")[0]
-    known = graph.tree.params.keys() | namespaces | {command.param for command in graph.tree.commands}
-    known |= {r.name for r in graph.param_reads if r.use.access in ("set", "search")}
-    with_default = {(id(r.node), r.name) for r in graph.param_reads if r.use.has_default}
-    first: dict[tuple[int, str], ParamRead] = {}
-    for read in graph.param_reads:
-        key = (id(read.node), read.name)
-        asks = read.use.access == "has"
-        if read.use.builtin or key in with_default or not (asks or (read.use.access == "get" and read.use.mandatory)):
-            continue
-        if read.name in known or is_for_tools(read.name) or f"_{read.use.name.strip('~')}:=" in read.node.args:
-            continue
-        if asks or key not in first:
-            first[key] = read
-    found: dict[int, list[ParamRead]] = {}
-    for (node, _), read in first.items():
-        found.setdefault(node, []).append(read)
-    return found
-
-
-def _last_words(interface: Interface, read: ParamRead) -> str | None:
-    """The line in which the node, which ended, complains of the parameter: rospy's KeyError, or its own words."""
-    if interface.outcome.status not in ("crashed", "exited"):
-        return None
-    leaf = re.compile(rf"(?<!\w){re.escape(read.name.rpartition('/')[2])}(?!\w)")
-    said = (interface.outcome.reason or "", *interface.outcome.stderr_tail)
-    found = [line.strip() for line in said if leaf.search(line) and _COMPLAINT.search(line)]
-    return found[-1] if found else None
 
 
 def _elsewhere(read: ParamRead, unread: list[Param] | tuple[Param, ...]) -> Param | None:

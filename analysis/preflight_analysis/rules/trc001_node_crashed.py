@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import CommandValue
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -25,12 +26,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
         lacking = next((r.name for r in context.graph.param_reads if r.node is node and r.name in commands), None)
+        # Of a parameter that is missing another rule says more, as a warning.
+        told = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         ours = lacking is not None or bool(outcome.answers) or any(e.speculative for e in interface.endpoints)
         note = f"; it asked for '{lacking}', which comes from a command without a result" if lacking else ""
         yield rule.finding(
             _message(node.name, outcome) + note,
             node_location(node),
-            severity="info" if ours else None,
+            severity="info" if ours or told else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
         )
@@ -56,7 +59,8 @@ RULE = Rule(
     "error that tells why.",
     why="With the parameters and arguments of this launch file it would most likely end so on the robot too, unless it "
     "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it. "
-    "Where it was given a made-up answer before, the crash may come from that: it is only an information then.",
+    "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
+    "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     generations=(1,),

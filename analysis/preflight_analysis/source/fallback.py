@@ -56,7 +56,7 @@ class Fallback:
                     key = node.name, node.resolved.path
                     known = self._filled.get(key)
                     if known is None or known.found is not found or known.interface != interfaces[at]:
-                        known = _Filled(interfaces[at], found, _with_more(interfaces[at], found))
+                        known = _Filled(interfaces[at], found, _with_more(node, interfaces[at], found))
                         self._remember(key, known)
                     whole[at] = known.whole
         return tuple(whole)
@@ -75,10 +75,14 @@ def _lacks(node: LaunchNode, interface: Interface) -> bool:
     return not (interface.complete or ended_well or interface.pending) and read_annotation(node.action)[0] is None
 
 
-def _with_more(interface: Interface, found: Interface | SourceInterface) -> Interface:
+def _with_more(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
     if isinstance(found, Interface):
         more = interface.with_more("similar", found.endpoints, found.params)
         return replace(more, elsewhere=found.elsewhere)
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
     params = tuple(replace(use, inferred=True) for use in found.params)
-    return interface.with_more("source", endpoints, params)
+    whole = interface.with_more("source", endpoints, params)
+    if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:
+        return whole
+    # There is no executable, but what it is to be made of.
+    return replace(whole, outcome=replace(whole.outcome, reason="it is not built yet"))

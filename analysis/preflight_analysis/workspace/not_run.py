@@ -11,6 +11,8 @@ def not_run(node: LaunchNode, reason: str | None = None) -> Interface:
     if node.unknowns:
         first = node.unknowns[0]
         reason = f"{first.what} is not known ({first.reason})"
+    elif node.resolved.path is None and node.resolved.not_executable:
+        reason = f"'{node.resolved.not_executable[0]}' is not executable"
     elif node.resolved.path is None:
         reason = f"there is no executable {node.executable!r} in package {node.package!r}"
     return Interface("none", Outcome("not-run", reason=reason))

@@ -15,6 +15,7 @@ from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
@@ -77,17 +78,18 @@ def analyse(
 
 def run_nodes(project: Project, args: argparse.Namespace, only: str | None = None) -> Analysis:
     """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox, as
-    the common options say.
+    the common options say. Where nothing may be run, earlier runs tell that would have the same result.
 
     Interrupting it stops the runs.
     """
     analysis = project.analysis
     nodes = analysis.tree.nodes
     why = _why_not(args.no_run)
-    if why is not None:
-        return project.workspace.with_interfaces(analysis, [not_run(node, why) for node in nodes], why)
+    tracer = Tracer(project.environment, TraceCache())
     requests = project.workspace.requests(analysis)
     chosen = [i for i, r in enumerate(requests) if r is not None and only in (None, nodes[i].name)]
+    if why is not None:
+        return _without_runs(project, tracer, {i: r for i in chosen if (r := requests[i]) is not None}, why)
     found: dict[int, Interface] = {}
     cancel = threading.Event()
 
@@ -96,7 +98,7 @@ def run_nodes(project: Project, args: argparse.Namespace, only: str | None = Non
 
     try:
         trace_all(
-            Tracer(project.environment, TraceCache()),
+            tracer,
             [request for i in chosen if (request := requests[i]) is not None],
             workers=args.jobs,
             on_done=done,
@@ -107,6 +109,14 @@ def run_nodes(project: Project, args: argparse.Namespace, only: str | None = Non
         raise
     interfaces = [found.get(i) or not_run(node, "it was not asked for") for i, node in enumerate(nodes)]
     return project.workspace.with_interfaces(analysis, interfaces, None)
+
+
+def _without_runs(project: Project, tracer: Tracer, requests: Mapping[int, TraceRequest], why: str) -> Analysis:
+    """The analysis with what earlier runs told that still holds."""
+    analysis = project.analysis
+    known = {i: hit for i, request in requests.items() if (hit := tracer.lookup(request)) is not None}
+    interfaces = [known.get(i) or not_run(node, why) for i, node in enumerate(analysis.tree.nodes)]
+    return project.workspace.with_interfaces(analysis, interfaces, None if known else why)
 
 
 def _why_not(no_run: bool) -> str | None:

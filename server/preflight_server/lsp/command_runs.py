@@ -14,6 +14,7 @@ from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
+from preflight_server.lsp.markup import counted
 from preflight_server.lsp.progress import Progress
 
 if TYPE_CHECKING:
@@ -109,4 +110,4 @@ class CommandRuns:
             raise
         finally:
             self._batch = None
-            progress.end("cancelled" if batch.cancel.is_set() else f"{len(lines)} commands")
+            progress.end("cancelled" if batch.cancel.is_set() else counted(len(lines), "command"))

@@ -12,12 +12,12 @@ from collections.abc import Collection, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
-from lsprotocol import types
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.project_settings import ProjectSettings, read_project_settings
 from preflight_analysis.workspace.workspace import Workspace
 
+from preflight_server.lsp.markup import counted
 from preflight_server.lsp.progress import Progress
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ class Indexing:
             _log.exception("indexing broke; the index is left as it is")
         finally:
             if progress is not None:
-                progress.end(f"{len(index.files)} launch files" if index is not None else "")
+                progress.end(counted(len(index.files), "launch file") if index is not None else "")
         return index
 
     def _gives_way(self) -> bool:
@@ -122,7 +122,5 @@ class Indexing:
     async def _read_settings(self) -> None:
         if (folder := self._session.folder) is None:
             return
+        # What is wrong with them is a finding.
         self._project = await self._session.in_pool(lambda: read_project_settings(folder))
-        for problem in self._project.problems:
-            text = f"{self._project.path}:{problem.line}: {problem.message}"
-            self._server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, text))

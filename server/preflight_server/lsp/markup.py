@@ -1,4 +1,4 @@
-"""Markdown of the analysis in a format that the client can show."""
+"""Texts for the user, in a format that the client can show."""
 
 from __future__ import annotations
 
@@ -16,3 +16,8 @@ def markup(markdown: str, formats: Sequence[types.MarkupKind] | None) -> types.M
     if formats and formats[0] == types.MarkupKind.PlainText:
         return types.MarkupContent(types.MarkupKind.PlainText, _MARKS.sub("", _LINK.sub(r"\1", markdown)))
     return types.MarkupContent(types.MarkupKind.Markdown, markdown)
+
+
+def counted(number: int, what: str) -> str:
+    """How many there are of what, in words."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

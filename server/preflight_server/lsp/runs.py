@@ -27,6 +27,7 @@ from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.command_runs import CommandRuns
+from preflight_server.lsp.markup import counted
 from preflight_server.lsp.progress import Progress
 
 if TYPE_CHECKING:
@@ -289,7 +290,7 @@ class Runs:
             raise
         finally:
             self._batch = None
-            progress.end("cancelled" if batch.cancelled.is_set() else f"{len(keys)} nodes")
+            progress.end("cancelled" if batch.cancelled.is_set() else counted(len(keys), "node"))
         self._session.interfaces_changed(root)
 
     async def _reconsider(self, batch: _Batch) -> None:

@@ -151,7 +151,9 @@ class Session:
         if self._workspace is not None:
             self._workspace.refresh()
         paths = tuple(paths)
-        self._touch(None if came_or_went else paths, None, quiet=0)
+        inputs = {path for analysis in self._analyses.values() for path in analysis.tree.inputs}
+        # What no launch file is made of may be the source that tells of a node which cannot be run.
+        self._touch(paths if not came_or_went and inputs.issuperset(paths) else None, None, quiet=0)
         self.indexing.changed(paths)
 
     def environment_changed(self) -> None:

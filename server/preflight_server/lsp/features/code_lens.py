@@ -13,6 +13,7 @@ from lsprotocol import types
 from preflight_analysis.queries.lenses import Lenses, lenses
 from preflight_analysis.queries.scene import Scene
 
+from preflight_server.lsp.markup import counted
 from preflight_server.lsp.refresher import Refresher
 from preflight_server.lsp.scenes import converter_for, scene_of
 
@@ -23,19 +24,15 @@ SHOW_REFERENCES = "rosPreflight.showReferences"
 SELECT_ROOT = "rosPreflight.selectRoot"
 
 
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
-
-
 def _titles(found: Lenses, scene: Scene) -> tuple[str, str, str]:
-    nodes = _count(found.nodes, "node")
+    nodes = counted(found.nodes, "node")
     if found.own != found.nodes:
         nodes = f"{found.own} of {nodes}"
     given = " ".join(f"{name}:={value}" for name, value in found.root.args)
     path = "this file" if found.root.path == scene.path else scene.shown(found.root.path)
     if found.root.path != scene.path and os.path.dirname(path) == os.path.dirname(scene.shown(scene.path)):
         path = os.path.basename(path)
-    return _count(len(found.includers), "includer"), nodes, f"launched by {' '.join(filter(None, (path, given)))}"
+    return counted(len(found.includers), "includer"), nodes, f"launched by {' '.join(filter(None, (path, given)))}"
 
 
 def register(server: PreflightServer) -> None:
