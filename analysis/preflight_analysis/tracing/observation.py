@@ -11,7 +11,7 @@ import re
 import signal
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any, TypeGuard, cast
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
@@ -26,6 +26,8 @@ MAX_PARAMS = 5_000
 MAX_FRAMES = 500
 MAX_FILES = 10_000
 MAX_ANSWERS = 20
+MAX_DEPTH = 20
+"""Of a default value."""
 TAIL_LINES = 20
 TAIL_COLUMNS = 500
 
@@ -38,6 +40,8 @@ _TYPE = re.compile(r"(\*|[A-Za-z]\w*/[A-Za-z]\w*)\Z")
 _MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
 _ESCAPES = re.compile(r"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[@-Z\\-_])")
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_UNSAYABLE = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff]")
+"""What neither a terminal nor UTF-8 should be given."""
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
 _LIBRARY_PARAMS = re.compile(r"/(use_sim_time|tcp_keepalive|rosout_disable_topics_generation|enable_statistics"
                              r"|statistics_window_\w+)\Z")  # fmt: skip
@@ -191,9 +195,14 @@ def _text(value: object, pattern: re.Pattern[str]) -> str | None:
     return value if isinstance(value, str) and pattern.match(value) else None
 
 
+def _is_number(value: object) -> TypeGuard[int]:
+    """Whether it is an integer that others can be told: JSON's and Python's have any size."""
+    return isinstance(value, int) and not isinstance(value, bool) and -(2**31) <= value < 2**31
+
+
 def _place(record: Mapping[str, Any]) -> tuple[str | None, int | None]:
     file, line = record.get("file"), record.get("line")
-    if _text(file, _FILE) and isinstance(line, int) and line > 0:
+    if _text(file, _FILE) and _is_number(line) and line > 0:
         return file, line
     return None, None
 
@@ -225,7 +234,7 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
             _add_files(paths(record.get("paths")), found)
         case "wrote":
             if len(found.wrote) < 100:
-                found.wrote.update((p, None) for p in paths([record.get("path")]))
+                found.wrote.update((p, None) for p in paths([record.get("path")]) if _FILE.match(p))
         case "state" if record.get("state") == "wait":
             kind, name = record.get("kind"), _text(record.get("name"), _NAME)
             if kind in ("service", "message") and name is not None:
@@ -254,7 +263,7 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
     if isinstance(given, dict):
         if isinstance(given.get("latch"), bool):
             qos["latch"] = given["latch"]
-        if given.get("queue_size") is None or isinstance(given.get("queue_size"), int):
+        if given.get("queue_size") is None or _is_number(given.get("queue_size")):
             qos["queue_size"] = given.get("queue_size")
     if role in ("service", "client"):
         qos = {}
@@ -451,11 +460,11 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...], request: Trac
         case "exec-failed":
             why = _CONTROL.sub("", str(end.get("why")))[:300]
             return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {why}", spent)
-        case "ended" if isinstance(code, int) and 0 < -code < 65:
+        case "ended" if _is_number(code) and 0 < -code < 65:
             return Outcome("crashed", None, _signal(-code), tail, _signal_reason(-code, tail), spent)
-        case "ended" if code == 0:
+        case "ended" if _is_number(code) and code == 0:
             return Outcome("exited", 0, None, tail, "the node ended by itself, with exit code 0", spent)
-        case "ended" if isinstance(code, int):
+        case "ended" if _is_number(code):
             return Outcome("crashed", code, None, tail, _crash_reason(code, tail), spent)
     return Outcome("crashed", None, None, tail, "the node garbled the report of its run", spent)
 
@@ -509,14 +518,16 @@ def _notes(found: _Gathered) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Any, depth: int = MAX_DEPTH) -> Any:
     """A default value, of JSON's types and bounded."""
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
+    if isinstance(value, int) and value.bit_length() > 64:
+        return f"a number of {value.bit_length()} bits"
     if isinstance(value, str):
-        return value[:4000]
+        return _UNSAYABLE.sub("", value[:4000])
     if isinstance(value, list):
-        return [_plain(item) for item in value[:1000]]
+        return [_plain(item, depth - 1) for item in value[:1000]] if depth else []
     if isinstance(value, dict):
-        return {str(k): _plain(v) for k, v in list(value.items())[:1000]}
+        return {_plain(k): _plain(v, depth - 1) for k, v in list(value.items())[:1000]} if depth else {}
     return value

@@ -150,6 +150,7 @@ def _execute(
         try:
             _read(process, raw, cancel, time.monotonic() + seconds + OUTER_SECONDS)
         finally:
+            raw.stderr = moved_back(raw.stderr, raw.moved)
             _end(process, prepared.isolated.leash)
             process.wait()
             for pipe in (process.stdout, process.stderr):
@@ -273,7 +274,6 @@ def _read(process: subprocess.Popen[bytes], raw: RawRun, cancel: threading.Event
                         _take(moved_back(line, raw.moved), raw)
                     # Too long already: its end is let go by, and the line counted once when it comes.
                     rest = rest[: MAX_LINE + 1]
-    raw.stderr = moved_back(raw.stderr, raw.moved)
 
 
 def moved_back(said: bytes, moved: Mapping[str, str]) -> bytes:

@@ -43,7 +43,7 @@ _SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-",
 @dataclass(frozen=True, slots=True)
 class SandboxStatus:
     """Whether nodes can be run, and by which `backend`. `reason` is a sentence that says why not and what to do about
-    it, `guarantees` what it, `guarantees` what holds where they can, one sentence each. `narrow` is as in `Backend`."""
+    it, `guarantees` what holds where they can, one sentence each. `narrow` is as in `Backend`."""
 
     works: bool
     reason: str | None = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator, Mapping
 
+from preflight_analysis.findings.report import printable
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.graph.model import Channel, Graph
 
@@ -33,7 +34,7 @@ def run(args: argparse.Namespace) -> int:
     if args.format == "json":
         print_json(graph_json(analysis.graph))
     else:
-        print_text("".join(f"{line}\n" for line in _lines(analysis.graph)))
+        print_text("".join(f"{printable(line)}\n" for line in _lines(analysis.graph)))
         say_errors(analysis)
     return exit_code(analysis, args.fail_on)
 

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.report import printable
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace_json import trace_json
 
@@ -42,7 +43,7 @@ def run(args: argparse.Namespace) -> int:
     if args.format == "json":
         print_json(trace_json(shown))
     else:
-        print_text("".join(f"{line}\n" for node, interface in shown for line in _lines(node, interface)))
+        print_text("".join(f"{printable(line)}\n" for node, interface in shown for line in _lines(node, interface)))
         say_errors(analysis)
     return exit_code(analysis, args.fail_on)
 
