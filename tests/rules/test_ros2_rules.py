@@ -322,3 +322,10 @@ def test_an_attribute_that_ros2_needs() -> None:
           </load_composable_node>
         </launch>
     """)
+
+
+def test_a_process_has_no_package() -> None:
+    check("""
+        //- /a.launch.xml
+        <launch><executable cmd="echo hello"/></launch>
+    """)

@@ -6,9 +6,13 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 
 from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.ros2.python_runs import MARK
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.tracing.schedule import run_all
+
+MAX_LAUNCH_FILES = 1_000
+"""How many runs of Python launch files are remembered, the latest."""
 
 
 class CommandResults:
@@ -31,7 +35,11 @@ class CommandResults:
 
     def update(self, results: Mapping[str, CommandResult]) -> None:
         """Take over results."""
-        self._results = {**self._results, **results}
+        merged = {**self._results, **results}
+        runs = [line for line in merged if line.startswith(MARK)]
+        for line in runs[:-MAX_LAUNCH_FILES]:  # each text that was typed is another
+            del merged[line]
+        self._results = merged
 
     def clear(self) -> None:
         """Forget all results."""
