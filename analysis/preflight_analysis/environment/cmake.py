@@ -94,6 +94,8 @@ class Build:
     """Files and folders other than programs and targets."""
     components: Mapping[str, str] = field(default_factory=dict)
     """Library by the class of each rclcpp component that it registers."""
+    component_programs: Mapping[str, str] = field(default_factory=dict)
+    """The class of the one component that an executable is made to run, by the name of the executable."""
 
     def executable(self, name: str) -> Target | None:
         """The target whose file has this name."""
@@ -217,6 +219,7 @@ class _Lists:
         self._programs: dict[str, Program] = {}
         self._installed: list[Installed] = []
         self._components: dict[str, str] = {}
+        self._component_programs: dict[str, str] = {}
         self._macros: dict[str, _Command] = {}
         self._left = _MAX_COMMANDS
 
@@ -229,6 +232,7 @@ class _Lists:
             self._programs,
             tuple(self._installed),
             self._components,
+            self._component_programs,
         )
 
     def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> None:
@@ -282,6 +286,8 @@ class _Lists:
                 variables["PROJECT_SOURCE_DIR"] = variables[f"{project}_SOURCE_DIR"] = folder
                 if folder == self._top:
                     variables["CMAKE_PROJECT_NAME"] = project
+            case "cmake_parse_arguments", [prefix, options, ones, many, *given]:
+                variables.update(_parsed(prefix, options, ones, many, given))
             case "set", [variable, *values]:
                 if "CACHE" in values:
                     values = values[: values.index("CACHE")]
@@ -353,9 +359,11 @@ class _Lists:
 
     def _component(self, target: str, words: Sequence[str]) -> None:
         """A component that has an executable of its own as well."""
-        self._components[words[words.index("PLUGIN") + 1]] = target
+        plugin = words[words.index("PLUGIN") + 1]
+        self._components[plugin] = target
         if "EXECUTABLE" in words[:-1] and target in self._targets:
             name = words[words.index("EXECUTABLE") + 1]
+            self._component_programs[name] = plugin
             self._targets.setdefault(name, _Making(name, "executable", list(self._targets[target].sources), [target]))
 
     def _data(self, words: Sequence[str], folder: str, *, whole: bool) -> None:
@@ -398,6 +406,22 @@ def _expanded(text: str, variables: Mapping[str, str]) -> str:
             break
         text = new[:_MAX_TEXT]
     return text
+
+
+def _parsed(prefix: str, options: str, ones: str, many: str, given: Sequence[str]) -> dict[str, str]:
+    """What `cmake_parse_arguments` sets: each keyword's words, under its name with the prefix."""
+    keywords = dict.fromkeys(options.split(";"), 0) | dict.fromkeys(ones.split(";"), 1)
+    keywords |= dict.fromkeys(many.split(";"), _MAX_COMMANDS)
+    found: dict[str, list[str]] = {word: [] for word in keywords if word}
+    current, left = "", 0
+    for word in given:
+        if word in found:
+            current, left = word, keywords[word]
+            found[word] = found[word] if left else ["TRUE"]
+        elif left:
+            found[current].append(word)
+            left -= 1
+    return {f"{prefix}_{word}": _joined(words) for word, words in found.items()}
 
 
 def _joined(values: Sequence[str] | Iterator[str]) -> str:

@@ -134,6 +134,8 @@ class SourceAnalysis:
                 calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type, config)
                 walk(file, tree, program.load, calls)
                 found = calls.found
+        elif self._generation(node) == 2:
+            found = self._cpp.read_ros2((node.name, node.package, node.executable), args, asked, text, node.plugin)
         else:
             found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text, config)
         return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params))

@@ -12,6 +12,8 @@ from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.cpp_walk import walk_class, walk_main
 from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.rclcpp_calls import LIBRARIES as RCLCPP_LIBRARIES
+from preflight_analysis.source.rclcpp_calls import RclcppCalls
 from preflight_analysis.source.roscpp_calls import LIBRARIES, RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
 from preflight_analysis.tracing.nodelets import nodelet_of
@@ -54,6 +56,33 @@ class CppAnalysis:
             for loaded in calls.nodelets:
                 calls.loaded = loaded
                 self._nodelet(files, loaded.plugin, calls)
+        return calls.found
+
+    def read_ros2(
+        self,
+        node: tuple[str, str, str],
+        args: Sequence[str],
+        params: KnownParams,
+        text: Callable[[str], tuple[str, str] | None],
+        plugin: str | None,
+    ) -> Found:
+        """What a node of ROS 2 makes, `plugin` if it is a component that is loaded into a container."""
+        name, package, executable = node
+        files = CppFiles(
+            self._packages,
+            lambda path: (text(path) or (None, ""))[0],
+            lambda path: self._file(path, text),
+            RCLCPP_LIBRARIES,
+        )
+        calls = RclcppCalls(name, params, self._has_type)
+        cls = plugin or files.build(package).component_programs.get(executable)
+        program = files.component(package, cls) if cls is not None else files.executable(package, executable)
+        if program is not None:
+            calls.includes = program.includes
+            if cls is not None:
+                walk_class(program, cls.removeprefix("::"), None, calls)
+            else:
+                walk_main(program, (executable, *args), calls)
         return calls.found
 
     def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:

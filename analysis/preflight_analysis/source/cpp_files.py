@@ -6,6 +6,7 @@ Headers of packages in source form are followed, and with a header of another pa
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import PurePath
 
@@ -20,6 +21,7 @@ MAX_FILES = 200
 """How many files of one program are looked at."""
 
 _PLUGIN_FILES = 10
+_REGISTERED = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:::)?([\w:]+)\s*\)")
 _PLUGINS = frozenset({"nodelet", "pluginlib"})
 
 
@@ -51,6 +53,19 @@ class CppFiles:
         """The program that an executable of a package is built from."""
         target = self.build(package).executable(name)
         return self._program(package, target) if target is not None else None
+
+    def component(self, package: str, cls: str) -> CppProgram | None:
+        """The program with the class that a package registers as an rclcpp component."""
+        build = self.build(package)
+        target = build.targets.get(build.components.get(cls, ""))
+        if target is None:  # by a macro of the package's own, for instance
+            libraries = (each for each in build.targets.values() if each.kind == "library")
+            target = next((each for each in libraries if self._registers(each, cls)), None)
+        return self._program(package, target) if target is not None else None
+
+    def _registers(self, target: Target, cls: str) -> bool:
+        texts = (self._read(source) or "" for source in target.sources)
+        return any(found[1] == cls for text in texts for found in _REGISTERED.finditer(text))
 
     def plugin(self, name: str, base: str) -> tuple[CppProgram, str] | None:
         """The program with the class that a plugin `package/Name` is, and the name of the class."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from preflight_analysis.source.cpp_values import Stream
+from preflight_analysis.source.cpp_values import Constant, CppType, Stream
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 
 MAX_TEXT = 4_096
 MAX_ITEMS = 64
 _LARGEST = 2**63
+_WHOLE = frozenset({"int", "long", "short", "size_t", "int32_t", "int64_t", "uint32_t", "uint64_t", "unsigned int"})
 _STRING = frozenset({"c_str", "data", "str", "string"})
 
 
@@ -19,12 +20,24 @@ def truth(value: Any) -> bool | None:
     return bool(value) if value is None or isinstance(value, (bool, int, float)) else None
 
 
+def converted(value: Any, type_: CppType | None) -> Any:
+    """A number as a variable of that type holds it."""
+    if type_ is None or isinstance(value, bool) or not isinstance(value, (int, float)):
+        return value
+    name = type_.name.removeprefix("std::")
+    if name in ("double", "float"):
+        return float(value)
+    return int(value) if isinstance(value, float) and name in _WHOLE and abs(value) < _LARGEST else value
+
+
 def binary(operator: str, left: Any, right: Any) -> Any:
     """`left operator right`; `&&` and `||` are not among them."""
     if operator == "<<" and isinstance(left, Stream):
         if len(left.parts) < MAX_ITEMS:
             left.parts.append(right if is_plain(right) else UNKNOWN)
         return left
+    if isinstance(left, Constant) and isinstance(right, Constant) and operator in ("==", "!="):
+        return (left == right) is (operator == "==")
     if isinstance(left, (list, dict)) or not (is_plain(left) and is_plain(right)):
         return UNKNOWN
     try:

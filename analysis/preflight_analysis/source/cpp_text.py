@@ -14,8 +14,11 @@ MAX_CHARACTERS = 1_000_000
 _MAX_DEPTH = 40
 _LANGUAGE = Language(tree_sitter_cpp.language())
 _parsing = threading.Lock()
-_MACROS = re.compile(r"\b(?:Q_OBJECT|Q_GADGET|EIGEN_MAKE_ALIGNED_OPERATOR_NEW)\b")
-"""What stands in a class without a semicolon, which the parser takes for the start of what follows."""
+_MACROS = re.compile(
+    r"\b(?:Q_OBJECT|Q_GADGET|EIGEN_MAKE_ALIGNED_OPERATOR_NEW|[A-Z][A-Z0-9_]*_(?:PUBLIC|EXPORT|LOCAL)"
+    r"|RCLCPP_\w+_DEFINITIONS(?:_NOT_COPYABLE)?\(\s*[\w:]+\s*\))(?!\w)(?!\s*\()"
+)
+"""What stands in a class without a semicolon, or in front of a name, and the parser takes for a part of it."""
 
 CONDITIONAL = frozenset({"preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "preproc_elifdef"})
 """What stands between `#if` and `#endif` is in them; it may be anything that may stand around them."""

@@ -101,6 +101,19 @@ class Function:
     is_method: bool = False
 
 
+class Fluent:
+    """A value of a library whose methods give it as they changed it: the variable that holds it changes too."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """One of the values of a library's enumeration, by its own name."""
+
+    name: str
+
+
 @dataclass(frozen=True, slots=True)
 class Placeholder:
     """The `_1` of a `bind`."""
@@ -141,6 +154,19 @@ class Calls(Protocol):
     @property
     def words(self) -> frozenset[str]:
         """Names of which one stands wherever there is something to tell: callbacks without one are left out."""
+
+    def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
+        """Whether a call is told here although the program has the function: what it does is known. `owner` is None
+        for a free function."""
+
+    def cut_short(self) -> None:
+        """Not all of the program is gone through that may lead to a call."""
+
+    def named(self, name: str) -> Any:
+        """What a qualified name stands for that is not of the program."""
+
+    def called_later(self, instance: Instance) -> Sequence[str]:
+        """The methods of an object of the program that a base class of a library calls once it is there."""
 
     def make(self, type_: CppType, args: Sequence[Argument], place: Place) -> Any:
         """An object of a class that is not of the program."""

@@ -18,6 +18,7 @@ from tree_sitter import Node
 from preflight_analysis.source.cpp_operators import (
     MAX_ITEMS,
     binary,
+    converted,
     item,
     items_method,
     number,
@@ -49,6 +50,7 @@ from preflight_analysis.source.cpp_values import (
     Calls,
     Class,
     CppType,
+    Fluent,
     Function,
     Instance,
     Place,
@@ -66,7 +68,7 @@ from preflight_analysis.source.ways import ExitError, Ways, same
 MAX_STEPS = 80_000
 _MAX_DEPTH = 30
 _MAX_NESTING = 150
-_MAX_VISITS = 40
+_MAX_VISITS = 100
 _MAX_WAITING = 500
 _MAX_TURNS = 64
 _FEW_TURNS = 8
@@ -82,6 +84,8 @@ _SAME = frozenset({"ref", "cref", "move", "forward", "dynamic_pointer_cast", "st
 _MAKERS = frozenset({"make_shared", "make_unique"})
 _PLACEHOLDER = re.compile(r"_\d\Z")
 _FOREVER = frozenset({"(true)", "(1)"})
+_DELEGATED = ""
+"""What stands among the names of bases and members for another constructor of the class."""
 _EXITS = frozenset({"exit", "_exit", "abort", "quick_exit"})
 
 
@@ -98,8 +102,9 @@ def walk_main(program: CppProgram, argv: Sequence[str], calls: Calls) -> bool:
     return True
 
 
-def walk_class(program: CppProgram, name: str, method: str, calls: Calls) -> bool:
-    """Make an object of a class of the program and call a method of it. False if there is no such class."""
+def walk_class(program: CppProgram, name: str, method: str | None, calls: Calls) -> bool:
+    """Make an object of a class of the program, and call a method of it if one is given. False if there is no such
+    class."""
     return _Walk(program, calls).made(tuple(name.split("::")), method)
 
 
@@ -118,7 +123,7 @@ class _Walk:
         self._leading = program.leading_to(calls.words)
         self._late = False
         """Whether only callbacks are left: what leads to no call of a library is left out then."""
-        self._turns: dict[int, int] = {}
+        self._known_leading: dict[int, bool] = {}
         self._steps = 0
         self._depth = 0
         self._nesting = 0
@@ -127,26 +132,34 @@ class _Walk:
         try:
             with contextlib.suppress(ExitError):
                 self._call_text(function, instance, [Argument(arg) for arg in args], {})
-            self._late = True
-            for waiting in self._waiting:  # grows while it is gone through
-                body = waiting.text.body if waiting.text is not None else waiting.body
-                if body is not None and not self._visits.get(body.id):
-                    with contextlib.suppress(ExitError):
-                        self._call_value(waiting, [])
+            self._callbacks()
         except (_TooLargeError, RecursionError):
-            return
+            self._calls.cut_short()
 
-    def made(self, path: Path, method: str) -> bool:
+    def _callbacks(self) -> None:
+        self._late = True
+        for waiting in self._waiting:  # grows while it is gone through
+            body = waiting.text.body if waiting.text is not None else waiting.body
+            if body is not None and not self._visits.get(body.id):
+                with contextlib.suppress(ExitError):
+                    self._call_value(waiting, [])
+
+    def made(self, path: Path, method: str | None) -> bool:
         text = self._program.classes.get(path) or self._program.lookup(self._program.classes, path[-1:], path[:-1])
         if text is None:
             return False
         cls = self._class(CppType("::".join(text.path)))
         if cls is None:
             return False
-        instance = Instance(cls)
         try:
-            self._construct(instance, cls, [])
-        except (ExitError, _TooLargeError, RecursionError):
+            instance = self._object(cls, [Argument(UNKNOWN)] if method is None else [])
+            if method is None:
+                self._callbacks()
+                return True
+        except ExitError:
+            return True
+        except (_TooLargeError, RecursionError):
+            self._calls.cut_short()
             return True
         found = self._method(instance, method, 0)
         if found is None:
@@ -193,6 +206,10 @@ class _Walk:
                     type_ = self._type(type_node, scope)
                     if type_ is not None:
                         scope.types[name] = type_
+            case "using_declaration":
+                path = path_of(first_child(node))
+                if len(path) > 1 and all(c.type != "namespace" for c in node.children):
+                    scope.types[path[-1]] = self._program.named_type(path, (), scope)
             case "preproc_if" if text_of(node.child_by_field_name("condition")) == "0":
                 other = node.child_by_field_name("alternative")
                 return other is not None and self._statement(other, scope)
@@ -266,7 +283,7 @@ class _Walk:
             return self._make(type_, self._arguments(node, scope), place, scope)
         value = self._value(node, scope)
         if type_ is None or type_.name in _PRIMITIVES:
-            return value
+            return converted(value, type_)
         if isinstance(value, list) and _standard(type_.name) in _LISTS | _MAPS:
             return self._make(type_, [Argument(value)], place, scope)
         return Unmade(type_) if value is UNKNOWN and _standard(type_.name) != "std::string" else value
@@ -322,10 +339,13 @@ class _Walk:
 
     def _most_turns(self, body: Node) -> int:
         """How often a loop is gone through: only where a library is called a large number is worth it."""
-        if body.id not in self._turns:
-            leads = any(word in self._leading for word in words_in(body))
-            self._turns[body.id] = _MAX_TURNS if leads else _FEW_TURNS
-        return self._turns[body.id]
+        return _MAX_TURNS if self._leads(body) else _FEW_TURNS
+
+    def _leads(self, body: Node) -> bool:
+        """Whether something of a library may be called in it."""
+        if body.id not in self._known_leading:
+            self._known_leading[body.id] = not self._leading.isdisjoint(words_in(body))
+        return self._known_leading[body.id]
 
     def _once(self, body: Node, scope: Scope) -> None:
         """Go through what may be done any number of times."""
@@ -414,7 +434,10 @@ class _Walk:
             return self._macro(path[0], scope)
         if _PLACEHOLDER.match(path[-1]):
             return Placeholder(int(path[-1][1:]))
-        return self._function(path, scope) or UNKNOWN
+        function = self._function(path, scope)
+        if function is not None:
+            return function
+        return self._calls.named("::".join(path))
 
     def _variable(self, path: Path, scope: Scope) -> Reference | None:
         """The variable of a name, if it is one."""
@@ -513,6 +536,9 @@ class _Walk:
             case "concatenated_string":
                 parts = [self._value(child, scope) for child in node.named_children if child.type != "comment"]
                 return "".join(parts) if all(isinstance(part, str) for part in parts) else UNKNOWN
+            case "char_literal":
+                text = text_of(node)
+                return text[1] if len(text) == 3 else UNKNOWN
             case "number_literal":
                 return number(text_of(node))
             case "true" | "false":
@@ -610,6 +636,12 @@ class _Walk:
                 self._ways.store(owner, key, value)
             return value
         reference = self._lvalue(target, scope)
+        if target is not None and target.type == "field_expression" and reference is None:
+            inside = target.child_by_field_name("argument")
+            if isinstance(self._value(inside, scope), Fluent):
+                self._changed(inside, UNKNOWN, scope)  # a field of it, of which nothing is known
+            elif isinstance(value, Function) and len(self._waiting) < _MAX_WAITING:
+                self._waiting.append(value)  # a callback among the options of something
         if reference is not None:
             if isinstance(value, list):
                 value = list(value)
@@ -660,9 +692,9 @@ class _Walk:
         if name == "std::string":
             return "" if not args else first if isinstance(first, str) and len(args) == 1 else UNKNOWN
         if name in _PRIMITIVES:
-            return first if len(args) == 1 else UNKNOWN
+            return converted(first, type_) if len(args) == 1 else UNKNOWN
         if name in _LISTS:
-            return [] if not args else list(first) if len(args) == 1 and isinstance(first, list) else UNKNOWN
+            return _listed(type_, args)
         if name in _MAPS:
             pairs = first if args and isinstance(first, list) else []
             known = {p[0]: p[1] for p in pairs if isinstance(p, list) and len(p) == 2 and isinstance(p[0], (str, int))}
@@ -674,12 +706,20 @@ class _Walk:
             copied = len(args) == 1 and isinstance(first, Instance) and cls in first.cls.order()
             if copied and not self._has_constructor(cls, 1):
                 return first
-            instance = Instance(cls)
-            self._construct(instance, cls, args)
-            return instance
+            return self._object(cls, args)
         if last in _SMART or last.endswith("Ptr") or name in _CALLABLE:
             return first if args else Unmade(_pointed(type_))
         return self._calls.make(type_, args, place)
+
+    def _object(self, cls: Class, args: list[Argument]) -> Instance:
+        """A new object, with what its library does with it before anything else."""
+        instance = Instance(cls)
+        self._construct(instance, cls, args)
+        for name in self._calls.called_later(instance):
+            text = self._method(instance, name, None)
+            if text is not None:
+                self._call_text(text, instance, [], {})
+        return instance
 
     def _has_constructor(self, cls: Class, arity: int) -> bool:
         return _fitting(self._program.functions.get((*cls.text.path, cls.text.name), ()), arity) is not None
@@ -700,10 +740,10 @@ class _Walk:
             if text is not None:
                 types |= dict(zip(text.template, cls.types.values(), strict=False))
                 self._bind(text, args, scope)
-                inits = _initializers(text.initializers)
-            if cls.text.name in inits:  # another constructor of the same class
+                inits = _initializers(text.initializers, cls.text.path)
+            if _DELEGATED in inits:  # another constructor of the same class
                 self._active.discard(key)
-                self._construct(instance, cls, self._arguments(inits[cls.text.name], scope))
+                self._construct(instance, cls, self._arguments(inits[_DELEGATED], scope))
                 self._active.add(key)
             else:
                 self._bases(instance, cls, inits, scope)
@@ -785,9 +825,9 @@ class _Walk:
     ) -> Any:
         name = path[-1]
         if name in _CASTS or name in _SAME:
-            return value_at(args, 0)
-        if name in _MAKERS and types:
-            return self._make(types[0], args, place, scope)
+            return converted(value_at(args, 0), types[0] if types else None)
+        if name in _MAKERS and (types or len(path) > 1):
+            return self._make(types[0] if types else self._program.named_type(path[:-1], (), scope), args, place, scope)
         if name == "bind":
             return _bound(args)
         if name in _EXITS and path[0] in (name, "std"):
@@ -800,7 +840,8 @@ class _Walk:
             held = variable.names.get(variable.name) if variable is not None else None
             if isinstance(held, Function):
                 return self._call_value(held, args)
-        function = self._function(path, scope, len(args))
+        taken = self._calls.takes(None if len(path) > 1 else scope.this, name, types, args)
+        function = self._function(path, scope, len(args)) if not taken else None
         if function is not None and function.text is not None:
             return self._call_text(function.text, function.instance, args, self._given(function.text, types))
         type_ = self._type(callee, scope)
@@ -834,9 +875,9 @@ class _Walk:
         if not path:
             return UNKNOWN
         name = path[-1]
-        if name == "get" and not args and not isinstance(owner, (str, list, dict)):
+        if name == "get" and not args and not types and not isinstance(owner, (str, list, dict)):
             return owner
-        if isinstance(owner, Instance):
+        if isinstance(owner, Instance) and not self._calls.takes(owner, name, types, args):
             text = self._method(owner, name, len(args))
             if text is not None:
                 return self._call_text(text, owner, args, self._given(text, types))
@@ -858,7 +899,19 @@ class _Walk:
             self._may_be_set(path, args)
         if owner is UNKNOWN:
             return UNKNOWN
-        return self._library_method(owner, name, types, args, place)
+        found = self._library_method(owner, name, types, args, place)
+        if isinstance(owner, Fluent) and isinstance(found, type(owner)):
+            self._changed(target, found, scope)
+        return found
+
+    def _changed(self, node: Node | None, value: Any, scope: Scope) -> None:
+        """Store what the variable holds now on which `a.f().g()` was called."""
+        while node is not None and node.type == "call_expression":
+            callee = node.child_by_field_name("function")
+            node = callee.child_by_field_name("argument") if callee is not None else None
+        reference = self._lvalue(node, scope)
+        if reference is not None:
+            self._ways.store(reference.names, reference.name, value)
 
     def _stream(self, stream: Stream, name: str, args: list[Argument]) -> Any:
         if name == "str":
@@ -915,7 +968,11 @@ class _Walk:
 
     def _returned(self, body: Node, scope: Scope) -> Any:
         key = body.id
-        if key in self._active or self._depth > _MAX_DEPTH or self._visits.get(key, 0) >= _MAX_VISITS:
+        if key in self._active:
+            return UNKNOWN
+        if self._depth > _MAX_DEPTH or self._visits.get(key, 0) >= _MAX_VISITS:
+            if self._leads(body):
+                self._calls.cut_short()
             return UNKNOWN
         self._active.add(key)
         self._depth += 1
@@ -973,6 +1030,15 @@ def _pointed(type_: CppType) -> CppType:
     return type_.args[0] if type_.args and type_.name.rpartition("::")[2] in _SMART else type_
 
 
+def _listed(type_: CppType, args: list[Argument]) -> Any:
+    """A container of the items that are given."""
+    first = value_at(args, 0)
+    if not args:
+        return []
+    kind = type_.args[0] if type_.args else None
+    return [converted(each, kind) for each in first] if len(args) == 1 and isinstance(first, list) else UNKNOWN
+
+
 def _standard(name: str) -> str:
     """`std::string` of `string`, where all of `std` is used."""
     return f"std::{name}" if f"std::{name}" in _OWN else name
@@ -990,14 +1056,16 @@ def _fitting(functions: Sequence[FunctionText], arity: int | None) -> FunctionTe
     return min((f for f in found if len(f.parameters) > arity), key=lambda f: len(f.parameters), default=None)
 
 
-def _initializers(node: Node | None) -> dict[str, Node]:
-    """What a constructor initialises its bases and members with, by their last name."""
+def _initializers(node: Node | None, cls: Path) -> dict[str, Node]:
+    """What a constructor initialises its bases and members with, by their last name; a base may be called as the class
+    is in another namespace."""
     found: dict[str, Node] = {}
     for child in node.named_children if node is not None else ():
         if child.type == "field_initializer" and child.named_child_count > 1:
             listed = child.named_children[-1]
             if listed.type in ("argument_list", "initializer_list"):
-                found[path_of(child.named_children[0])[-1]] = listed
+                path = path_of(child.named_children[0])
+                found[_DELEGATED if path == cls[-len(path) :] else path[-1]] = listed
     return found
 
 

@@ -198,7 +198,22 @@ class RoscppCalls:
         self.loaded: Loaded | None = None
         """The one of them whose calls are collected."""
 
+    def cut_short(self) -> None:
+        """Nothing: what is found is never taken for all."""
+
+    def takes(self, *_: object) -> bool:
+        """No."""
+        return False
+
     # Objects.
+
+    def named(self, _: str) -> Any:
+        """Nothing: no name of roscpp decides what a node makes."""
+        return UNKNOWN
+
+    def called_later(self, _: Instance) -> Sequence[str]:
+        """None: a nodelet's `onInit` is what its walk starts with."""
+        return ()
 
     def make(self, type_: CppType, args: Sequence[Argument], place: Place) -> Any:
         """An object of a library's class, and what its constructor makes."""
