@@ -151,10 +151,10 @@ def test_a_component_that_is_not_registered(tmp_path: Path) -> None:
     findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG006"]
     assert [(f.severity, f.message) for f in findings] == [
         (
-            "warning",
+            "error",
             "package 'vision' registers no component 'Tracker'; it registers 2; did you mean 'vision::Tracker'?",
         ),
-        ("info", "package 'vision' registers no component 'vision::Segmentation'; it registers 2"),
+        ("warning", "package 'vision' registers no component 'vision::Segmentation'; it registers 2"),
     ]
 
 

@@ -21,6 +21,7 @@ from preflight_analysis.environment.shares import cmake_build, python_build
 from preflight_analysis.environment.walk import walk
 from preflight_analysis.evaluation.tree import Executable
 
+_COMPONENTS = os.path.join("share", "ament_index", "resource_index", "rclcpp_components")
 _RUNNABLE = stat.S_IRUSR | stat.S_IXUSR
 
 
@@ -35,6 +36,7 @@ class ExecutableIndex:
         self._targets: dict[str, frozenset[str]] = {}
         self._names: dict[str, tuple[str, ...]] = {}
         self._builds: dict[str, Build] = {}
+        self._components: dict[str, tuple[str, ...]] = {}
 
     def find(self, package: str, name: str) -> Executable:
         """What a node of this `pkg` and `type` runs.
@@ -130,6 +132,18 @@ class ExecutableIndex:
                         names.add(name)
             self._names[package] = tuple(sorted(names))
         return self._names[package]
+
+    def components(self, package: str) -> tuple[str, ...]:
+        """The classes of the package that a container can load, as the prefixes list them and as its `CMakeLists.txt`
+        registers them, sorted; empty where nothing of that is known."""
+        if package not in self._components:
+            found = set(self._build(package).components)
+            for prefix in self._environment.ament_prefixes:
+                listed = read_text(os.path.join(prefix, _COMPONENTS, package))
+                if isinstance(listed, Text):
+                    found |= {line.partition(";")[0].strip() for line in listed.text.splitlines()}
+            self._components[package] = tuple(sorted(found - {""}))
+        return self._components[package]
 
     def _folders(self, package: str, share: str) -> Iterator[str]:
         spaces = (*self._environment.devel_spaces, *self._environment.system_prefixes)

@@ -1,9 +1,8 @@
 """PKG006: a component that its package does not register (ROS 2)."""
 
-import os
 from collections.abc import Iterator
 
-from preflight_analysis.environment.shares import cmake_build
+from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
@@ -12,14 +11,13 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    executables = context.executables or ExecutableIndex(context.environment)
     for node in context.tree.nodes:
         if node.kind != "composable" or not node.plugin or node.unknowns:
             continue
-        package = context.environment.packages.get(node.package)
-        if package is None or not os.path.isfile(os.path.join(package.share, "CMakeLists.txt")):
-            continue
-        registered = cmake_build(package).components
-        if not registered or node.plugin in registered:
+        registered = executables.components(node.package)
+        # A word of the build files that is not understood as a registration may well be one.
+        if not registered or node.plugin in registered or executables.is_build_target(node.package, node.plugin):
             continue
         near = nearest(node.plugin, registered) or nearest(node.plugin, registered, key=_class)
         location = attribute_location(node, "plugin")
@@ -27,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"package '{node.package}' registers no component '{node.plugin}'; it registers {len(registered)}"
             f"{did_you_mean(near)}",
             location,
-            severity="warning" if near else "info",
+            severity=None if near else "warning",
             confidence="likely",
             related=include_chain(node.origin),
             fixes=rename(context, location, node.plugin, near) if near else (),
@@ -41,10 +39,11 @@ def _class(name: str) -> str:
 RULE = Rule(
     id="PKG006",
     name="component-not-registered",
-    severity="warning",
-    what="Reports the plugin of a `<composable_node>` that is not among those that the `CMakeLists.txt` of its package "
-    "registers with `rclcpp_components_register_node`, and names the nearest of these. Packages that are only "
-    "installed, or register none there, are left alone (ROS 2).",
+    severity="error",
+    what="Reports the plugin of a `<composable_node>` that is not among those that its package registers, and names "
+    "the nearest of these: those that the prefix of an installed package lists, or that the `CMakeLists.txt` of one in "
+    "the workspace names in `rclcpp_components_register_node(s)`. Packages of which no component is known are left alone "
+    "(ROS 2).",
     why="The container says `Failed to find class with the requested plugin name` and goes on without it.",
     example='<composable_node pkg="vision" plugin="Detector" name="detector"/>\n'
     '<!-- rclcpp_components_register_nodes(detector "vision::Detector") -->',

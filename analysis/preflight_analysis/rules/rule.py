@@ -29,6 +29,9 @@ class ExecutableNames(Protocol):
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether building the package will make the executable."""
 
+    def components(self, package: str) -> tuple[str, ...]:
+        """The classes that a container can load of the package, sorted; empty where nothing is known of them."""
+
     def made_of(self, package: str, name: str) -> Made | None:
         """The file in the source of the package that the executable is made of, once it is built or installed."""
 

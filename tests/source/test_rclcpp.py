@@ -1,0 +1,327 @@
+"""What rclcpp nodes do, read from their source."""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.tracing.interface import NOT_RUN, Interface
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+
+MANIFEST = "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
+CMAKE = "project(p)\nadd_executable(t src/t.cpp)\n"
+HEAD = """#include "rclcpp/rclcpp.hpp"
+#include "std_msgs/msg/string.hpp"
+"""
+NODE = '<node pkg="p" exec="t" name="n">{inner}</node>'
+Ends = list[tuple[str, str, str | None]]
+
+
+class Desk:
+    """A workspace that was never built, with one package."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.write("package.xml", MANIFEST)
+        self.write("CMakeLists.txt", CMAKE)
+
+    def write(self, name: str, text: str) -> None:
+        path = self.folder / "src/p" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+
+    def start(self, launch: str) -> tuple[Interface, list[Finding]]:
+        self.write("main.launch.xml", f"<launch>{launch}</launch>")
+        environment = detect_environment(str(self.folder), {}, root=str(self.folder / "nothing"))
+        workspace = Workspace(environment, Sources())
+        analysis = workspace.static(str(self.folder / "src/p/main.launch.xml"))
+        done = workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), "not run here")
+        assert done.graph is not None
+        return done.graph.interfaces[-1], list(done.findings)
+
+    def read(self, text: str, inner: str = "", node: str = NODE) -> Interface:
+        self.write("src/t.cpp", HEAD + textwrap.dedent(text))
+        return self.start(node.format(inner=inner))[0]
+
+    def main(self, body: str, inner: str = "", before: str = "") -> Interface:
+        start = "int main(int argc, char ** argv) {\nrclcpp::init(argc, argv);\n"
+        made = 'auto node = rclcpp::Node::make_shared("t");\n'
+        return self.read(f"{before}\n{start}{made}{textwrap.dedent(body)}\nrclcpp::spin(node);\n}}\n", inner)
+
+
+def ends(found: Interface) -> Ends:
+    return [(e.role, e.name, e.type) for e in found.endpoints]
+
+
+def params(found: Interface) -> dict[str, Any]:
+    return {use.name: use.default for use in found.params}
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    return Desk(tmp_path)
+
+
+CLASS = """
+#include "rclcpp_action/rclcpp_action.hpp"
+#include "nav2_msgs/action/navigate_to_pose.hpp"
+#include "sensor_msgs/msg/laser_scan.hpp"
+#include "std_srvs/srv/empty.hpp"
+using std::placeholders::_1;
+namespace p {
+class Driver : public rclcpp::Node {
+public:
+  using Navigate = nav2_msgs::action::NavigateToPose;
+  explicit Driver(const rclcpp::NodeOptions & options = rclcpp::NodeOptions()) : Node("driver", options) {
+    this->declare_parameter("cmd_topic", "cmd_vel");
+    declare_parameter<double>("limits.speed", 2);
+    auto enabled = declare_parameter<bool>("service", true);
+    std::string topic = this->get_parameter("cmd_topic").as_string();
+    auto latched = rclcpp::QoS(1);
+    latched.transient_local();
+    maps_ = create_publisher<std_msgs::msg::String>("map", latched);
+    scans_ = this->create_subscription<sensor_msgs::msg::LaserScan>(
+      "scan", rclcpp::SensorDataQoS(), std::bind(&Driver::heard, this, _1));
+    commands_ = create_subscription<std_msgs::msg::String>(topic, 10, [this](std_msgs::msg::String::SharedPtr) {});
+    server_ = rclcpp_action::create_server<Navigate>(this, "navigate", nullptr, nullptr, nullptr);
+    if (enabled) {
+      service_ = create_service<std_srvs::srv::Empty>("~/reset", nullptr);
+    }
+  }
+private:
+  void heard(const sensor_msgs::msg::LaserScan & scan) {
+    client_ = create_client<std_srvs::srv::Empty>("/global/reset");
+  }
+  rclcpp::Publisher<std_msgs::msg::String>::SharedPtr maps_;
+};
+}
+"""
+MAIN = "int main(int argc, char ** argv) { rclcpp::init(argc, argv); rclcpp::spin(std::make_shared<p::Driver>()); }\n"
+DRIVER = [
+    ("publisher", "map", "std_msgs/msg/String"),
+    ("subscriber", "scan", "sensor_msgs/msg/LaserScan"),
+    ("subscriber", "cmd_vel", "std_msgs/msg/String"),
+    ("action_server", "navigate", "nav2_msgs/action/NavigateToPose"),
+    ("service", "~/reset", "std_srvs/srv/Empty"),
+    ("client", "/global/reset", "std_srvs/srv/Empty"),
+]
+
+
+def test_a_node_of_a_class_of_its_own(desk: Desk) -> None:
+    found = desk.read(CLASS + MAIN)
+    assert found.source == "source"
+    assert ends(found) == DRIVER
+    assert all(e.inferred for e in found.endpoints)
+    assert params(found) == {"~cmd_topic": "cmd_vel", "~limits.speed": 2.0, "~service": True}
+    assert {e.name: dict(e.qos) for e in found.endpoints if e.qos} == {
+        "map": {"reliability": "reliable", "durability": "transient_local", "depth": 1},
+        "scan": {"reliability": "best_effort", "durability": "volatile", "depth": 5},
+        "cmd_vel": {"reliability": "reliable", "durability": "volatile", "depth": 10},
+    }
+    line = next(e.source_line for e in found.endpoints if e.name == "map")
+    assert (HEAD + CLASS).splitlines()[(line or 0) - 1].strip().startswith("maps_ =")
+
+
+def test_what_the_launch_file_sets_decides(desk: Desk) -> None:
+    found = desk.read(CLASS + MAIN, '<param name="service" value="false"/><param name="cmd_topic" value="drive"/>')
+    names = [e.name for e in found.endpoints]
+    assert "drive" in names and "cmd_vel" not in names and "~/reset" not in names
+
+
+COMPONENT = """<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="">
+<composable_node pkg="p" plugin="{plugin}" name="driver"/></node_container>"""
+REGISTER = "#include <rclcpp_components/register_node_macro.hpp>\nRCLCPP_COMPONENTS_REGISTER_NODE(p::Driver)\n"
+LIBRARY = """project(p)
+add_library(driver SHARED src/t.cpp)
+rclcpp_components_register_node(driver PLUGIN "${PROJECT_NAME}::Driver" EXECUTABLE t)
+"""
+
+
+def test_a_component(desk: Desk) -> None:
+    desk.write("CMakeLists.txt", LIBRARY)
+    assert ends(desk.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
+
+
+def test_the_executable_of_a_component(desk: Desk) -> None:
+    desk.write("CMakeLists.txt", LIBRARY)
+    assert ends(desk.read(CLASS + REGISTER)) == DRIVER
+    _, findings = desk.start(NODE.format(inner=""))
+    assert [(f.rule, f.severity) for f in findings if f.rule == "PKG002"] == [("PKG002", "info")]
+
+
+def test_a_component_that_only_its_source_tells_of(desk: Desk) -> None:
+    desk.write("CMakeLists.txt", "project(p)\nadd_library(driver SHARED src/t.cpp)\nour_macro(driver)\n")
+    assert ends(desk.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
+
+
+def test_targets_made_by_a_function_with_keywords(desk: Desk) -> None:
+    desk.write(
+        "CMakeLists.txt",
+        """
+        function(our_library plugin executable)
+          cmake_parse_arguments(ARG "" "" "FILES;DEPENDENCIES" ${ARGN})
+          set(library ${executable}_library)
+          add_library(${library} SHARED ${ARG_FILES})
+          rclcpp_components_register_node(${library} PLUGIN ${plugin} EXECUTABLE ${executable})
+        endfunction()
+        our_library("p::Driver" t FILES src/t.cpp DEPENDENCIES rclcpp::rclcpp)
+        """,
+    )
+    assert ends(desk.read(CLASS + REGISTER)) == DRIVER
+
+
+LIFECYCLE = """
+#include "rclcpp_lifecycle/lifecycle_node.hpp"
+class Talker : public rclcpp_lifecycle::LifecycleNode {
+public:
+  Talker() : rclcpp_lifecycle::LifecycleNode("talker") {}
+  CallbackReturn on_configure(const rclcpp_lifecycle::State &) override {
+    auto node = shared_from_this();
+    pub_ = node->create_publisher<std_msgs::msg::String>(topic(), rclcpp::QoS(rclcpp::KeepLast(3)).best_effort());
+    return CallbackReturn::SUCCESS;
+  }
+private:
+  std::string topic() { return prefix_ + "/chatter"; }
+  std::string prefix_{"robot"};
+};
+int main(int, char **) { auto node = std::make_shared<Talker>(); rclcpp::spin(node->get_node_base_interface()); }
+"""
+
+
+def test_what_a_lifecycle_node_makes_once_it_is_configured(desk: Desk) -> None:
+    found = desk.read(LIFECYCLE)
+    assert ends(found) == [("publisher", "robot/chatter", "std_msgs/msg/String")]
+    assert found.endpoints[0].qos == {"reliability": "best_effort", "durability": "volatile", "depth": 3}
+
+
+@pytest.mark.parametrize(
+    ("qos", "expected"),
+    [
+        ("rclcpp::SystemDefaultsQoS()", {}),
+        ("rclcpp::QoS(4).reliable()", {"reliability": "reliable", "durability": "volatile", "depth": 4}),
+        ("computed()", {}),
+        (
+            "rclcpp::QoS(rclcpp::QoSInitialization::from_rmw(rmw_qos_profile_sensor_data))",
+            {"reliability": "best_effort", "durability": "volatile", "depth": 5},
+        ),
+        (
+            "rclcpp::QoS(2).reliability(rclcpp::ReliabilityPolicy::BestEffort)",
+            {"reliability": "best_effort", "durability": "volatile", "depth": 2},
+        ),
+    ],
+)
+def test_qos(desk: Desk, qos: str, expected: dict[str, Any]) -> None:
+    found = desk.main(f'auto pub = node->create_publisher<std_msgs::msg::String>("a", {qos});')
+    assert dict(found.endpoints[0].qos) == expected
+
+
+def test_qos_that_depends_on_what_is_not_known(desk: Desk) -> None:
+    body = """
+        rclcpp::QoS qos(5);
+        if (std::getenv("LATCH")) { qos.transient_local(); }
+        auto pub = node->create_publisher<std_msgs::msg::String>("a", qos);
+        """
+    assert dict(desk.main(body).endpoints[0].qos) == {}
+
+
+def test_libraries_that_get_the_node(desk: Desk) -> None:
+    body = """
+        tf2_ros::TransformBroadcaster broadcaster(node);
+        message_filters::Subscriber<sensor_msgs::msg::Image> filtered(node.get(), "left", rmw_qos_profile_sensor_data);
+        auto it = image_transport::ImageTransport(node);
+        auto camera = image_transport::create_camera_subscription(node.get(), "cam/image", cb, "raw");
+        auto action = rclcpp_action::create_client<example::action::Fly>(node, "fly");
+        """
+    assert ends(desk.main(body)) == [
+        ("publisher", "/tf", "tf2_msgs/msg/TFMessage"),
+        ("subscriber", "left", "sensor_msgs/msg/Image"),
+        ("subscriber", "cam/image", "sensor_msgs/msg/Image"),
+        ("subscriber", "cam/camera_info", "sensor_msgs/msg/CameraInfo"),
+        ("action_client", "fly", "example/action/Fly"),
+    ]
+
+
+def test_ways_to_declare_parameters(desk: Desk) -> None:
+    body = """
+        double rate = 10;
+        int size;
+        node->declare_parameter("rate", rate);
+        node->declare_parameter("size", 3);
+        node->get_parameter("size", size);
+        node->declare_parameter<std::string>("frame");
+        node->declare_parameter("gain", rclcpp::ParameterValue(1.5));
+        node->declare_parameter("list", std::vector<double>({1, 2}));
+        node->declare_parameter("typed", rclcpp::PARAMETER_DOUBLE);
+        node->declare_parameters<double>("pid", {{"p", 1}, {"i", 0.5}});
+        nav2_util::declare_parameter_if_not_declared(node, "tolerance", rclcpp::ParameterValue(0.2));
+        auto pub = node->create_publisher<std_msgs::msg::String>("a" + std::to_string(size), 1);
+        """
+    found = desk.main(body, '<param name="size" value="7"/>')
+    assert params(found) == {
+        "~rate": 10.0,
+        "~size": 3,
+        "~frame": None,
+        "~gain": 1.5,
+        "~list": [1.0, 2.0],
+        "~typed": None,
+        "~pid.p": 1.0,
+        "~pid.i": 0.5,
+        "~tolerance": 0.2,
+    }
+    assert [use.name for use in found.params if not use.has_default] == ["~frame", "~typed"]
+    assert found.endpoints[0].name == "a7"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "node->declare_parameter(name_of(1), 3);",
+        "other_library::Helper helper(node);",
+        'rclcpp::NodeOptions o; o.allow_undeclared_parameters(true); auto n = std::make_shared<rclcpp::Node>("m", o);',
+        'pluginlib::ClassLoader<nav2_core::Controller> loader("nav2_core", "nav2_core::Controller");',
+    ],
+)
+def test_nothing_is_undeclared_where_not_all_is_known(desk: Desk, body: str) -> None:
+    found = desk.main('node->declare_parameter("a", 1);\n' + body, '<param name="zzz" value="7"/>')
+    assert ("list", "/") in [(use.access, use.name) for use in found.params]
+    assert not [f for f in desk.start(NODE.format(inner='<param name="zzz" value="7"/>'))[1] if f.rule == "PRM013"]
+
+
+def test_a_parameter_that_is_not_declared(desk: Desk) -> None:
+    inner = '<param name="max_presure" value="4.5"/>'
+    found = desk.main('node->declare_parameter("max_pressure", 1.0);', inner)
+    assert params(found) == {"~max_pressure": 1.0}
+    findings = [f for f in desk.start(NODE.format(inner=inner))[1] if f.rule == "PRM013"]
+    assert ["did you mean 'max_pressure'?" in f.message for f in findings] == [True]
+
+
+def test_a_second_node_with_arguments_of_its_own(desk: Desk) -> None:
+    body = """
+        auto options = rclcpp::NodeOptions().arguments({"--ros-args", "-r", "__ns:=/maps", "-r", "__node:=local"});
+        auto other = std::make_shared<rclcpp::Node>("other", options);
+        auto a = other->create_publisher<std_msgs::msg::String>("grid", 1);
+        auto b = other->create_publisher<std_msgs::msg::String>("~/info", 1);
+        """
+    assert [e.name for e in desk.main(body).endpoints] == ["/maps/grid", "/maps/local/info"]
+
+
+def test_a_base_of_the_same_name_in_another_namespace(desk: Desk) -> None:
+    before = """
+        namespace ours {
+        class Node : public rclcpp::Node {
+        public:
+          Node(const std::string & name, const std::string & topic) : rclcpp::Node(name), topic_(topic) {
+            pub_ = create_publisher<std_msgs::msg::String>(topic_, 1);
+          }
+          explicit Node(const std::string & name) : Node(name, "default") {}
+          std::string topic_;
+        };
+        }
+        """
+    found = desk.main('auto ours = std::make_shared<ours::Node>("x");', before=before)
+    assert [e.name for e in found.endpoints] == ["default"]
