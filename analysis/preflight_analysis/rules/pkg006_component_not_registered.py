@@ -42,8 +42,8 @@ RULE = Rule(
     severity="error",
     what="Reports the plugin of a `<composable_node>` that is not among those that its package registers, and names "
     "the nearest of these: those that the prefix of an installed package lists, or that the `CMakeLists.txt` of one in "
-    "the workspace names in `rclcpp_components_register_node(s)`. Packages of which no component is known are left alone "
-    "(ROS 2).",
+    "the workspace names in `rclcpp_components_register_node(s)`. Packages of which no component is known are left "
+    "alone (ROS 2).",
     why="The container says `Failed to find class with the requested plugin name` and goes on without it.",
     example='<composable_node pkg="vision" plugin="Detector" name="detector"/>\n'
     '<!-- rclcpp_components_register_nodes(detector "vision::Detector") -->',
