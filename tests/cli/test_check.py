@@ -112,12 +112,10 @@ def test_package_path_means_there_and_nowhere_else(desk: Desk, preflight: Run, t
     ("arguments", "message"),
     [
         (["missing.launch"], "missing.launch does not exist"),
-        (["."], "is a folder"),
-        (["launch/talker_listener.launch", "speed"], "'speed' is not of the form name:=value"),
+        (["launch/talker_listener.launch", "speed"], "speed does not exist"),
         (["launch/talker_listener.launch", ":=3"], "':=3' is not of the form name:=value"),
         (["launch/talker_listener.launch", "--nonsense"], "--nonsense"),
         (["launch/talker_listener.launch", "--fail-on", "perhaps"], "perhaps"),
-        ([], "FILE"),
     ],
 )
 def test_what_cannot_be_done_is_exit_code_2(preflight: Run, arguments: list[str], message: str) -> None:
@@ -188,6 +186,10 @@ def test_colours_on_a_terminal_only(desk: Desk, environment: dict[str, str], col
     assert ("\x1b[34minfo (possible) TOP001" in out) == coloured
     assert ("\x1b[34m^^^^^^\x1b[0m" in out) == coloured
     assert "talker_listener.launch:7:31" in out
+    assert ("\r\x1b[K[....................] 0/1 launch/talker_listener.launch" in out) == (
+        environment["TERM"] == "xterm"
+    )
+    assert ("\r\x1b[Klaunch/talker_listener.launch:1:1: " in out) == (environment["TERM"] == "xterm")
 
 
 def on_terminal(command: list[str], desk: Desk, environment: dict[str, str]) -> str:

@@ -15,6 +15,8 @@ from preflight_server.cli.errors import FAILED, CannotDoError
 from preflight_server.cli.output import say
 
 _VERBS = ("check", "tree", "graph", "trace", "snapshot", "diff", "rules", "doctor", "lsp")
+_SEVERAL_FILES = ("check", "diff")
+"""The verbs whose positional arguments are files too, in `launch_args`."""
 _EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"
 
 
@@ -55,7 +57,8 @@ def _parse(argv: Sequence[str]) -> argparse.Namespace:
     if args.verb == "lsp":
         return args  # editors add arguments of their own, such as --clientProcessId
     # argparse gives up on positional arguments that follow an option.
-    late = [each for each in rest if (":=" in each or args.verb == "diff") and not each.startswith("-")]
+    positional = [each for each in rest if not each.startswith("-")]
+    late = [each for each in positional if ":=" in each or args.verb in _SEVERAL_FILES]
     if len(late) < len(rest) or (late and not hasattr(args, "launch_args")):
         parser.error(f"not understood: {' '.join(each for each in rest if each not in late) or ' '.join(late)}")
     if late:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.environment.detect import detect
@@ -63,22 +63,47 @@ def analyse(
     similar: bool = True,
 ) -> Project:
     """The same in an environment that is known. `similar`: whether what executables did elsewhere is of interest."""
+    return open_workspace(environment, args, similar=similar).analysed(path, values)
+
+
+@dataclass(frozen=True, slots=True)
+class OpenWorkspace:
+    """A workspace of which several files are analysed. The commands of parameters are run in the sandbox, unless with
+    `--no-run`."""
+
+    workspace: Workspace
+    results: CommandResults
+    no_run: bool
+
+    def analysed(self, path: str, values: Mapping[str, str]) -> Project:
+        """A launch file with its arguments."""
+        if self.no_run:
+            return Project(self.workspace, self.workspace.static(path, values))
+        runner = CommandRunner(self.workspace.environment, self.workspace.cwd, CommandCache())
+        cancel = threading.Event()
+        try:
+            return Project(self.workspace, settled(self.workspace, path, values, self.results, runner, cancel))
+        except KeyboardInterrupt:
+            cancel.set()
+            raise
+
+
+def open_workspace(environment: Environment, args: argparse.Namespace, *, similar: bool = True) -> OpenWorkspace:
+    """The workspace of an environment; `similar` as for `analyse`."""
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
     elsewhere = SimilarTraces(TraceCache()) if similar else None
-    workspace = Workspace(environment, Sources(), commands=results, similar=elsewhere)
-    if args.no_run:
-        return Project(workspace, workspace.static(path, values))
-    runner, cancel = CommandRunner(environment, workspace.cwd, CommandCache()), threading.Event()
-    try:
-        return Project(workspace, settled(workspace, path, values, results, runner, cancel))
-    except KeyboardInterrupt:
-        cancel.set()
-        raise
+    return OpenWorkspace(Workspace(environment, Sources(), commands=results, similar=elsewhere), results, args.no_run)
 
 
-def run_nodes(project: Project, args: argparse.Namespace, only: str | None = None) -> Analysis:
+def run_nodes(
+    project: Project,
+    args: argparse.Namespace,
+    only: str | None = None,
+    report: Callable[[int, int], None] = lambda done, total: None,
+) -> Analysis:
     """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox, as
-    the common options say. Where nothing may be run, earlier runs tell that would have the same result.
+    the common options say. Where nothing may be run, earlier runs tell that would have the same result. `report` is told
+    how many of how many were run.
 
     Interrupting it stops the runs.
     """
@@ -95,6 +120,7 @@ def run_nodes(project: Project, args: argparse.Namespace, only: str | None = Non
 
     def done(index: int, interface: Interface) -> None:
         found[chosen[index]] = interface
+        report(len(found), len(chosen))
 
     try:
         trace_all(

@@ -1,0 +1,68 @@
+"""What a check launches: the files that are named, or all that a folder has."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from preflight_analysis.environment.detect import detect, workspace_of
+from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.project_settings import read_project_settings
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.project import OpenWorkspace, open_workspace
+
+
+@dataclass(frozen=True, slots=True)
+class Launches:
+    """Roots in the workspace that they belong to."""
+
+    home: str
+    """The workspace's folder."""
+    workspace: OpenWorkspace
+    roots: tuple[Root, ...]
+
+
+def launches(args: argparse.Namespace) -> list[Launches]:
+    """What `args.launch_args` name, by workspace; the current folder where they name nothing.
+
+    A file is launched as it is, with the arguments `name:=value`. Of a folder each file that nothing includes is, and
+    what the settings name, once with each of their profiles of arguments. Raises `CannotDoError` for a path that does
+    not exist, and for a folder without launch files.
+    """
+    values = options.launch_args([each for each in args.launch_args if ":=" in each])
+    paths = [each for each in args.launch_args if ":=" not in each]
+    if not paths and values:
+        raise CannotDoError("name:=value is for a launch file, and none is named")
+    wanted: dict[str, list[Root]] = {}
+    opened: dict[str, OpenWorkspace] = {}
+    for given in paths or ["."]:
+        path = os.path.abspath(given)
+        if not os.path.exists(path):
+            raise CannotDoError(f"{given} does not exist")
+        folder = os.path.isdir(path)
+        home = workspace_of(os.path.join(path, "_") if folder else path)
+        if home not in opened:
+            opened[home] = open_workspace(detect(home, package_path=options.package_path(args)), args)
+        if folder and values:
+            raise CannotDoError(f"{given} is a folder; arguments for its launch files stand in .ros-preflight.yaml")
+        found = list(_roots_below(path, home, opened[home])) if folder else [Root.of(path, values)]
+        if not found:
+            raise CannotDoError(f"there are no launch files in {given}")
+        wanted.setdefault(home, []).extend(found)
+    return [Launches(home, opened[home], tuple(dict.fromkeys(roots))) for home, roots in wanted.items()]
+
+
+def _roots_below(folder: str, home: str, opened: OpenWorkspace) -> Iterator[Root]:
+    named = [root for root in read_project_settings(home).roots if _below(root.path, folder)]
+    index = build_index(opened.workspace, folder, named)
+    if index is not None:
+        yield from sorted(index.entries)
+
+
+def _below(path: str, folder: str) -> bool:
+    return os.path.commonpath((path, folder)) == folder

@@ -1,0 +1,48 @@
+"""How far a command is, on a terminal only: a line on standard error that is written over."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+_BAR = 20
+
+
+class Progress:
+    """A bar over `total` steps; silent where standard error is no terminal. Call `end` before anything else is
+    printed."""
+
+    def __init__(self, total: int) -> None:
+        self._total = total
+        self._done = 0
+        self._what = ""
+        self._shown = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+    def step(self, done: int, what: str) -> None:
+        """`done` steps are behind us, `what` is next."""
+        self._done, self._what = done, what
+        self._write(f"{self._bar()} {what}")
+
+    def part(self, done: int, total: int) -> None:
+        """Of the nodes of the current step so many were run."""
+        self._write(f"{self._bar()} {self._what}: {done} of {total} nodes")
+
+    def end(self) -> None:
+        """Leave the line empty."""
+        if self._shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+
+    def _bar(self) -> str:
+        filled = _BAR * self._done // max(self._total, 1)
+        return f"[{'#' * filled}{'.' * (_BAR - filled)}] {self._done}/{self._total}"
+
+    def _write(self, line: str) -> None:
+        if not self._shown:
+            return
+        try:
+            columns = os.get_terminal_size(sys.stderr.fileno()).columns or 80
+        except OSError:
+            columns = 80
+        sys.stderr.write(f"\r\x1b[K{line[: columns - 1]}")
+        sys.stderr.flush()
