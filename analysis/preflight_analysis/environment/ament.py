@@ -7,12 +7,15 @@ files in `share/ament_index/resource_index/packages`.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 
 INDEX = os.path.join("share", "ament_index", "resource_index", "packages")
+RCLPY = os.path.join("rclpy", "__init__.py")
+_PYTHON_FOLDER = re.compile(r"/lib/python(3\.\d+)/(?:dist|site)-packages/?\Z")
 DISTRIBUTIONS = ("foxy", "galactic", "humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
 """Oldest first; what is not sourced is looked for from the end."""
 
@@ -59,6 +62,40 @@ def installed_packages(prefixes: Iterable[str]) -> dict[str, Package]:
             if name not in packages and not name.startswith("."):
                 packages[name] = Package(name, share, os.path.join(share, MANIFEST), build_type="ament_cmake")
     return packages
+
+
+def rclpy_interpreter(variables: Mapping[str, str], prefixes: Iterable[str], root: str) -> str | None:
+    """The interpreter of the first rclpy that there is: in a virtual environment of the PATH, on PYTHONPATH, or in one
+    of the prefixes."""
+    for folder in variables.get("PATH", "").split(os.pathsep):
+        interpreter = os.path.join(folder, "python3")
+        has_rclpy = os.path.isabs(folder) and any(_python_folders(os.path.dirname(os.path.normpath(folder))))
+        if has_rclpy and os.access(interpreter, os.X_OK):
+            return interpreter
+    named = ((p, _PYTHON_FOLDER.search(p)) for p in variables.get("PYTHONPATH", "").split(os.pathsep) if p)
+    found = [match[1] for path, match in named if match and os.path.isfile(os.path.join(path, RCLPY))]
+    found += [version for prefix in prefixes for version in _python_folders(prefix)]
+    for version in found:
+        interpreter = os.path.join(root, "usr", "bin", f"python{version}")
+        if os.access(interpreter, os.X_OK):
+            return interpreter
+    return None
+
+
+def python_folders(prefix: str) -> list[str]:
+    """Where rclpy is below a prefix."""
+    return [os.path.join(prefix, "lib", f"python{version}", "site-packages") for version in _python_folders(prefix)]
+
+
+def _python_folders(prefix: str) -> Iterator[str]:
+    """The versions of Python that rclpy of a prefix is for."""
+    try:
+        names = sorted(os.listdir(os.path.join(prefix, "lib")))
+    except OSError:
+        return
+    for name in names:
+        if name.startswith("python3.") and os.path.isfile(os.path.join(prefix, "lib", name, "site-packages", RCLPY)):
+            yield name.removeprefix("python")
 
 
 def distribution(variables: Mapping[str, str], prefixes: Iterable[str]) -> str | None:

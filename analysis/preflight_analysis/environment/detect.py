@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages
+from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, Found, find_packages
 
@@ -104,6 +104,7 @@ def detect_environment(
     ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
+    ros2_python = rclpy_interpreter(given, prefixes, root)
     problems = [
         *_path_problems(listed if package_path is None else package_path),
         *found.problems,
@@ -125,6 +126,7 @@ def detect_environment(
         workspace=workspace,
         problems=tuple(problems),
         ament_prefixes=tuple(prefixes),
+        ros2_python=ros2_python,
     )
 
 

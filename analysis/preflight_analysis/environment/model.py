@@ -45,6 +45,8 @@ class Environment:
     """The interpreter that has rospy, None when there is none."""
     workspace: str | None = None
     problems: tuple[str, ...] = ()
+    """What is missing, in sentences that say what to install."""
     ament_prefixes: tuple[str, ...] = ()
     """Prefixes of ROS 2 whose `share` and `lib` hold installed packages, the first one wins."""
-    """What is missing, in sentences that say what to install."""
+    ros2_python: str | None = None
+    """The interpreter that has rclpy, None when there is none."""

@@ -63,7 +63,6 @@ RULE = Rule(
     "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
 )

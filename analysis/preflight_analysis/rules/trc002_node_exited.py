@@ -33,7 +33,6 @@ RULE = Rule(
     example="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)",
     instead="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)\n"
     "    rospy.spin()",
-    generations=(1,),
     check=_check,
     needs_graph=True,
 )

@@ -33,7 +33,6 @@ RULE = Rule(
     "for what, if the node was seen to ask for it, and which answers did not help.",
     example="while not ready():  # for hardware, say\n    time.sleep(1)\npub = rospy.Publisher('state', String)",
     instead="pub = rospy.Publisher('state', String)\nwhile not ready():\n    time.sleep(1)",
-    generations=(1,),
     check=_check,
     needs_graph=True,
 )

@@ -26,7 +26,6 @@ RULE = Rule(
     "made-up answer may differ from what it does there.",
     example="open('/home/me/.calibration', 'w')",
     instead="open(os.path.join(rospkg.get_ros_home(), 'calibration'), 'w')",
-    generations=(1,),
     check=_check,
     needs_graph=True,
 )

@@ -31,13 +31,18 @@ MAX_DEPTH = 20
 TAIL_LINES = 20
 TAIL_COLUMNS = 500
 
-_ROLES = ("publisher", "subscriber", "service", "client")
+_ROLES = ("publisher", "subscriber", "service", "client", "action_server", "action_client")
 _ACCESS = ("get", "has", "set", "delete", "search", "list")
 _NAME = re.compile(r"[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{1,300}\Z")
 """No control characters, of a terminal's either, and none that UTF-8 cannot say."""
 _FILE = re.compile(r"/[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{0,4095}\Z")
-_TYPE = re.compile(r"(\*|[A-Za-z]\w*/[A-Za-z]\w*)\Z")
+_TYPE = re.compile(r"(\*|[A-Za-z]\w*/((msg|srv|action)/)?[A-Za-z]\w*)\Z")
 _MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
+_POLICIES = {
+    "reliability": ("reliable", "best_effort"),
+    "durability": ("volatile", "transient_local"),
+    "liveliness": ("automatic", "manual_by_topic"),
+}
 _ESCAPES = re.compile(r"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[@-Z\\-_])")
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 _UNSAYABLE = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff]")
@@ -169,6 +174,9 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         not d.given and d.access != "search" and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
     )
     watched = found.woven and (recipe.python or recipe.preload is not None)
+    if request.generation == 2 and outcome.status in ("crashed", "exited"):
+        # What is wrong with its parameters may stop it before it declares one.
+        param_dependencies += [ParamDependency("get", name, given=False) for name in request.params]
     if not watched or unexplained or _is_named(endpoints, params, request.node):
         asked |= {"name", "remaps"} if recipe.remapped else {"name"}
     interface = Interface("trace", outcome, endpoints, params, notes=_notes(found), frames=tuple(sorted(found.frames)))
@@ -258,15 +266,7 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
     role, name = record.get("role"), _text(record.get("name"), _NAME)
     if role not in _ROLES or name is None or len(found.endpoints) >= MAX_ENDPOINTS:
         return False
-    qos: dict[str, Any] = {}
-    given = record.get("qos")
-    if isinstance(given, dict):
-        if isinstance(given.get("latch"), bool):
-            qos["latch"] = given["latch"]
-        if given.get("queue_size") is None or _is_number(given.get("queue_size")):
-            qos["queue_size"] = given.get("queue_size")
-    if role in ("service", "client"):
-        qos = {}
+    qos = _qos(record.get("qos")) if role in ("publisher", "subscriber") else {}
     file, line = _place(record)
     passed_on = record.get("type") == ANY_TYPE
     endpoint = Endpoint(
@@ -286,6 +286,27 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
     found.waited = found.waited or (bool(found.fed) and key not in found.endpoints)
     found.endpoints.setdefault(key, (endpoint, _text(record.get("resolved"), _NAME)))
     return True
+
+
+def _qos(given: object) -> dict[str, Any]:
+    """The policies of a topic's end: those of ROS 1, or those of ROS 2."""
+    if not isinstance(given, dict):
+        return {}
+    qos: dict[str, Any] = {}
+    if isinstance(given.get("latch"), bool):
+        qos["latch"] = given["latch"]
+    if "queue_size" in given and (given["queue_size"] is None or _is_number(given["queue_size"])):
+        qos["queue_size"] = given["queue_size"]
+    for policy, words in _POLICIES.items():
+        if given.get(policy) in words:
+            qos[policy] = given[policy]
+    if _is_number(given.get("depth")):
+        qos["depth"] = given["depth"]
+    for policy in ("deadline", "lease_duration"):
+        seconds = given.get(policy)
+        if isinstance(seconds, float) and math.isfinite(seconds) and seconds > 0:
+            qos[policy] = seconds
+    return qos
 
 
 def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:

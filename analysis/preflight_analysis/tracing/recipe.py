@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from preflight_analysis.environment.model import Environment
@@ -49,12 +49,18 @@ class Recipe:
     """Whether it gets the remaps. The client library then tells the names from before remapping."""
     preload: str | None = None
     """The library that watches roscpp in it."""
+    files: Mapping[str, str] = field(default_factory=dict)
+    """What is to be written inside, by its path there."""
 
 
 def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
     """The recipe of a request. Reads the executable's first line; an unreadable one is left for exec to complain of.
     `preload` is the library for the executable, if it is a program that one can be loaded into."""
-    stable = _variables(environment, request.env)
+    if request.generation == 2:
+        from preflight_analysis.tracing import ros2_recipe  # noqa: PLC0415
+
+        return ros2_recipe.make(environment, request)
+    stable = variables(environment, request.env)
     interpreter, python = _interpreter(environment, request.executable, stable["PATH"])
     argv = [*interpreter, request.executable, *request.args]
     remapped = python or preload is not None
@@ -64,28 +70,28 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     # that there too the names are those before remapping, and the graph can apply them.
     base = request.node.rpartition("/")[2]
     argv += [f"__name:={base}", f"__log:={LOG_FOLDER}/{base}.log"]
-    env = _inside(stable)
+    env = inside(stable)
     namespace = names.parent(request.node).rstrip("/")
     if namespace:
         env["ROS_NAMESPACE"] = namespace
     if preload is not None:
         env["LD_PRELOAD"] = ":".join(library for library in (preload, stable.get("LD_PRELOAD", "")) if library)
-    return Recipe(tuple(argv), env, stable, _folder(request), python, remapped, preload)
+    return Recipe(tuple(argv), env, stable, folder(request), python, remapped, preload)
 
 
 def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
     """The recipe of a command of a parameter, whose program was found as `executable`."""
-    stable = _variables(environment, ())
+    stable = variables(environment, ())
     interpreter, python = _interpreter(environment, executable, stable["PATH"])
-    return Recipe((*interpreter, executable, *args), _inside(stable), stable, cwd, python)
+    return Recipe((*interpreter, executable, *args), inside(stable), stable, cwd, python)
 
 
 def search_path(environment: Environment) -> str:
     """The PATH of what is run."""
-    return _variables(environment, ())["PATH"]
+    return variables(environment, ())["PATH"]
 
 
-def _inside(stable: Mapping[str, str]) -> dict[str, str]:
+def inside(stable: Mapping[str, str]) -> dict[str, str]:
     """The variables inside the sandbox."""
     env = dict(stable)
     env["PYTHONPATH"] = os.pathsep.join(p for p in (sandbox.SITE, stable.get("PYTHONPATH", "")) if p)
@@ -115,8 +121,9 @@ def visible_paths(environment: Environment) -> list[str]:
         "GAZEBO_PLUGIN_PATH",
     ):
         paths += environment.variables.get(variable, "").split(os.pathsep)
-    if environment.python:
-        paths += _interpreter_paths(environment.python)
+    paths += environment.ament_prefixes
+    for python in (environment.python, environment.ros2_python):
+        paths += interpreter_paths(python) if python else ()
     paths += [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
     return sandbox.needs_binding(paths)
 
@@ -132,7 +139,7 @@ def command_paths(recipe: Recipe, executable: str, files: Iterable[str], interpr
     hidden."""
     named = [path for path in files if "/." not in path + os.path.realpath(path)]
     beside = [os.path.dirname(path) for path in named]
-    programs = [*_program_paths(executable), *recipe.stable["PATH"].split(os.pathsep), *_interpreter_paths(interpreter)]
+    programs = [*_program_paths(executable), *recipe.stable["PATH"].split(os.pathsep), *interpreter_paths(interpreter)]
     return sandbox.needs_binding([*programs, recipe.cwd, *named, *beside])
 
 
@@ -140,11 +147,12 @@ def _program_paths(executable: str) -> list[str]:
     paths = [os.path.dirname(executable), os.path.dirname(os.path.realpath(executable))]
     interpreter = _shebang(executable)
     if interpreter:
-        paths += _interpreter_paths(interpreter[0])
+        paths += interpreter_paths(interpreter[0])
     return paths
 
 
-def _variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
+def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """What a node gets of the user's variables, and what the launch file sets."""
     overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
     kept = {
         name: value
@@ -186,7 +194,12 @@ def _interpreter(environment: Environment, executable: str, path: str) -> tuple[
     return [], python
 
 
-def _interpreter_paths(python: str) -> Iterable[str]:
+def is_python(executable: str) -> bool:
+    """Whether it is a Python script, by its first line."""
+    return any(os.path.basename(word).startswith("python") for word in _shebang(executable)[:2])
+
+
+def interpreter_paths(python: str) -> Iterable[str]:
     """The interpreter and the prefixes it needs: of the virtual environment, and of what that was made from."""
     seen: list[str] = []
     at = os.path.abspath(python)
@@ -201,7 +214,8 @@ def _interpreter_paths(python: str) -> Iterable[str]:
     return seen
 
 
-def _folder(request: TraceRequest) -> str:
+def folder(request: TraceRequest) -> str:
+    """The folder that the node starts in."""
     if request.cwd == "node":
         return os.path.dirname(request.executable)
     if request.cwd and os.path.isabs(request.cwd):

@@ -25,6 +25,12 @@ class TraceRequest:
     env: tuple[tuple[str, str], ...] = ()
     """What the launch file sets for the node."""
     cwd: str | None = None
+    generation: int = 1
+    """Of ROS. In ROS 2 `params` are the node's own, by the full name of the node and their own after it."""
+    entry_point: str | None = None
+    """`module:function` where `executable` is the file of a Python module that is run from its source."""
+    named: bool = True
+    """Whether the launch file names the node; its own code does otherwise."""
     launch: str | None = field(default=None, compare=False)
     """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
 

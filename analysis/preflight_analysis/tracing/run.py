@@ -186,12 +186,19 @@ def _process(recipe: recipes.Recipe, start: sandbox.Start) -> dict[str, Any]:
     entries = env["PYTHONPATH"].split(os.pathsep)
     env["PYTHONPATH"] = os.pathsep.join(place(entry) if entry == sandbox.SITE else entry for entry in entries)
     log = "__log:=" + recipes.LOG_FOLDER
+
+    def moved(word: str) -> str:
+        if word in recipe.files:
+            return place(word)
+        return log[:7] + place(word[7:]) if word.startswith(log) else word
+
     own_count = start.isolated.own_users and _own_process_count()
     return {
-        "argv": [log[:7] + place(word[7:]) if word.startswith(log) else word for word in recipe.argv],
+        "argv": [moved(word) for word in recipe.argv],
         "env": env,
         "cwd": place(recipe.cwd) if recipe.cwd == recipes.ROS_HOME else recipe.cwd,
         "folders": [place(folder) for folder in (recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home())],
+        "files": {place(path): text for path, text in recipe.files.items()},
         "rlimits": RLIMITS | {"NPROC": sandbox.PROCESSES if own_count else _PROCESSES_SHARED},
     }
 

@@ -6,6 +6,7 @@ import functools
 import hashlib
 import logging
 import os
+import re
 import sys
 import threading
 from collections.abc import Iterable
@@ -25,6 +26,7 @@ from preflight_analysis.tracing.turns import turn
 _log = logging.getLogger(__name__)
 
 _NO_PRELOAD = preload.Preload(None)
+_MISSING_MODULE = re.compile(r"ModuleNotFoundError: No module named '(\w+)")
 _MASTER_ALONE = "only what a ROS master sees of it is known"
 
 
@@ -50,7 +52,7 @@ class Tracer:
             return None
         alone = nodelets.standalone(request)
         try:
-            planned = self._library.planned() if preload.applies(alone.executable) else _NO_PRELOAD
+            planned = self._library.planned() if _preloaded(alone) else _NO_PRELOAD
             found = self.cache.load(recipes.make(self.environment, alone, planned.path), alone)
             return self._finished(found, request) if found is not None else None
         except Exception:
@@ -90,10 +92,11 @@ class Tracer:
             return _not_run(f"no sandbox: {status.reason}")
         if cancel.is_set():
             return _not_run("the run was cancelled")
-        built = self._library.build() if preload.applies(request.executable) else _NO_PRELOAD
+        built = self._library.build() if _preloaded(request) else _NO_PRELOAD
         recipe = recipes.make(self.environment, request, built.path)
         visible = sorted({*self._visible, *recipes.request_paths(request, recipe)})
-        interpreter = self.environment.python or sys.executable
+        python = self.environment.python if request.generation == 1 else self.environment.ros2_python
+        interpreter = python or sys.executable
         agents = compiled.copies().of(interpreter, visible)
         raw = run.execute(recipe, request.params, visible, interpreter, cancel, agents)
         screen = windows.server() if (blind := windows.lacking(raw)) else None
@@ -102,6 +105,9 @@ class Tracer:
         observed = observe(raw, recipe, request)
         if blind and screen is None:
             observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
+        unbuilt = _unbuilt(observed.interface, self.environment) if request.generation == 2 else None
+        if unbuilt is not None:
+            return _not_run(f"it imports {unbuilt}, a package of the workspace whose Python modules are not built")
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
             observed = replace(observed, interface=noted)
@@ -117,6 +123,18 @@ class Tracer:
                 started=raw.started,
             )
         return observed.interface
+
+
+def _preloaded(request: TraceRequest) -> bool:
+    """Whether it is a roscpp node, as far as can be told before it runs."""
+    return request.generation == 1 and preload.applies(request.executable)
+
+
+def _unbuilt(found: Interface, environment: Environment) -> str | None:
+    """The package of the workspace that a node ended for since its messages, say, are not there before it is built."""
+    missing = _MISSING_MODULE.search(found.outcome.reason or "") if found.outcome.status == "crashed" else None
+    package = environment.packages.get(missing[1]) if missing is not None else None
+    return package.name if package is not None and package.generation == 2 else None
 
 
 def _perhaps_refused(found: Interface, status: sandbox.SandboxStatus) -> Interface:

@@ -26,6 +26,7 @@ from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import Fallback
 from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
@@ -166,9 +167,30 @@ class Workspace:
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
         if analysis.tree.generation == 2:
-            return (None,) * len(analysis.tree.nodes)
+            return tuple(self._ros2_request(node) for node in analysis.tree.nodes)
         params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
         return tuple(_request(node, params) for node in analysis.tree.nodes)
+
+    def _ros2_request(self, node: LaunchNode) -> TraceRequest | None:
+        """How to run a node of ROS 2: one that is written in Python, where there is a rclpy for it."""
+        path = node.resolved.path
+        if self.environment.ros2_python is None or path is None or node.unknowns:
+            return None
+        if node.kind not in ("node", "lifecycle") or (node.resolved.entry_point is None and not is_python(path)):
+            return None
+        return TraceRequest(
+            node.name,
+            node.package,
+            path,
+            split_args(node.args),
+            params={f"{node.name}/{p.name}": p.value for p in node.params if not isinstance(p.value, CommandValue)},
+            env=node.env,
+            cwd=node.cwd,
+            generation=2,
+            entry_point=node.resolved.entry_point,
+            named=node.named,
+            launch=node.location.file,
+        )
 
     def with_interfaces(self, analysis: Analysis, interfaces: Sequence[Interface], why_not_run: str | None) -> Analysis:
         """The analysis with the graph that the interfaces (one a node of the tree, in order) make, and all findings.
@@ -229,4 +251,6 @@ def _request(node: LaunchNode, params: Mapping[str, object]) -> TraceRequest | N
     args = split_args(node.args)
     remaps = tuple((remap.source, remap.target) for remap in node.remaps)
     file = node.location.file
-    return TraceRequest(node.name, node.package, node.resolved.path, args, remaps, params, node.env, node.cwd, file)
+    return TraceRequest(
+        node.name, node.package, node.resolved.path, args, remaps, params, node.env, node.cwd, launch=file
+    )

@@ -65,6 +65,7 @@ def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, A
         "devel_spaces": list(environment.devel_spaces),
         "system_prefixes": list(environment.system_prefixes),
         "interpreter": environment.python,
+        "ros2_interpreter": environment.ros2_python,
         "problems": list(environment.problems),
         "sandbox": None
         if status is None

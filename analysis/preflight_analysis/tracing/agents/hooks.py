@@ -14,6 +14,21 @@ from typing import Any, Optional, Sequence
 from . import channel, genpy_weave
 
 WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer", genpy_weave.NAME)
+RCLPY = (
+    "rclpy",
+    "rclpy.node",
+    "rclpy.client",
+    "rclpy.executors",
+    "rclpy.timer",
+    "rclpy.action.client",
+    "rclpy.action.server",
+    "rclpy.wait_for_message",
+    "ament_index_python.packages",
+)
+EXPECTED = "PREFLIGHT_NODE"
+"""The environment variable with the full name that the launch file gives a node of ROS 2."""
+SHARES = "PREFLIGHT_SHARES"
+"""The environment variable with the folders of packages that are there as source only, a JSON object."""
 _BATCH = 200
 _MAX_FILES = 5_000
 _MAX_WRITES = 20
@@ -99,6 +114,10 @@ class _WeavingLoader(Loader):
                 from . import rospy_weave  # noqa: PLC0415
 
                 rospy_weave.weave(module, self._files.flush)
+            elif module.__name__ in RCLPY:
+                from . import rclpy_weave  # noqa: PLC0415
+
+                rclpy_weave.weave(module, self._files.flush)
             elif module.__name__ == genpy_weave.NAME:
                 genpy_weave.weave(module)
             else:
@@ -143,6 +162,6 @@ def install(library: str) -> None:
     files = Files()
     sys.addaudithook(files.hook)
     sys.meta_path.insert(0, genpy_weave.WithoutNumpy())
-    for name in WOVEN:
+    for name in (*WOVEN, *RCLPY):
         sys.meta_path.insert(0, _Finder(name, library, files))
     atexit.register(files.flush)

@@ -316,6 +316,9 @@ def _main(job: dict[str, Any]) -> None:
         return
     for folder in job["folders"]:
         os.makedirs(folder, exist_ok=True)
+    for path, text in job["files"].items():
+        with open(path, "w", encoding="utf-8", errors="replace") as file:
+            file.write(text)
     fifo = job["env"]["PREFLIGHT_EVENTS"]
     if not os.path.exists(fifo):
         os.mkfifo(fifo, 0o600)

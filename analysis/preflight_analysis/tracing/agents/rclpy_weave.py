@@ -1,0 +1,542 @@
+"""What is woven into rclpy: each endpoint and declared parameter is told with the name that the node gave it.
+
+Waits for other nodes are answered as those of rospy are (`answers`), and lifecycle nodes are configured and activated
+once they reach their event loop, which is where their topics are made.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import json
+import os
+import sys
+import threading
+import time
+from types import FrameType, ModuleType
+from typing import Any, Callable, Optional
+
+from . import answers, channel
+from .hooks import EXPECTED, SHARES
+
+_LIBRARIES = frozenset(("rclpy", "preflight_agents", "functools", "tf2_ros", "message_filters", "diagnostic_updater"))
+"""Frames in these are not the node's own."""
+_OWN_THREADS = ("rclpy", "preflight_agents")
+_MAX_DEFAULT = 4_000
+_FOREVER = 9_000_000_000
+"""Seconds: the "infinite" durations of rmw are longer."""
+
+_nodes: list[Any] = []
+_there: set[str] = set()
+_turns: set[Any] = set()
+_polls: dict[Any, int] = {}
+_told_states: set[str] = set()
+
+
+def _quiet(tell: Callable[..., None]) -> Callable[..., None]:
+    """What we do beside the node must not fail it."""
+
+    @functools.wraps(tell)
+    def safe(*args: Any, **kwargs: Any) -> None:
+        try:
+            tell(*args, **kwargs)
+        except Exception as error:
+            channel.send("weave-failed", message=repr(error))
+
+    return safe
+
+
+def _top(frame: FrameType) -> str:
+    return str(frame.f_globals.get("__name__", "")).partition(".")[0]
+
+
+def _caller() -> tuple[Optional[str], Optional[int], bool]:
+    """File and line of the node's own call, and whether rclpy makes it for each node, when that is constructed."""
+    frame: Optional[FrameType] = sys._getframe(1)
+    internal = False
+    while frame is not None and _top(frame) in _LIBRARIES:
+        if _top(frame) == "rclpy":
+            of_node = frame.f_globals.get("__name__") == "rclpy.node"
+            internal = internal or (of_node and frame.f_code.co_name == "__init__")
+        frame = frame.f_back
+    if frame is None:
+        return None, None, internal
+    return frame.f_code.co_filename, frame.f_lineno, internal
+
+
+def _in_main_thread() -> bool:
+    return threading.current_thread() is threading.main_thread()
+
+
+def _wrap(owner: Any, name: str, advice: Callable[[Callable[..., Any]], Callable[..., Any]]) -> None:
+    """Put `advice(original)` in the place of a function of a module or class; of what is not there nothing."""
+    original = vars(owner).get(name)
+    if callable(original):
+        setattr(owner, name, functools.wraps(original)(advice(original)))
+
+
+def _bound(function: Callable[..., Any], args: Any, kwargs: Any) -> dict[str, Any]:
+    """The arguments of a call by name, those of `**kwargs` among them."""
+    arguments = dict(_signature(function).bind(*args, **kwargs).arguments)
+    return {**arguments, **arguments.pop("kwargs", {})}
+
+
+@functools.lru_cache(maxsize=256)
+def _signature(function: Callable[..., Any]) -> inspect.Signature:
+    return inspect.signature(function)
+
+
+# Endpoints
+
+
+def _type(described: Any) -> Optional[str]:
+    """`pkg/msg/Name` of a class that the generators of rosidl made."""
+    package, _, rest = str(getattr(described, "__module__", "")).partition(".")
+    kind = rest.partition(".")[0]
+    return f"{package}/{kind}/{described.__name__}" if kind in ("msg", "srv", "action") else None
+
+
+def _given(node: Any, name: str) -> str:
+    """The name as the node gave it, where the launch file's node would come to the same; else the full one."""
+    expected = os.environ.get(EXPECTED, "")
+    space, _, base = expected.rpartition("/")
+    private = name == "~" or name.startswith("~/")
+    in_place = (node.get_namespace().rstrip("/") or "") == space and (not private or node.get_name() == base)
+    if name.startswith("/") or (in_place and "{" not in name):
+        return name
+    return _full(node, name)
+
+
+def _full(node: Any, name: str) -> str:
+    expand = sys.modules["rclpy.expand_topic_name"].expand_topic_name  # of those that rclpy.node imports
+    return str(expand(name, node.get_name(), node.get_namespace()))
+
+
+def _qos(profile: Any) -> dict[str, Any]:
+    """The policies that are settled; what is left to the middleware is left out."""
+    found: dict[str, Any] = {}
+    for policy, allowed in (
+        ("reliability", ("reliable", "best_effort")),
+        ("durability", ("volatile", "transient_local")),
+        ("liveliness", ("automatic", "manual_by_topic")),
+    ):
+        word = str(getattr(getattr(profile, policy, None), "name", "")).lower()
+        if word in allowed:
+            found[policy] = word
+    depth = getattr(profile, "depth", None)
+    if isinstance(depth, int) and depth > 0:
+        found["depth"] = depth
+    for policy, name in (("deadline", "deadline"), ("liveliness_lease_duration", "lease_duration")):
+        nanoseconds = getattr(getattr(profile, policy, None), "nanoseconds", 0)
+        if isinstance(nanoseconds, int) and 0 < nanoseconds < _FOREVER * 1_000_000_000:
+            found[name] = nanoseconds / 1e9
+    return found
+
+
+@_quiet
+def _tell_endpoint(node: Any, role: str, name: Any, described: Any, profile: Any = None) -> None:
+    file, line, internal = _caller()
+    channel.send(
+        "endpoint",
+        role=role,
+        name=_given(node, str(name)),
+        resolved=_full(node, str(name)),
+        type=_type(described),
+        qos=_qos(profile) if profile is not None else {},
+        file=file,
+        line=line,
+        builtin=internal,
+        speculative=answers.speculative(),
+    )
+
+
+def _creates(role: str, type_name: str, name: str, profiled: bool) -> Callable[..., Any]:
+    """A method of the node that makes an endpoint."""
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def made(*args: Any, **kwargs: Any) -> Any:
+            result = original(*args, **kwargs)
+            arguments = _bound(original, args, kwargs)
+            profile = getattr(result, "qos_profile", None) if profiled else None
+            _tell_endpoint(arguments["self"], role, arguments.get(name), arguments.get(type_name), profile)
+            return result
+
+        return made
+
+    return advice
+
+
+def _action(role: str) -> Callable[..., Any]:
+    """The constructor of an end of an action."""
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def made(*args: Any, **kwargs: Any) -> None:
+            original(*args, **kwargs)
+            arguments = _bound(original, args, kwargs)
+            name = arguments.get("action_name")
+            _tell_endpoint(arguments.get("node"), role, name, arguments.get("action_type"))
+            if role == "action_client":
+                arguments["self"]._preflight_name = name
+
+        return made
+
+    return advice
+
+
+# Parameters
+
+
+def _plain(value: Any) -> Any:
+    """A default value in JSON's types."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    return repr(value)
+
+
+def _default(value: Any) -> tuple[Any, bool]:
+    """What a parameter is declared with, and whether that is a value: a bare type is none."""
+    if value is None or type(value).__name__ == "Type":
+        return None, False
+    plain = _plain(value)
+    return (plain if len(json.dumps(plain)) < _MAX_DEFAULT else None), True
+
+
+@_quiet
+def _tell_params(arguments: dict[str, Any]) -> None:
+    file, line, internal = _caller()
+    namespace = arguments.get("namespace")
+    prefix = f"{namespace}." if namespace else ""
+    for each in arguments.get("parameters") or ():
+        described = each if isinstance(each, (list, tuple)) else (each,)
+        default, has_default = _default(described[1] if len(described) > 1 else None)
+        channel.send(
+            "param",
+            access="get",
+            name=f"~{prefix}{described[0]}",
+            default=default,
+            has_default=has_default and not internal,
+            optional=True,
+            file=None if internal else file,
+            line=None if internal else line,
+            builtin=internal,
+        )
+
+
+def _declares(original: Callable[..., Any]) -> Callable[..., Any]:
+    def declared(*args: Any, **kwargs: Any) -> Any:
+        # A list that the node may hand over as a generator.
+        arguments = _bound(original, args, kwargs)
+        if "parameters" in arguments:
+            arguments["parameters"] = list(arguments["parameters"])
+        _tell_params(arguments)
+        return original(**arguments)
+
+    return declared
+
+
+def _constructed(original: Callable[..., Any]) -> Callable[..., Any]:
+    """A node is made: it may take parameters that it does not declare."""
+
+    @_quiet
+    def tell(node: Any, arguments: dict[str, Any]) -> None:
+        _nodes.append(node)
+        options = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
+        if any(arguments.get(option) for option in options):
+            channel.send("param", access="list", name="/", optional=True)
+        channel.send("state", state="init")
+
+    def made(*args: Any, **kwargs: Any) -> None:
+        original(*args, **kwargs)
+        arguments = _bound(original, args, kwargs)
+        tell(arguments["self"], arguments)
+
+    return made
+
+
+# The event loop
+
+
+def _other_threads() -> int:
+    """How many threads the node started itself."""
+    own = 0
+    for thread in threading.enumerate():
+        if thread is threading.main_thread() or isinstance(thread, threading._DummyThread):
+            continue
+        module = str(getattr(getattr(thread, "_target", None), "__module__", None) or type(thread).__module__)
+        own += module.partition(".")[0] not in _OWN_THREADS
+    return own
+
+
+def _activate() -> None:
+    """Have lifecycle nodes do what a manager would ask of them."""
+    waiting, _nodes[:] = list(_nodes), []
+    for node in waiting:
+        if hasattr(node, "trigger_configure") and hasattr(node, "trigger_activate"):
+            node.trigger_configure()
+            node.trigger_activate()
+
+
+def _spins(flush: Callable[[], None]) -> Callable[..., Any]:
+    """The main thread enters its event loop."""
+
+    @_quiet
+    def tell() -> None:
+        _activate()
+        if _in_main_thread():
+            flush()
+            channel.send("state", state="spin", threads=_other_threads())
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def spin(*args: Any, **kwargs: Any) -> Any:
+            tell()
+            return original(*args, **kwargs)
+
+        return spin
+
+    return advice
+
+
+def _turns_once(flush: Callable[[], None]) -> Callable[..., Any]:
+    """A call that stands in a loop of the main thread."""
+
+    @_quiet
+    def tell() -> None:
+        frame: Optional[FrameType] = sys._getframe(3)  # who calls `turn`
+        while frame is not None and _top(frame) in ("preflight_agents", "functools"):
+            frame = frame.f_back
+        if frame is None or _top(frame) == "rclpy" or not _in_main_thread():
+            return
+        place = (frame.f_code.co_filename, frame.f_lineno)
+        state = "looped" if place in _turns else "idle"
+        _turns.add(place)
+        if state not in _told_states:
+            _told_states.add(state)
+            _activate()
+            flush()
+            channel.send("state", state=state, threads=_other_threads())
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def turn(*args: Any, **kwargs: Any) -> Any:
+            tell()
+            return original(*args, **kwargs)
+
+        return turn
+
+    return advice
+
+
+def _completes(flush: Callable[[], None]) -> Callable[..., Any]:
+    """`spin_until_future_complete`: an event loop where nobody ever completes the future."""
+    spins = _spins(flush)
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        spin = spins(original)
+
+        def until(*args: Any, **kwargs: Any) -> Any:
+            future = _bound(original, args, kwargs).get("future")
+            done = getattr(future, "done", None)
+            return original(*args, **kwargs) if done is not None and done() else spin(*args, **kwargs)
+
+        return until
+
+    return advice
+
+
+def _ends(original: Callable[..., Any]) -> Callable[..., Any]:
+    """The client library is shut down: however long that takes, it is no event loop."""
+
+    def ending(*args: Any, **kwargs: Any) -> Any:
+        channel.send("state", state="ending")
+        return original(*args, **kwargs)
+
+    return ending
+
+
+# Waits
+
+
+@_quiet
+def _tell_wait(state: str, kind: str, name: str, flush: Callable[[], None]) -> None:
+    file, line, _ = _caller()
+    channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=_in_main_thread())
+    if state == "wait":
+        flush()
+
+
+def _waits(
+    kind: str, name_of: Callable[[Any], str], ready: Callable[[Any], bool], flush: Callable[[], None]
+) -> Callable[..., Any]:
+    """`wait_for_service` and `wait_for_server`: after a while they are told that it is there."""
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def wait(*args: Any, **kwargs: Any) -> bool:
+            arguments = _bound(original, args, kwargs)
+            client, seconds = arguments["self"], arguments.get("timeout_sec")
+            name = name_of(client)
+            _tell_wait("wait", kind, name, flush)
+            try:
+                limit = answers.grace() if seconds is None else min(float(seconds), answers.grace())
+                end = time.monotonic() + limit
+                while not (there := ready(client)) and time.monotonic() < end and _is_up(client):
+                    time.sleep(0.01)
+                if not there:
+                    _there.add(name)
+                    answers.made_up(kind, name)
+                return True
+            finally:
+                _tell_wait("resume", kind, name, flush)
+
+        return wait
+
+    return advice
+
+
+def _is_up(client: Any) -> bool:
+    """Whether the client library was not shut down meanwhile."""
+    context = getattr(client, "context", None)
+    return context is None or bool(context.ok())
+
+
+def _is_ready(original: Callable[..., Any]) -> Callable[..., Any]:
+    """`service_is_ready`: who asks again and again from one place waits."""
+
+    def asked(client: Any) -> bool:
+        if original(client):
+            return True
+        file, line, _ = _caller()
+        key = (client.service_name, file, line)
+        _polls[key] = _polls.get(key, 0) + 1
+        if _polls[key] > 3:
+            if client.service_name not in _there:
+                _there.add(client.service_name)
+                answers.made_up("services", client.service_name)
+            return True
+        return False
+
+    return asked
+
+
+def _response(described: Any) -> Any:
+    """An answer of zeros, but yes to each yes or no: a service that fails leads nowhere."""
+    response = described.Response()
+    for field, kind in described.Response.get_fields_and_field_types().items():
+        if kind == "boolean":
+            setattr(response, field, True)
+    return response
+
+
+def _calls(later: bool, ready: Callable[[Any], bool]) -> Callable[..., Any]:
+    """A call of a service that was taken to be there."""
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def call(self: Any, *args: Any, **kwargs: Any) -> Any:
+            # A plain call has no end without somebody who answers.
+            if ready(self) or (later and self.service_name not in _there):
+                return original(self, *args, **kwargs)
+            answers.made_up("call", self.service_name)
+            response = _response(self.srv_type)
+            if not later:
+                return response
+            future = sys.modules["rclpy.task"].Future()  # of those that rclpy.client imports
+            future.set_result(response)
+            return future
+
+        return call
+
+    return advice
+
+
+def _first_message(flush: Callable[[], None]) -> Callable[..., Any]:
+    """`wait_for_message`: after a while it gets one of zeros."""
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def wait(*args: Any, **kwargs: Any) -> Any:
+            arguments = _bound(original, args, kwargs)
+            seconds = arguments.get("time_to_wait", -1)
+            name = str(arguments["topic"])
+            _tell_wait("wait", "message", name, flush)
+            try:
+                limit = answers.grace()
+                arguments["time_to_wait"] = min(seconds, limit) if seconds >= 0 else limit
+                by_itself, message = original(**arguments)
+                if by_itself:
+                    return by_itself, message
+                answers.made_up("message", name)
+                return True, arguments["msg_type"]()
+            finally:
+                _tell_wait("resume", "message", name, flush)
+
+        return wait
+
+    return advice
+
+
+# Packages that were not built
+
+
+def _shares(not_found: Any) -> Callable[..., Any]:
+    """`get_package_share_directory`: of a package that is there as source only, the folder of the source."""
+
+    def advice(original: Callable[..., Any]) -> Callable[..., Any]:
+        def share(package_name: str, *args: Any, **kwargs: Any) -> Any:
+            try:
+                return original(package_name, *args, **kwargs)
+            except not_found:
+                found = json.loads(os.environ.get(SHARES, "{}")).get(package_name)
+                if found is None:
+                    raise
+                return found
+
+        return share
+
+    return advice
+
+
+def weave(module: ModuleType, flush: Callable[[], None]) -> None:
+    """Weave one of `hooks.RCLPY`, freshly imported. `flush` tells the files opened so far; it is called when the node
+    may stop."""
+    found: Any = module
+    name = module.__name__
+    if name == "rclpy":
+        _wrap(found, "spin", _spins(flush))
+        _wrap(found, "spin_once", _turns_once(flush))
+        _wrap(found, "spin_until_future_complete", _completes(flush))
+        for function in ("shutdown", "try_shutdown"):
+            _wrap(found, function, _ends)
+        channel.send("woven")
+    elif name == "rclpy.node":
+        node = found.Node
+        _wrap(node, "__init__", _constructed)
+        _wrap(node, "declare_parameters", _declares)
+        _wrap(node, "create_publisher", _creates("publisher", "msg_type", "topic", True))
+        _wrap(node, "create_subscription", _creates("subscriber", "msg_type", "topic", True))
+        _wrap(node, "create_service", _creates("service", "srv_type", "srv_name", False))
+        _wrap(node, "create_client", _creates("client", "srv_type", "srv_name", False))
+    elif name == "rclpy.client":
+        ready = found.Client.service_is_ready
+        _wrap(found.Client, "wait_for_service", _waits("service", lambda c: str(c.service_name), ready, flush))
+        _wrap(found.Client, "service_is_ready", _is_ready)
+        _wrap(found.Client, "call", _calls(False, ready))
+        _wrap(found.Client, "call_async", _calls(True, ready))
+    elif name == "rclpy.executors":
+        _wrap(found.Executor, "spin", _spins(flush))
+        _wrap(found.Executor, "spin_until_future_complete", _completes(flush))
+        for executor in (found.SingleThreadedExecutor, found.MultiThreadedExecutor):
+            _wrap(executor, "spin_once", _turns_once(flush))
+    elif name == "rclpy.timer":
+        _wrap(found.Rate, "sleep", _turns_once(flush))
+    elif name == "rclpy.action.client":
+        client = found.ActionClient
+        ready = client.server_is_ready
+        _wrap(client, "__init__", _action("action_client"))
+        _wrap(client, "wait_for_server", _waits("action", lambda c: str(c._preflight_name), ready, flush))
+    elif name == "rclpy.action.server":
+        _wrap(found.ActionServer, "__init__", _action("action_server"))
+    elif name == "rclpy.wait_for_message":
+        _wrap(found, "wait_for_message", _first_message(flush))
+    elif name == "ament_index_python.packages":
+        _wrap(found, "get_package_share_directory", _shares(found.PackageNotFoundError))

@@ -1,0 +1,134 @@
+"""What exactly is executed for a node of ROS 2: as `launch_ros` does it, `--ros-args` with name, namespace and a file
+of parameters, but without remaps.
+
+The console script of a Python package that is not built is a call of its function; all such packages of the workspace
+are on the module search path, as they would be once it is built and sourced.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from preflight_analysis.environment.ament import INDEX, python_folders
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing.agents import hooks
+from preflight_analysis.tracing.recipe import Recipe
+from preflight_analysis.tracing.request import TraceRequest
+
+PARAMETERS = f"{recipes.ROS_HOME}/parameters.yaml"
+"""The file with the node's parameters, inside."""
+
+_START = (
+    "import importlib, sys; path, target = sys.argv[1:3]; sys.argv[:3] = [path]; del sys.path[0]; "
+    "module, _, name = target.partition(':'); sys.exit(getattr(importlib.import_module(module), name)())"
+)
+"""Calls an entry point as its console script does."""
+_ELSEWHERE = (
+    "ROS_DISCOVERY_SERVER",
+    "ROS_STATIC_PEERS",
+    "ROS_SUPER_CLIENT",
+    "ROS_SECURITY_KEYSTORE",
+    "ROS_SECURITY_ENABLE",
+    "ROS_SECURITY_STRATEGY",
+    "ROS_LOCALHOST_ONLY",
+)
+"""What leads the middleware to others, who are not there."""
+
+
+def make(environment: Environment, request: TraceRequest) -> Recipe:
+    """The recipe of a request of generation 2."""
+    stable = {k: v for k, v in recipes.variables(environment, request.env).items() if k not in _ELSEWHERE}
+    python = environment.ros2_python or sys.executable
+    stable["PYTHONPATH"] = _joined(
+        [*_roots(request), *_split(stable, "PYTHONPATH"), *_sources(environment), *_installed(environment)]
+    )
+    prefixes = environment.ament_prefixes
+    beside = os.path.dirname(os.path.dirname(python))
+    own = [beside] if os.path.isdir(os.path.join(beside, INDEX)) else []
+    stable["AMENT_PREFIX_PATH"] = _joined([*_split(stable, "AMENT_PREFIX_PATH"), *prefixes, *own])
+    stable["LD_LIBRARY_PATH"] = _joined([*_split(stable, "LD_LIBRARY_PATH"), *(f"{p}/lib" for p in prefixes)])
+    if request.entry_point is not None:
+        argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]
+    else:
+        argv = [python, request.executable, *request.args]
+    argv.append("--ros-args")
+    space, _, base = request.node.rpartition("/")
+    if request.named:
+        argv += ["-r", f"__node:={base}"]
+    if space:
+        argv += ["-r", f"__ns:={space}"]
+    given = _parameters(request)
+    files = {}
+    if given:
+        files[PARAMETERS] = json.dumps({"/**": {"ros__parameters": given}}, ensure_ascii=False)
+        argv += ["--params-file", PARAMETERS]
+    env = recipes.inside(stable) | {
+        "ROS_DOMAIN_ID": "0",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        hooks.EXPECTED: request.node,
+        hooks.SHARES: json.dumps(_shares(environment)),
+    }
+    return Recipe(tuple(argv), env, stable, recipes.folder(request), True, files=files)
+
+
+def _split(variables: Mapping[str, str], name: str) -> list[str]:
+    return [entry for entry in variables.get(name, "").split(os.pathsep) if entry]
+
+
+def _joined(folders: Iterable[str]) -> str:
+    return os.pathsep.join(dict.fromkeys(folders))
+
+
+def _roots(request: TraceRequest) -> list[str]:
+    """The folder that the module of the entry point is imported from."""
+    if request.entry_point is None:
+        return []
+    steps = request.entry_point.partition(":")[0].count(".") + 1
+    at = request.executable
+    for _ in range(steps + (os.path.basename(at) == "__init__.py")):
+        at = os.path.dirname(at)
+    return [at]
+
+
+def _sources(environment: Environment) -> Iterable[str]:
+    """The folders of the Python packages of the workspace that are there as source."""
+    for package in environment.packages.values():
+        if package.generation == 2 and os.path.isfile(os.path.join(package.share, "setup.py")):
+            yield package.share
+
+
+def _installed(environment: Environment) -> Iterable[str]:
+    """What sourcing the prefixes would add."""
+    for prefix in environment.ament_prefixes:
+        yield from python_folders(prefix)
+
+
+def _shares(environment: Environment) -> dict[str, str]:
+    """Packages that the index of ament does not have, because they are not built."""
+    installed = tuple(os.path.join(prefix, "") for prefix in environment.ament_prefixes)
+    return {
+        package.name: package.share
+        for package in environment.packages.values()
+        if package.generation == 2 and not package.share.startswith(installed)
+    }
+
+
+def _parameters(request: TraceRequest) -> dict[str, Any]:
+    """The node's own parameters; what a file cannot hold is left out."""
+    own = request.node + "/"
+    return {
+        name.removeprefix(own): value
+        for name, value in request.params.items()
+        if name.startswith(own) and _is_plain(value)
+    }
+
+
+def _is_plain(value: Any) -> bool:
+    items = value if isinstance(value, (list, tuple)) else (value,)
+    return all(isinstance(i, (bool, int, str)) or (isinstance(i, float) and math.isfinite(i)) for i in items)

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Installs rclpy of ROS 2 Kilted with a middleware and a few messages, from PyPI alone, in out/ros2. Does nothing where it
+# is there. Tests that run ROS 2 nodes call this themselves.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+python=${PYTHON:-python3}
+place=$root/out/ros2
+packages=(ros-rclpy==9.1.2 ros-rmw-fastrtps-cpp==9.3.3 ros-std-msgs==5.5.1 ros-std-srvs==5.5.1)
+
+mkdir -p "$root/out"
+exec 9>"$root/out/.ros2.lock"
+flock 9
+wanted="${packages[*]} $("$python" --version)"
+[ "$(cat "$place/.ready" 2>/dev/null)" = "$wanted" ] && exit 0
+rm -rf "$place"
+"$python" -m venv "$place"
+log=$(mktemp)
+if ! "$place/bin/python" -m pip install --quiet "${packages[@]}" >"$log" 2>&1; then
+  cat "$log" >&2
+  rm -f "$log"
+  exit 2
+fi
+rm -f "$log"
+echo "$wanted" >"$place/.ready"

@@ -1,0 +1,265 @@
+"""Real rclpy nodes in the sandbox, run from the source of packages that were never built."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from ros2_desk import Ros2Desk, ends, node_of, ros2_prefix, uses
+
+ALL_ENDS = node_of(
+    """
+    self.create_publisher(String, 'chatter', 10)
+    self.create_publisher(String, '~/state', QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL,
+                                                        deadline=Duration(seconds=2)))
+    self.create_subscription(String, '/scan', print, qos_profile_sensor_data)
+    self.create_service(Empty, 'reset', print)
+    self.create_client(Empty, '/map/load')
+    """,
+    "from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data",
+    "from rclpy.duration import Duration",
+    "from std_srvs.srv import Empty",
+)
+
+
+def test_endpoints_have_the_names_that_the_node_gave(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
+    found = desk.trace("talker", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
+    assert (found.source, found.outcome.status, found.outcome.answers, found.notes) == ("trace", "spinning", (), ())
+    by_name = ends(found)
+    assert {key: end.type for key, end in by_name.items()} == {
+        ("publisher", "chatter"): "std_msgs/msg/String",
+        ("publisher", "~/state"): "std_msgs/msg/String",
+        ("subscriber", "/scan"): "std_msgs/msg/String",
+        ("service", "reset"): "std_srvs/srv/Empty",
+        ("client", "/map/load"): "std_srvs/srv/Empty",
+    }
+    assert by_name["publisher", "~/state"].qos == {
+        "reliability": "reliable",
+        "durability": "transient_local",
+        "depth": 1,
+        "deadline": 2.0,
+    }
+    assert by_name["subscriber", "/scan"].qos["reliability"] == "best_effort"
+    chatter = by_name["publisher", "chatter"]
+    line = (desk.package / "pkg/talker.py").read_text().splitlines().index(
+        "        self.create_publisher(String, 'chatter', 10)"
+    )  # fmt: skip
+    assert (chatter.source_file, chatter.source_line) == (str(desk.package / "pkg/talker.py"), line + 1)
+
+
+def test_final_names_are_those_of_the_launch(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
+    graph = desk.check(
+        "<node pkg='pkg' exec='talker' name='n' namespace='robot'><remap from='chatter' to='/elsewhere'/></node>"
+    ).graph
+    assert graph is not None
+    assert set(graph.topics) >= {"/elsewhere", "/robot/n/state", "/scan"}
+    assert "/robot/chatter" not in graph.topics
+
+
+def test_a_node_in_a_namespace_of_its_own_has_full_names(tmp_path: Path) -> None:
+    body = node_of("self.create_publisher(String, 'chatter', 10)\nself.create_publisher(String, '~/own', 10)")
+    desk = Ros2Desk(tmp_path, talker=body.replace("__init__('own')", "__init__('own', namespace='/there')"))
+    assert set(ends(desk.trace("talker", attributes=""))) == {
+        ("publisher", "/there/chatter"),
+        ("publisher", "/there/own/own"),
+    }
+
+
+def test_parameters_are_declared_with_their_defaults(tmp_path: Path) -> None:
+    body = """
+    self.declare_parameter('rate', 10.0)
+    self.declare_parameter('frames', ['a', 'b'])
+    self.declare_parameter('typed', Parameter.Type.INTEGER)
+    self.declare_parameters('wheel', [('radius', 0.1), ('count', 4)])
+    topic = self.declare_parameter('topic', 'chatter').value
+    self.create_publisher(String, topic, 10)
+    """
+    desk = Ros2Desk(tmp_path, talker=node_of(body, "from rclpy.parameter import Parameter"))
+    found = desk.trace("talker", "<param name='topic' value='given'/>")
+    assert {name: (use.default, use.has_default, use.mandatory) for name, use in uses(found).items()} == {
+        "~rate": (10.0, True, False),
+        "~frames": (["a", "b"], True, False),
+        "~typed": (None, False, False),
+        "~wheel.radius": (0.1, True, False),
+        "~wheel.count": (4, True, False),
+        "~topic": ("chatter", True, False),
+    }
+    assert ("publisher", "given") in ends(found)
+
+
+@pytest.mark.parametrize(
+    ("xml", "python"),
+    [("'5'", 5), ("'5.5'", 5.5), ("'yes sir: # &quot;x&quot;'", 'yes sir: # "x"'), ("'true'", True), ("'é😀'", "é😀")],
+)
+def test_parameters_arrive_as_launch_gives_them(tmp_path: Path, xml: str, python: object) -> None:
+    body = f"""
+    value = self.declare_parameter('value', {python!r}).value
+    self.create_publisher(String, 'equal' if value == {python!r} else 'other', 10)
+    """
+    desk = Ros2Desk(tmp_path, talker=node_of(body))
+    assert set(ends(desk.trace("talker", f"<param name='value' value={xml}/>"))) == {("publisher", "equal")}
+
+
+def test_a_value_of_another_type_ends_the_node_and_says_so(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, talker=node_of("self.declare_parameter('rate', 10.0)"))
+    analysis = desk.check("<node pkg='pkg' exec='talker' name='n'><param name='rate' value='5'/></node>")
+    assert analysis.graph is not None
+    outcome = analysis.graph.interfaces[0].outcome
+    assert outcome.status == "crashed"
+    assert "InvalidParameterTypeException" in (outcome.reason or "")
+    assert {"PRM014", "TRC001"} <= {finding.rule for finding in analysis.findings}
+
+
+def test_undeclared_parameters_are_no_mistake_where_the_node_takes_any(tmp_path: Path) -> None:
+    body = node_of("self.create_publisher(String, 'a', 1)").replace(
+        "__init__('own')", "__init__('own', automatically_declare_parameters_from_overrides=True)"
+    )
+    desk = Ros2Desk(tmp_path, any=body, none=node_of("self.declare_parameter('rate', 1.0)"))
+    launch = "<node pkg='pkg' exec='{}' name='n'><param name='rte' value='1.0'/></node>"
+    assert "PRM013" not in {finding.rule for finding in desk.check(launch.format("any")).findings}
+    assert "PRM013" in {finding.rule for finding in desk.check(launch.format("none")).findings}
+
+
+def test_what_a_node_waits_for_is_told_and_what_comes_after_is_speculative(tmp_path: Path) -> None:
+    body = """
+    self.create_publisher(String, 'before', 1)
+    client = self.create_client(Trigger, 'start')
+    while not client.wait_for_service(timeout_sec=1.0):
+        self.get_logger().info('waiting')
+    answer = client.call(Trigger.Request())
+    assert answer.success
+    future = client.call_async(Trigger.Request())
+    rclpy.spin_until_future_complete(self, future)
+    assert future.result().success
+    self.create_publisher(String, 'after', 1)
+    """
+    desk = Ros2Desk(tmp_path, talker=node_of(body, "from std_srvs.srv import Trigger"))
+    found = desk.trace("talker")
+    assert found.outcome.status == "spinning"
+    assert "it waits for the service /start, and was told that it is there" in found.outcome.answers
+    speculative = {name: end.speculative for (_, name), end in ends(found).items()}
+    assert speculative == {"before": False, "start": False, "after": True}
+
+
+def test_a_first_message_is_made_up(tmp_path: Path) -> None:
+    body = """
+    got, message = wait_for_message(String, self, 'first')
+    self.create_publisher(String, 'after' + message.data, 1)
+    """
+    desk = Ros2Desk(tmp_path, talker=node_of(body, "from rclpy.wait_for_message import wait_for_message"))
+    found = desk.trace("talker")
+    assert set(ends(found)) == {("subscriber", "first"), ("publisher", "after")}
+    assert found.outcome.status == "spinning"
+
+
+def test_lifecycle_nodes_are_configured_and_activated(tmp_path: Path) -> None:
+    body = """
+import rclpy
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from std_msgs.msg import String
+
+class Own(LifecycleNode):
+    def on_configure(self, state):
+        self.create_lifecycle_publisher(String, 'made', 1)
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state):
+        self.create_subscription(String, 'active', print, 1)
+        return super().on_activate(state)
+
+def main():
+    rclpy.init()
+    rclpy.spin(Own('own'))
+"""
+    found = Ros2Desk(tmp_path, managed=body).trace("managed")
+    assert set(ends(found)) == {("publisher", "made"), ("subscriber", "active")}
+    assert found.outcome.status == "spinning"
+
+
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "while rclpy.ok():\n        rclpy.spin_once(node)",
+        "rclpy.executors.SingleThreadedExecutor().spin()",
+        "executor = rclpy.executors.MultiThreadedExecutor()\n    executor.add_node(node)\n    executor.spin()",
+        "import threading\n    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n"
+        "    rate = node.create_rate(20)\n    while rclpy.ok():\n        rate.sleep()",
+        "import time\n    while True:\n        time.sleep(0.05)",
+    ],
+)
+def test_event_loops(tmp_path: Path, loop: str) -> None:
+    body = node_of("self.create_publisher(String, 'a', 1)", "import rclpy.executors")
+    body = body.replace("rclpy.spin(Own())", f"node = Own()\n    {loop}")
+    found = Ros2Desk(tmp_path, talker=body).trace("talker")
+    assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "a")})
+
+
+def test_a_package_that_is_not_built_has_its_share_folder(tmp_path: Path) -> None:
+    body = """
+    with open(get_package_share_directory('pkg') + '/config/topic.txt') as file:
+        self.create_publisher(String, file.read(), 1)
+    """
+    imported = "from ament_index_python.packages import get_package_share_directory"
+    desk = Ros2Desk(tmp_path, talker=node_of(body, imported))
+    desk.write("config/topic.txt", "from_file")
+    assert set(ends(desk.trace("talker"))) == {("publisher", "from_file")}
+
+
+def test_a_node_that_needs_messages_that_are_not_built_is_not_said_to_crash(tmp_path: Path) -> None:
+    own, foreign = (node_of("pass", f"from {package}.msg import Own") for package in ("own_msgs", "foreign_msgs"))
+    desk = Ros2Desk(tmp_path, own=own, foreign=foreign)
+    manifest = (desk.package / "package.xml").read_text().replace(">pkg<", ">own_msgs<")
+    desk.write("../own_msgs/package.xml", manifest.replace("ament_python", "ament_cmake"))
+    outcome = desk.trace("own").outcome
+    assert (outcome.status, outcome.reason) == (
+        "not-run",
+        "it imports own_msgs, a package of the workspace whose Python modules are not built",
+    )
+    assert desk.trace("foreign").outcome.status == "crashed"
+
+
+def test_a_trace_is_kept_until_what_it_depends_on_changes(tmp_path: Path) -> None:
+    body = "self.create_publisher(String, self.declare_parameter('topic', 'a').value, 1)"
+    desk = Ros2Desk(tmp_path / "ws", talker=node_of(body, "from pkg import helper"))
+    desk.write("pkg/helper.py", "")
+    desk.cache = TraceCache(tmp_path / "cache")
+    assert not desk.trace("talker", "<param name='topic' value='b'/>").cached
+    assert desk.trace("talker", "<param name='topic' value='b'/><param name='other' value='1'/>").cached
+    assert desk.trace("talker", "<param name='topic' value='b'/><remap from='b' to='c'/>").cached
+    assert not desk.trace("talker", "<param name='topic' value='c'/>").cached
+    desk.write("pkg/helper.py", "x = 1")
+    assert not desk.trace("talker", "<param name='topic' value='c'/>").cached
+
+
+def test_a_crash_is_not_kept_when_its_parameters_change(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path / "ws", talker=node_of("assert self.declare_parameter('n', 1).value == 2"))
+    desk.cache = TraceCache(tmp_path / "cache")
+    assert desk.trace("talker", "<param name='n' value='1'/>").outcome.status == "crashed"
+    assert desk.trace("talker", "<param name='n' value='2'/>").outcome.status == "spinning"
+
+
+def test_without_rclpy_nothing_is_run(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
+    launch = desk.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='talker' name='n'/></launch>")
+    bare = detect_environment(str(tmp_path), {"PATH": "/usr/bin:/bin"}, root=str(tmp_path / "nothing"))
+    assert bare.ros2_python is None
+    workspace = Workspace(bare, Sources())
+    assert workspace.requests(workspace.static(str(launch))) == (None,)
+
+
+def test_rclpy_is_found_where_it_is(tmp_path: Path) -> None:
+    prefix = ros2_prefix()
+    assert detect_environment(None, {"PATH": f"/bin:{prefix}/bin"}).ros2_python == f"{prefix}/bin/python3"
+    root = tmp_path / "root"
+    kilted = root / "opt" / "ros" / "kilted"
+    for made in (kilted / "share/ament_index/resource_index/packages/rclpy",
+                 kilted / "lib/python3.12/site-packages/rclpy/__init__.py", root / "usr/bin/python3.12"):  # fmt: skip
+        made.parent.mkdir(parents=True, exist_ok=True)
+        made.touch(0o755)
+    assert detect_environment(None, {"PATH": "/bin"}, root=str(root)).ros2_python == str(root / "usr/bin/python3.12")
