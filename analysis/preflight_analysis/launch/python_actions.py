@@ -61,6 +61,8 @@ def actions_of(records: object, source: PythonSource, around: Span) -> tuple[Act
 class _Reader:
     def __init__(self, source: PythonSource) -> None:
         self._source = source
+        self._keys: dict[int, dict[str, tuple[ast.expr, ast.expr | None]]] = {}
+        """What `_pairs` says of an argument, by the keys: looked through once, for all its children."""
 
     def actions(self, records: object, around: Span, parent: ast.Call | None, depth: int) -> tuple[Action, ...]:
         if not isinstance(records, list) or depth > MAX_DEPTH:
@@ -160,10 +162,16 @@ class _Reader:
         told = record.get("a")
         attributes = told if isinstance(told, dict) else {}
         key = _plain(attributes.get("name", attributes.get("from", attributes.get("value"))))
-        for first, second in self._pairs(whole):
-            if isinstance(first, ast.Constant) and first.value == key:
-                return second if attribute in ("value", "to") and second is not None else first
-        return whole
+        if id(whole) not in self._keys:
+            known: dict[str, tuple[ast.expr, ast.expr | None]] = {}
+            self._keys[id(whole)] = known
+            for first, second in self._pairs(whole):
+                if isinstance(first, ast.Constant) and isinstance(first.value, str):
+                    known.setdefault(first.value, (first, second))
+        found = self._keys[id(whole)].get(key or "")
+        if found is None:
+            return whole
+        return found[1] if attribute in ("value", "to") and found[1] is not None else found[0]
 
     def _pairs(self, node: ast.expr) -> Iterator[tuple[ast.expr, ast.expr | None]]:
         """Keys with values in what a call is given: of maps and of pairs; texts by themselves."""
