@@ -130,3 +130,17 @@ def test_a_node_that_spins_is_not_mentioned() -> None:
     """)
         == []
     )
+
+
+def test_a_long_last_line_is_told_once_and_without_its_time() -> None:
+    line = "[FATAL] [1795283767.248522279]: " + "no such device, " * 40
+    reason = "it ended with exit code 1: " + ("no such device, " * 40)[:200]
+    text = """
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "reason": "REASON", "stderr": ["LINE"]}}
+    """
+    (finding,) = findings_of(text.replace("LINE", line).replace("REASON", reason))
+    assert finding.message == f"/n crashed when it was run: {reason}"
+    (finding,) = findings_of(text.replace("LINE", line).replace('"reason": "REASON", ', ""))
+    assert finding.message == "/n crashed when it was run: exit code 1; " + ("no such device, " * 40)[:200]

@@ -126,6 +126,25 @@ def test_what_a_crashed_node_made_itself_comes_first(desk: Desk) -> None:
     assert not any(e.similar for e in found.endpoints if e.name in ("status", "~debug", "scan", "nothing"))
 
 
+WAITS = """
+import rospy
+from std_msgs.msg import String
+rospy.init_node("n")
+rospy.wait_for_service("start")
+rospy.Publisher("status", String, queue_size=1)
+rospy.spin()
+"""
+
+
+def test_a_run_that_is_not_complete_is_not_similar_to_itself(desk: Desk) -> None:
+    write_node(desk.package, WAITS)
+    for runs in (2, 2):
+        found = interface(desk.analyse("waits.launch", WORKS))
+        assert (found.source, found.elsewhere) == ("trace", None)
+        assert found.outcome.answers
+        assert desk.runs == runs
+
+
 def test_names_of_the_other_configuration_are_left_out(desk: Desk) -> None:
     other = CRASHES.replace('args="scan"', 'args="points"')
     assert told(interface(desk.analyse("a.launch", other, run=False))) == {

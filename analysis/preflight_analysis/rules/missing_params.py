@@ -10,7 +10,7 @@ from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import by_namespace
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import Interface, without_stamp
 
 _COMPLAINT = re.compile(r"KeyError|param|not set|missing|required|mandatory|not (found|given|specified|defined)", re.I)
 
@@ -69,5 +69,5 @@ def _last_words(interface: Interface, read: ParamRead) -> str | None:
         return None
     leaf = re.compile(rf"(?<!\w){re.escape(read.name.rpartition('/')[2])}(?!\w)")
     said = (interface.outcome.reason or "", *interface.outcome.stderr_tail)
-    found = [line.strip() for line in said if leaf.search(line) and _COMPLAINT.search(line)]
+    found = [without_stamp(line) for line in said if leaf.search(line) and _COMPLAINT.search(line)]
     return found[-1] if found else None

@@ -9,7 +9,7 @@ from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.interface import Outcome
+from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, without_stamp
 
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Exit|Interrupt|Warning|Fault)\b")
 
@@ -46,8 +46,9 @@ def _message(name: str, outcome: Outcome) -> str:
         message = f"{name} crashed when it was run: killed by {outcome.signal}"
     else:
         message = f"{name} crashed when it was run: exit code {outcome.exit_code}"
-    lines = [line.strip() for line in outcome.stderr_tail if line.strip()]
+    lines = [line for text in outcome.stderr_tail if (line := without_stamp(text))]
     telling = next((line for line in reversed(lines) if _EXCEPTION.match(line)), lines[-1] if lines else "")
+    telling = telling[:REASON_COLUMNS]
     return message if not telling or telling in message else f"{message}; {telling}"
 
 

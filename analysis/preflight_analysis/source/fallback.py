@@ -76,13 +76,20 @@ def _lacks(node: LaunchNode, interface: Interface) -> bool:
 
 
 def _with_more(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
+    """The interface itself where it came to its event loop and the rest adds nothing, as a kept trace of the same."""
     if isinstance(found, Interface):
         more = interface.with_more("similar", found.endpoints, found.params)
-        return replace(more, elsewhere=found.elsewhere)
+        return replace(more, elsewhere=found.elsewhere) if _is_more(more, interface) else interface
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
     params = tuple(replace(use, inferred=True) for use in found.params)
     whole = interface.with_more("source", endpoints, params)
+    if not _is_more(whole, interface):
+        return interface
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:
         return whole
     # There is no executable, but what it is to be made of.
     return replace(whole, outcome=replace(whole.outcome, reason="it is not built yet"))
+
+
+def _is_more(whole: Interface, interface: Interface) -> bool:
+    return not interface.seen_through or (whole.endpoints, whole.params) != (interface.endpoints, interface.params)

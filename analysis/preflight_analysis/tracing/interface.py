@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -9,6 +10,9 @@ from typing import Any, Literal
 Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
 Status = Literal["spinning", "exited", "crashed", "timed-out", "not-run"]
 PENDING = "its run has not ended yet"
+REASON_COLUMNS = 200
+"""How much of a line of a node's output stands in the reason of an outcome."""
+_STAMP = re.compile(r"\A\[ *[A-Z]+\] \[[\d., ]+\]: ")
 Source = Literal["trace", "annotation", "settings", "source", "similar", "none"]
 
 
@@ -95,6 +99,11 @@ class Outcome:
     """Wall time of the run, from exec to the end."""
     answers: tuple[str, ...] = ()
     """What was made up so that the node went on, a sentence each."""
+
+
+def without_stamp(line: str) -> str:
+    """A line of a node's output without what rosconsole writes before it, which is another time in each run."""
+    return _STAMP.sub("", line.strip(), count=1)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,16 @@ from typing import Any, TypeGuard, cast
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.agents.feeder import ANY_TYPE
-from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse, Role
+from preflight_analysis.tracing.interface import (
+    REASON_COLUMNS,
+    Endpoint,
+    Frame,
+    Interface,
+    Outcome,
+    ParamUse,
+    Role,
+    without_stamp,
+)
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, RawRun
@@ -515,14 +524,14 @@ def _signal(number: int) -> str:
 def _signal_reason(number: int, tail: tuple[str, ...]) -> str:
     if number == signal.SIGXCPU:
         return f"it used more than {RLIMITS['CPU']} s of processor time"
-    return f"it was killed by {_signal(number)}" + (f": {tail[-1][:200]}" if tail else "")
+    return f"it was killed by {_signal(number)}" + (f": {without_stamp(tail[-1])[:REASON_COLUMNS]}" if tail else "")
 
 
 def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
     exception = next((line for line in reversed(tail) if _EXCEPTION.match(line)), None)
     if exception is None and tail and tail[-1].strip():
-        exception = tail[-1].strip()
-    return f"it ended with exit code {code}" + (f": {exception[:200]}" if exception else "")
+        exception = without_stamp(tail[-1])
+    return f"it ended with exit code {code}" + (f": {exception[:REASON_COLUMNS]}" if exception else "")
 
 
 def _notes(found: _Gathered) -> tuple[str, ...]:
