@@ -31,11 +31,12 @@ from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.launch.model import Action
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
 
-_CLASSES: Mapping[str, Mapping[str, Role]] = {
+CLASSES: Mapping[str, Mapping[str, Role]] = {
     "topics": {"pub": "publisher", "sub": "subscriber"},
     "services": {"server": "service", "client": "client"},
     "actions": {"server": "action_server", "client": "action_client"},
 }
+"""What a class means in each group; parameters have none."""
 _ITEMS = {"topics": "topic", "services": "service", "actions": "action", "params": "param"}
 _ATTRIBUTES = {
     "topic": ("name", "type", "class"),
@@ -202,7 +203,7 @@ def written(what: Endpoint | ParamUse) -> tuple[str, str]:
     """The group that an endpoint or a parameter belongs into, and its element there."""
     if isinstance(what, ParamUse):
         return "params", f"<param name={_quoted(what.name)}/>"
-    group, word = next((g, w) for g, classes in _CLASSES.items() for w, role in classes.items() if role == what.role)
+    group, word = next((g, w) for g, classes in CLASSES.items() for w, role in classes.items() if role == what.role)
     attributes = f"name={_quoted(what.name)} type={_quoted(what.type or '*')} class={_quoted(word)}"
     return group, f"<{_ITEMS[group]} {attributes}/>"
 
@@ -212,10 +213,10 @@ def annotation_text(interface: Interface, indent: str = "") -> str:
 
     Names are as the node gave them. Empty when there is nothing to write.
     """
-    blocks: dict[str, dict[str, tuple[str, str]]] = {group: {} for group in (*_CLASSES, "params")}
+    blocks: dict[str, dict[str, tuple[str, str]]] = {group: {} for group in (*CLASSES, "params")}
     for what in worth_writing(interface):
         group, text = written(what)
-        order = list(_CLASSES.get(group, {}).values())
+        order = list(CLASSES.get(group, {}).values())
         place = str(order.index(what.role)) if isinstance(what, Endpoint) else ""
         blocks[group].setdefault(text, (place, what.name))
     return _comment({group: sorted(items, key=items.__getitem__) for group, items in blocks.items()}, indent)
@@ -225,7 +226,7 @@ def annotation_template(indent: str = "") -> str:
     """A comment with one of each kind, for the user to fill in."""
     blocks = {
         group: [f'<{_ITEMS[group]} name="" type="" class="{word}"/>' for word in classes]
-        for group, classes in _CLASSES.items()
+        for group, classes in CLASSES.items()
         if group != "actions"
     }
     return _comment({**blocks, "params": ['<param name=""/>']}, indent)
@@ -325,7 +326,7 @@ def _read_item(group: str, item: _Tag, problems: list[AnnotationProblem]) -> End
     type_, type_span = given.get("type", (None, item.head))
     if type_ is not None and not _TYPE.match(type_):
         found.append(AnnotationProblem(f"'{type_}' is not a type; write package/Name, or * for any", type_span))
-    classes = _CLASSES[group]
+    classes = CLASSES[group]
     class_, class_span = given.get("class", (None, item.head))
     if class_ is None:
         found.append(AnnotationProblem(f"<{item.name}> needs a class; {_one_of(tuple(classes))}", class_span))

@@ -11,6 +11,11 @@ nodes:                          # what nodes do that cannot be run, in the words
     executable: lidar
     topics: [{name: scan, type: sensor_msgs/LaserScan, class: pub}]
     params: [{name: ~rate, default: 10}]
+severities:                     # of rules: off, hint, info, warning or error; `all` are those that are not named
+  TOP002: off
+paths:                          # the same for files below a folder, or of a pattern; the last that matches counts
+  - path: third_party/*
+    severities: {all: off}
 """
 
 from __future__ import annotations
@@ -26,9 +31,15 @@ from preflight_analysis.documents.reading import Text, digest, read_text
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.findings.finding import Severity
+from preflight_analysis.findings.severities import ALL, CHOICES, Severities
 from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
+from preflight_analysis.rules.registry import rule_by_id
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.index import Root
+
+KEYS = ("roots", "external", "nodes", "severities", "paths")
+"""The names on the top level."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +76,8 @@ class ProjectSettings:
     external_topics: tuple[str, ...] = ()
     """Patterns of full names."""
     nodes: tuple[NodeSettings, ...] = ()
+    severities: tuple[Severities, ...] = ()
+    """The last that speak of a finding count."""
     text: str = ""
     """What the file held."""
 
@@ -87,21 +100,35 @@ def read_project_settings(folder: str) -> ProjectSettings:
     roots: list[Root] = []
     external: list[str] = []
     nodes: list[NodeSettings] = []
+    everywhere: list[Severities] = []
+    by_path: list[Severities] = []
     for key, value in _entries(document, problems, "the settings"):
         if key.value == "nodes" and isinstance(value, yaml.SequenceNode):
             nodes += (node for item in value.value if (node := _node(item, problems)) is not None)
         elif key.value == "nodes":
             problems.append(_problem(value, "nodes is a list"))
+        elif key.value == "severities":
+            everywhere.append(Severities(_severities(value, problems)))
+        elif key.value == "paths" and isinstance(value, yaml.SequenceNode):
+            by_path += (each for item in value.value if (each := _of_path(item, folder, problems)) is not None)
+        elif key.value == "paths":
+            problems.append(_problem(value, "paths is a list"))
         elif key.value == "external":
             external += _external(value, problems)
         elif key.value != "roots":
-            problems.append(_problem(key, f"'{key.value}' is no setting; there are: roots, external, nodes"))
+            problems.append(_problem(key, f"'{key.value}' is no setting; there are: {', '.join(KEYS)}"))
         elif not isinstance(value, yaml.SequenceNode):
             problems.append(_problem(value, "roots is a list of launch files"))
         else:
             roots += (root for entry in value.value if (root := _root(entry, folder, problems)) is not None)
     return ProjectSettings(
-        path, tuple(dict.fromkeys(roots)), tuple(problems), tuple(external), tuple(nodes), found.text
+        path,
+        tuple(dict.fromkeys(roots)),
+        tuple(problems),
+        tuple(external),
+        tuple(nodes),
+        (*everywhere, *by_path),
+        found.text,
     )
 
 
@@ -186,6 +213,35 @@ def _external(node: yaml.Node, problems: list[SettingsProblem]) -> Iterator[str]
                     yield "/" + item.value.lstrip("/")
                 else:
                     problems.append(_problem(item, "a topic is a name or a pattern"))
+
+
+def _severities(node: yaml.Node, problems: list[SettingsProblem]) -> dict[str, Severity | None]:
+    found: dict[str, Severity | None] = {}
+    for key, value in _entries(node, problems, "severities"):
+        wanted = value.value if isinstance(value, yaml.ScalarNode) else ""
+        if key.value != ALL and rule_by_id(key.value) is None:
+            problems.append(_problem(key, f"there is no rule '{key.value}'"))
+        elif wanted not in CHOICES:
+            problems.append(_problem(value, f"a severity is one of {', '.join(CHOICES)}"))
+        else:
+            found[key.value] = CHOICES[wanted]
+    return found
+
+
+def _of_path(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> Severities | None:
+    pattern: str | None = None
+    severities: dict[str, Severity | None] = {}
+    for key, value in _entries(node, problems, "a path"):
+        if key.value == "path" and isinstance(value, yaml.ScalarNode):
+            pattern = _path(folder, value)
+        elif key.value == "severities":
+            severities |= _severities(value, problems)
+        else:
+            problems.append(_problem(key, f"'{key.value}' does not belong into a path; it has path and severities"))
+    if pattern is None:
+        problems.append(_problem(node, "a path has its pattern as 'path'"))
+        return None
+    return Severities(severities, pattern)
 
 
 def _root(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> Root | None:

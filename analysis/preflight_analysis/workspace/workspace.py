@@ -18,6 +18,7 @@ from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
@@ -54,6 +55,8 @@ class Analysis:
     environment: Environment
     context: Context
     """What the rules get to see."""
+    severities: tuple[Severities, ...] = ()
+    """Those that the settings want."""
 
     @property
     def graph(self) -> Graph | None:
@@ -68,7 +71,7 @@ class Analysis:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What all rules say. They are run when this is first asked for: where the graph follows, only with that."""
-        return tuple(run_rules(self.context))
+        return adjusted(run_rules(self.context), self.severities)
 
     @property
     def launch(self) -> Root:
@@ -117,7 +120,8 @@ class Workspace:
         key = (path, tuple(sorted(args.items())))
         with self._lock:
             known = self._static.get(key)
-        if known is not None and self.is_current(known.tree):
+        severities = self._project_settings().severities
+        if known is not None and known.severities == severities and self.is_current(known.tree):
             return known
         tree = self._remembering_tree(path, args)
         documents, launch_files = self._documents(tree)
@@ -130,7 +134,7 @@ class Workspace:
             executables=self._executables,
             sources=self.sources,
         )
-        analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, context)
+        analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, context, severities)
         with self._lock:
             self._static.pop(key, None)
             self._static[key] = analysis
@@ -210,7 +214,7 @@ class Workspace:
             settings_problems=problems,
         )
         documents = analysis.documents if document is None else {**analysis.documents, document.path: document}
-        return replace(analysis, context=context, documents=documents)
+        return replace(analysis, context=context, documents=documents, severities=project.severities)
 
     def _project_settings(self) -> ProjectSettings:
         """The settings file of the workspace as it is now."""

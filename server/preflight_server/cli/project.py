@@ -102,8 +102,8 @@ def run_nodes(
     report: Callable[[int, int], None] = lambda done, total: None,
 ) -> Analysis:
     """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox, as
-    the common options say. Where nothing may be run, earlier runs tell that would have the same result. `report` is told
-    how many of how many were run.
+    the common options say. Where nothing may be run, earlier runs tell that would have the same result. `report` is
+    told how many of how many were run.
 
     Interrupting it stops the runs.
     """

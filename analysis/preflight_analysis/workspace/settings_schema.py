@@ -1,0 +1,134 @@
+"""The JSON schema of the settings file, with which editors complete and check it.
+
+`python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json` writes it.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from preflight_analysis.findings.severities import ALL, CHOICES
+from preflight_analysis.graph.annotations import CLASSES, GROUPS
+from preflight_analysis.rules.registry import all_rules
+
+COMMAND = "python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json"
+
+_SEVERITIES = {"$ref": "#/definitions/severities"}
+
+
+def schema() -> dict[str, Any]:
+    """The schema; `project_settings` reads what it describes."""
+    properties = {
+        "roots": _list(
+            "What is launched, beside the files that nothing includes.",
+            {
+                "oneOf": [
+                    {"type": "string", "description": "A launch file, relative to this file."},
+                    _object(
+                        "A launch file with arguments; as many of them as there are profiles.",
+                        {
+                            "file": _text("A launch file, relative to this file."),
+                            "args": {
+                                "type": "object",
+                                "description": "The value of each argument, as on a command line.",
+                                "additionalProperties": {"type": ["string", "number", "boolean"]},
+                            },
+                        },
+                        ["file"],
+                    ),
+                ]
+            },
+        ),
+        "external": _object(
+            "What something that no launch file starts offers or uses.",
+            {"topics": _list("Full names; * stands for anything, slashes among it.", {"type": "string"})},
+        ),
+        "nodes": _list(
+            "What nodes do that cannot be run, in the words of the annotations of launch files.",
+            {
+                **_object(
+                    "Each node of an executable, or the one of a name.",
+                    {
+                        "package": _text("The package of the executable."),
+                        "executable": _text("The executable, `type` in ROS 1."),
+                        "name": _text("The full name of a single node."),
+                        **{group: _items(group) for group in GROUPS},
+                    },
+                ),
+                "anyOf": [{"required": ["package", "executable"]}, {"required": ["name"]}],
+            },
+        ),
+        "severities": _SEVERITIES,
+        "paths": _list(
+            "Severities in some files; the last entry that matches counts.",
+            _object(
+                "The severities of rules in some files.",
+                {
+                    "path": _text("A folder, or a pattern in which * stands for anything, relative to this file."),
+                    "severities": _SEVERITIES,
+                },
+                ["path"],
+            ),
+        ),
+    }
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "The settings of ros-preflight for a workspace, .ros-preflight.yaml",
+        **_object("What ros-preflight cannot find out by itself.", properties),
+        "type": ["object", "null"],
+        "definitions": {"severities": _severities()},
+    }
+
+
+def text() -> str:
+    """The schema as the file has it."""
+    return json.dumps(schema(), indent=2) + "\n"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """The command line: one argument, the file."""
+    if len(arguments) != 1:
+        print(f"usage: {COMMAND}", file=sys.stderr)
+        return 2
+    Path(arguments[0]).write_text(text(), encoding="utf-8")
+    return 0
+
+
+def _severities() -> dict[str, Any]:
+    choice = {"enum": list(CHOICES)}
+    rules = {rule.id: {**choice, "description": f"{rule.name}: {rule.what}"} for rule in all_rules()}
+    every = {ALL: {**choice, "description": "Each rule that is not named beside it."}}
+    return _object("Severities of rules, instead of their own.", {**every, **rules})
+
+
+def _items(group: str) -> dict[str, Any]:
+    named = {"name": _text("The name as the node gives it, before namespaces and remaps.")}
+    if group not in CLASSES:
+        return _list("", _object("", {**named, "default": {"type": ["string", "number", "boolean"]}}, ["name"]))
+    properties = {**named, "type": _text("As package/Type."), "class": {"enum": list(CLASSES[group])}}
+    return _list("", _object("", properties, ["name", "class"]))
+
+
+def _text(description: str) -> dict[str, Any]:
+    return {"type": "string", "description": description}
+
+
+def _list(description: str, items: Mapping[str, Any]) -> dict[str, Any]:
+    return {"type": "array", **_described(description), "items": dict(items)}
+
+
+def _object(description: str, properties: Mapping[str, Any], required: Sequence[str] = ()) -> dict[str, Any]:
+    found = {"type": "object", **_described(description), "properties": dict(properties)}
+    return {**found, **({"required": list(required)} if required else {}), "additionalProperties": False}
+
+
+def _described(description: str) -> dict[str, str]:
+    return {"description": description} if description else {}
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
