@@ -100,3 +100,16 @@ def test_a_run_that_goes_well_is_not_spoken_of(tmp_path: Path) -> None:
 def test_nothing_of_an_answer_is_relied_on(tmp_path: Path, answer: Any) -> None:
     analysis = _launched(tmp_path, answer)
     assert {finding.rule for finding in analysis.findings} <= {"LCH032", "ARG001", "ARG003"}
+
+
+def test_a_run_cannot_speak_for_the_files_of_the_host(tmp_path: Path) -> None:
+    params = tmp_path / "p.yaml"
+    params.write_text("/**:\n  ros__parameters:\n    rate: 5\n")
+    node = {"pkg": ["q"], "exec": ["x"], "name": ["n"]}
+    child = {"k": "param", "a": {"from": [str(params)]}, "c": []}
+    answer = {
+        "actions": [{"k": "node", "a": node, "c": [child]}],
+        "files": {str(params): "/**:\n  ros__parameters:\n    rate: 6\n"},
+    }
+    (found,) = _launched(tmp_path, answer).tree.nodes
+    assert [param.value for param in found.params] == [5]

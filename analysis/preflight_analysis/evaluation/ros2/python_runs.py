@@ -9,6 +9,7 @@ read from it. The answer comes from the user's own process: nothing of its form 
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -171,6 +172,8 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         state.note_unknown(what, "its run gave no answer that can be read", origin[-1])
         return None
     for path, text in (_texts(told.get("files")) or {}).items():
+        if os.path.lexists(path):
+            continue  # a file of the host's is what it is, whatever the run says
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
     error = told.get("error")
     if isinstance(error, dict):
