@@ -55,7 +55,7 @@ class Desk:
 
 
 def ends(found: Interface) -> Ends:
-    return [(e.role, e.name, e.type) for e in found.endpoints]
+    return [(e.role, e.name, e.type) for e in found.endpoints if not e.builtin]
 
 
 def params(found: Interface) -> dict[str, Any]:
@@ -196,7 +196,9 @@ int main(int, char **) { auto node = std::make_shared<Talker>(); rclcpp::spin(no
 def test_what_a_lifecycle_node_makes_once_it_is_configured(desk: Desk) -> None:
     found = desk.read(LIFECYCLE)
     assert ends(found) == [("publisher", "robot/chatter", "std_msgs/msg/String")]
-    assert found.endpoints[0].qos == {"reliability": "best_effort", "durability": "volatile", "depth": 3}
+    (publisher,) = (e for e in found.endpoints if e.role == "publisher")
+    assert publisher.qos == {"reliability": "best_effort", "durability": "volatile", "depth": 3}
+    assert [e.type for e in found.endpoints if e.name == "~/change_state"] == ["lifecycle_msgs/srv/ChangeState"]
 
 
 @pytest.mark.parametrize(
@@ -325,3 +327,54 @@ def test_a_base_of_the_same_name_in_another_namespace(desk: Desk) -> None:
         """
     found = desk.main('auto ours = std::make_shared<ours::Node>("x");', before=before)
     assert [e.name for e in found.endpoints] == ["default"]
+
+
+LIBRARY_YAML = """\
+battery:
+  rate: {type: double, default_value: 10, validation: {gt<>: 0.0}}
+  topics:
+    state:
+      type: string
+      default_value: "state"
+  gains:
+    type: double_array
+    default_value: [1, 0.5]
+  device:
+    type: string
+    read_only: true
+"""
+LISTENING = """
+#include "p/battery_parameters.hpp"
+class Battery : public rclcpp::Node {
+public:
+  Battery() : Node("battery") {
+    listener_ = std::make_shared<battery::ParamListener>(get_node_parameters_interface());
+    params_ = listener_->get_params();
+    pub_ = create_publisher<std_msgs::msg::String>(params_.topics.state, 1);
+  }
+private:
+  std::shared_ptr<battery::ParamListener> listener_;
+  battery::Params params_;
+};
+int main() { rclcpp::spin(std::make_shared<Battery>()); }
+"""
+
+
+def test_parameters_of_a_generated_library(desk: Desk) -> None:
+    desk.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
+    desk.write("src/battery.yaml", LIBRARY_YAML)
+    found = desk.read(LISTENING, '<param name="topics.state" value="front"/>')
+    assert params(found) == {"~rate": 10.0, "~topics.state": "state", "~gains": [1.0, 0.5], "~device": None}
+    assert ends(found) == [("publisher", "front", "std_msgs/msg/String")]
+    rows = LIBRARY_YAML.splitlines()
+    lines = {use.name: rows[(use.source_line or 0) - 1].split(":")[0].strip() for use in found.params}
+    assert lines == {"~rate": "rate", "~topics.state": "state", "~gains": "gains", "~device": "device"}
+
+
+@pytest.mark.parametrize(
+    "text", ["battery:\n  __map_joints:\n    k: {type: double}\n", "- a\n", "{{", "other: {a: 1}\n"]
+)
+def test_a_generated_library_that_does_not_tell_all_names(desk: Desk, text: str) -> None:
+    desk.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
+    desk.write("src/battery.yaml", text)
+    assert ("list", "/") in [(use.access, use.name) for use in desk.read(LISTENING).params]

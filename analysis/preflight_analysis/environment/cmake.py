@@ -94,6 +94,8 @@ class Build:
     """Files and folders other than programs and targets."""
     components: Mapping[str, str] = field(default_factory=dict)
     """Library by the class of each rclcpp component that it registers."""
+    parameter_libraries: Mapping[str, str] = field(default_factory=dict)
+    """The YAML file of each library of generate_parameter_library, by the name that its header has."""
     component_programs: Mapping[str, str] = field(default_factory=dict)
     """The class of the one component that an executable is made to run, by the name of the executable."""
 
@@ -220,6 +222,7 @@ class _Lists:
         self._installed: list[Installed] = []
         self._components: dict[str, str] = {}
         self._component_programs: dict[str, str] = {}
+        self._parameter_libraries: dict[str, str] = {}
         self._macros: dict[str, _Command] = {}
         self._left = _MAX_COMMANDS
 
@@ -232,6 +235,7 @@ class _Lists:
             self._programs,
             tuple(self._installed),
             self._components,
+            self._parameter_libraries,
             self._component_programs,
         )
 
@@ -324,6 +328,8 @@ class _Lists:
                 self._component(target, rest)
             case "rclcpp_components_register_nodes", [target, *plugins]:
                 self._components.update(dict.fromkeys(plugins, target))
+            case "generate_parameter_library", [library, file, *_]:
+                self._parameter_libraries[library] = os.path.normpath(os.path.join(folder, file))
             case "add_subdirectory", [below, *_]:
                 self.folder(os.path.normpath(os.path.join(folder, below)), variables, depth)
             case "include", [file, *_] if file.endswith(".cmake") and depth < _MAX_DEPTH:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.config_params import Config
@@ -74,7 +75,7 @@ class CppAnalysis:
             lambda path: self._file(path, text),
             RCLCPP_LIBRARIES,
         )
-        calls = RclcppCalls(name, params, self._has_type)
+        calls = RclcppCalls(name, params, self._has_type, partial(files.parameter_library, package))
         cls = plugin or files.build(package).component_programs.get(executable)
         program = files.component(package, cls) if cls is not None else files.executable(package, executable)
         if program is not None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from lxml import etree
@@ -16,6 +16,7 @@ from preflight_analysis.environment.cmake import LISTS, Build, Target, read_buil
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import FileText
+from preflight_analysis.source.parameter_library import ParameterLibrary, read_parameter_library
 
 MAX_FILES = 200
 """How many files of one program are looked at."""
@@ -62,6 +63,22 @@ class CppFiles:
             libraries = (each for each in build.targets.values() if each.kind == "library")
             target = next((each for each in libraries if self._registers(each, cls)), None)
         return self._program(package, target) if target is not None else None
+
+    def parameter_library(self, package: str, space: str, includes: Sequence[str]) -> ParameterLibrary | None:
+        """What is declared by the library of generate_parameter_library that has a C++ namespace: one of the package,
+        or one whose header is included."""
+        paths = list(self.build(package).parameter_libraries.values())
+        for include in includes:
+            other, _, header = include.rpartition("/")
+            if other != package and other in self._packages:
+                path = self.build(other).parameter_libraries.get(PurePath(header).stem)
+                paths += [path] if path is not None else []
+        for path in dict.fromkeys(paths):
+            text = self._read(path)
+            found = read_parameter_library(path, text) if text is not None else None
+            if found is not None and found[0] == space:
+                return found[1]
+        return None
 
     def _registers(self, target: Target, cls: str) -> bool:
         texts = (self._read(source) or "" for source in target.sources)

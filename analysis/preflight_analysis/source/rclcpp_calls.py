@@ -11,8 +11,10 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.source import rclcpp_qos
 from preflight_analysis.source.cpp_operators import converted
+from preflight_analysis.source.cpp_text import ClassText, FileText
 from preflight_analysis.source.cpp_values import (
     Argument,
+    Class,
     Constant,
     CppType,
     Fluent,
@@ -26,6 +28,7 @@ from preflight_analysis.source.cpp_values import (
 )
 from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.parameter_library import Libraries
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 from preflight_analysis.source.rclcpp_qos import Qos
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
@@ -61,6 +64,14 @@ _HARMLESS = frozenset({"bond", "std", *LIBRARIES})
 """Namespaces of libraries that may get a node and declare none of its parameters in a way not known here."""
 _LOADERS = frozenset({"pluginlib::ClassLoader"})
 
+_LIFECYCLE = (
+    ("~/change_state", "lifecycle_msgs/srv/ChangeState"),
+    ("~/get_state", "lifecycle_msgs/srv/GetState"),
+    ("~/get_available_states", "lifecycle_msgs/srv/GetAvailableStates"),
+    ("~/get_available_transitions", "lifecycle_msgs/srv/GetAvailableTransitions"),
+    ("~/get_transition_graph", "lifecycle_msgs/srv/GetAvailableTransitions"),
+)
+"""The services that every node with a lifecycle offers."""
 _TF = "tf2_msgs/msg/TFMessage"
 _LISTENS: tuple[tuple[Role, str, str], ...] = (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF))
 _FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
@@ -186,10 +197,14 @@ class RclcppCalls:
     includes: Sequence[str] = ()
     """What the files of the program include."""
 
-    def __init__(self, node: str, params: KnownParams, has_type: Callable[[str, str, str], bool]) -> None:
+    def __init__(
+        self, node: str, params: KnownParams, has_type: Callable[[str, str, str], bool], libraries: Libraries
+    ) -> None:
         self._node = node
         self._params = params
         self._has_type = has_type
+        self._libraries = libraries
+        self._structs: dict[str, Instance] = {}
         self._declared: dict[str, Any] = {"~use_sim_time": False}
         self.found = Found()
 
@@ -241,6 +256,8 @@ class RclcppCalls:
                 return self._hints(given, place)
             case "image_transport::SubscriberFilter":
                 self._image("subscriber", False, args, place)
+        if name.endswith("::ParamListener") and self._listener(name, given):
+            return Unmade(type_)
         if name in _LOADERS:
             self._any_parameter(place)  # what it loads declares its own
         elif ends := _FIXED.get(name):
@@ -257,8 +274,17 @@ class RclcppCalls:
 
     def _new_node(self, given: Sequence[Any], place: Place, *, has_lifecycle: bool) -> NodeObject:
         options = next((v for v in given if isinstance(v, _Options)), _Options())
+        node = self._named_node(given, options, has_lifecycle=has_lifecycle)
+        for service, kind in _LIFECYCLE if has_lifecycle else ():
+            self.found.end(
+                Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
+            )
         if options.takes_all:
             self._any_parameter(place)
+        return node
+
+    def _named_node(self, given: Sequence[Any], options: _Options, *, has_lifecycle: bool) -> NodeObject:
+        """The node, and whether its options give it another name than the launch file's."""
         given_to = [each for before, each in itertools.pairwise(("", *options.arguments)) if before != "-p"]
         if not all(isinstance(argument, str) for argument in given_to):
             return NodeObject(UNKNOWN, has_lifecycle=has_lifecycle)
@@ -352,6 +378,8 @@ class RclcppCalls:
 
     def _of_made(self, owner: Unmade, name: str, args: Sequence[Argument], place: Place) -> Any:
         kind = _qualified(owner.type)
+        if name == "get_params" and kind in self._structs:
+            return self._structs[kind]
         if kind == "image_transport::ImageTransport" and name in _IMAGES:
             role, with_info = _IMAGES[name]
             self._image(role, with_info, args, place)
@@ -441,6 +469,27 @@ class RclcppCalls:
             self._end(role, node.name(info), _INFO, qos, place)
 
     # Parameters.
+
+    def _listener(self, name: str, given: Sequence[Any]) -> bool:
+        """The parameters of a class that generate_parameter_library makes. False if its file is not there."""
+        library = self._libraries(name.rpartition("::")[0], self.includes)
+        if library is None:
+            return False
+        node = _first_node(given)
+        prefix = next((value.rstrip(".") + "." for value in given if isinstance(value, str) and value), "")
+        struct = self._structs[name] = _struct()
+        for param in library.params:
+            place = Place(param.file, param.line)
+            default = _of_type(param.default, param.type)
+            value = self._declare(node, prefix + param.name, default, param.has_default, place)
+            *groups, leaf = param.name.split(".")
+            inner = struct
+            for group in groups:
+                inner = inner.names.setdefault(group, _struct())
+            inner.names[leaf] = UNKNOWN if value is _UNSET else value
+        if not library.complete:
+            self._any_parameter(Place(library.params[0].file if library.params else "", 1))
+        return True
 
     def _declare_call(self, node: NodeObject, types: Sequence[CppType], args: Sequence[Argument], place: Place) -> Any:
         name = value_at(args, 0)
@@ -625,6 +674,17 @@ def _parameter(argument: Argument, type_: CppType | None) -> _Parameter:
 
 def _is_descriptor(value: Any) -> bool:
     return isinstance(value, Unmade) and value.type.name.endswith("ParameterDescriptor")
+
+
+def _struct() -> Instance:
+    """A struct whose fields are known and nothing else of it."""
+    return Instance(Class(ClassText("Params", (), (), (), (), FileText("")), {}))
+
+
+def _of_type(value: Any, type_: str) -> Any:
+    """A default of a YAML file as the parameter has it, which is of the type `type_` (`double_array_fixed_3`)."""
+    kind = CppType(type_.partition("_")[0])
+    return [converted(each, kind) for each in value] if isinstance(value, list) else converted(value, kind)
 
 
 def _changed(options: _Options, name: str, args: Sequence[Argument]) -> Any:
