@@ -5,12 +5,15 @@ from __future__ import annotations
 import textwrap
 
 from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.queries.folding import folds
 
 
 def folded(text: str) -> list[tuple[str, int, int]]:
     """Kind, first and last line, counted from 0."""
-    return [(f.kind, f.start, f.end) for f in folds(parse_xml("/a.launch", textwrap.dedent(text).lstrip("\n")))]
+    return [
+        (f.kind, f.start, f.end) for f in folds(read_ros1(parse_xml("/a.launch", textwrap.dedent(text).lstrip("\n"))))
+    ]
 
 
 def test_elements_comments_and_regions() -> None:

@@ -17,7 +17,7 @@ INNER = """
 
 def asked(text: str) -> Signature | None:
     there = at_cursor(text + INNER)
-    return signature(there.analysis, there.document, there.offset, there.sources)
+    return signature(there.analysis, there.launch_file, there.offset, there.sources)
 
 
 def active(inside: str, before: str = "<launch>") -> str | None:

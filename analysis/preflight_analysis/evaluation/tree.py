@@ -171,7 +171,8 @@ class Use(NamedTuple):
     """A place in a file that stands for something: what hover and go-to-definition answer from.
 
     `kind` is `arg` (a reference or declaration), `find` (a package), `env`, `include` (a file), `value` (an attribute
-    with substitutions), `executable`, `anon`, `dirname`, `eval`. `value` is what it came to, None if unknown.
+    with substitutions), `declaration` (of an argument), `node` (its name), `executable`, `anon`, `dirname`, `eval`.
+    `value` is what it came to, None if unknown.
     `target` is the place it leads to. `clear_params` is that attribute where it is true: `value` is the namespace.
     """
 

@@ -110,6 +110,10 @@ class Action:
             yield from child.walk()
 
 
+NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "lifecycle_node"})
+"""Tags that start a node."""
+
+
 @dataclass(frozen=True, slots=True)
 class LaunchFile:
     """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are

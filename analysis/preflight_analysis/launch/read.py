@@ -20,6 +20,12 @@ from preflight_analysis.launch.ros2_yaml import read_ros2_yaml
 
 YAML_SUFFIXES = (".yaml", ".yml")
 PYTHON_SUFFIX = ".py"
+LAUNCH_SUFFIXES = (
+    ".launch",
+    ".test",
+    *(f"{mark}launch.{suffix}" for mark in "._" for suffix in ("xml", "yaml", "yml")),
+)
+"""Launch files by their name; any other file is one if a launch file includes it."""
 
 _ROS2_MARKS = re.compile(
     r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
@@ -47,6 +53,11 @@ def read_launch(source: Text, generation: int | None = None) -> LaunchFile:
         return read_ros2_yaml(parse_yaml(path, text))
     document = parse_xml(path, text, source.encoding)
     return read_ros2_xml(document) if (generation or generation_of(path, text)) == 2 else read_ros1(document)
+
+
+def is_yaml(path: str) -> bool:
+    """Whether a launch file of that name is in YAML."""
+    return path.endswith(YAML_SUFFIXES)
 
 
 def generation_of(path: str, text: str) -> int:

@@ -1,12 +1,29 @@
-"""The arguments that a value of a ROS 1 launch file uses: `$(arg x)`, and names in `$(eval ...)`."""
+"""What the substitutions of a value name: arguments (`$(arg x)`, `$(var x)`, names in `$(eval ...)`), packages,
+environment variables."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Literal
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Substitution, Value
+from preflight_analysis.launch.substitutions_ros2 import nested, span_of
+
+Named = Literal["argument", "package", "variable", "identifier"]
+
+NAMES: Mapping[str, Named] = {
+    "arg": "argument",
+    "var": "argument",
+    "find": "package",
+    "find-pkg-share": "package",
+    "find-pkg-prefix": "package",
+    "env": "variable",
+    "optenv": "variable",
+    "anon": "identifier",
+}
+"""What the first word of a substitution is the name of, in both generations."""
 
 _EVAL_ARGUMENT = re.compile(
     r"""\b(?P<function>arg\s*\(\s*)(?P<quote>['"])(?P<quoted>[^'"]*)(?P=quote)"""
@@ -44,15 +61,24 @@ NOT_ARGUMENTS = frozenset(
 def arg_references(value: Value) -> Iterator[tuple[str, Span]]:
     """Name and place of each use of an argument, in order.
 
-    In `$(eval ...)` each bare name counts that is no keyword or constant: roslaunch looks arguments up by name there
-    (http://wiki.ros.org/roslaunch/XML#substitution_args), and a name that is no argument is an error.
+    In the `$(eval ...)` of ROS 1 each bare name counts that is no keyword or constant: roslaunch looks arguments up by
+    name there (http://wiki.ros.org/roslaunch/XML#substitution_args), and a name that is no argument is an error.
     """
-    for part in value.substitutions:
-        if part.command == "arg":
-            if part.arguments:
-                yield part.arguments, part.arguments_span
-        elif part.command == "eval":
+    for part in nested(value.parts):
+        if NAMES.get(part.command) == "argument":
+            name, span = first_word(part)
+            if name:
+                yield name, span
+        elif part.command == "eval" and not part.words:
             yield from _in_expression(part)
+
+
+def first_word(part: Substitution) -> tuple[str, Span]:
+    """The first argument of a substitution as written: the name that it speaks of."""
+    if part.words:
+        return "".join(piece.text for piece in part.words[0]), span_of(part.words[0], part.arguments_span)
+    name = part.arguments.split(" ", 1)[0]
+    return name, Span(part.arguments_span.start, part.arguments_span.start + len(name))
 
 
 def _in_expression(part: Substitution) -> Iterator[tuple[str, Span]]:

@@ -3,27 +3,38 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
-from preflight_analysis.documents.document import Element
+from preflight_analysis.documents.document import Element, SpannedText
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution
 from preflight_analysis.launch.substitutions import SubstitutionSyntaxError, find_substitutions
-from preflight_analysis.workspace.facts import ArgDeclaration, declaration
+from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
+from preflight_analysis.workspace.facts import SCOPES, ArgDeclaration, declaration
 from preflight_analysis.workspace.workspace import Analysis
 
 
 def accepted(launch_file: LaunchFile) -> tuple[ArgDeclaration, ...]:
-    """The arguments that the file takes from outside, required ones first: those declared in a group stay in there,
-    those with a `value` cannot be overridden. One that is declared several times (under conditions) counts once."""
+    """The arguments that the file takes from outside, required ones first: those declared in a group stay in there
+    in ROS 1, those with a `value` cannot be overridden. One that is declared several times (under conditions) counts
+    once."""
     found: dict[str, ArgDeclaration] = {}
-    for action in launch_file.root.children if launch_file.root is not None else ():
+    scopes = SCOPES if launch_file.generation == 2 else ()
+    for action in _below(launch_file.root, scopes) if launch_file.root is not None else ():
         if action.kind == "arg" and action.attribute("name") is not None:
             each = declaration(action)
             if each.value is None:
                 found.setdefault(each.name, each)
     return tuple(sorted(found.values(), key=lambda each: not each.required))
+
+
+def _below(scope: Action, scopes: Collection[str]) -> Iterator[Action]:
+    for action in scope.children:
+        yield action
+        if action.kind in scopes:
+            yield from _below(action, scopes)
 
 
 def visible(launch_file: LaunchFile, offset: int) -> tuple[ArgDeclaration, ...]:
@@ -37,9 +48,10 @@ def visible(launch_file: LaunchFile, offset: int) -> tuple[ArgDeclaration, ...]:
 
 def _visible(scope: Action, offset: int) -> Iterator[Action]:
     for action in scope.children:
-        if action.kind == "arg" and action.attribute("name") is not None and not action.span.contains(offset):
+        named = action.kind in ("arg", "let") and action.attribute("name") is not None
+        if named and not action.span.contains(offset):
             yield action
-        elif action.kind == "group" and action.span.contains(offset):
+        elif action.kind in SCOPES and action.span.contains(offset):
             yield from _visible(action, offset)
 
 
@@ -59,7 +71,7 @@ def _readable(analysis: Analysis, files: Files, path: str) -> LaunchFile | None:
     found = analysis.launch_files.get(path)
     if found is not None:
         return found
-    read = files.launch_file(path)
+    read = files.launch_file(path, analysis.tree.generation)
     return None if isinstance(read, Unreadable) else read
 
 
@@ -80,6 +92,9 @@ def resolved(analysis: Analysis, file: str, text: str, args: Mapping[str, str] |
     """
     if "$" not in text:
         return text
+    if analysis.tree.generation == 2:
+        parsed = parse_value_ros2(SpannedText(text, Span(0, len(text))))
+        return _put_together(analysis, file, parsed.parts, args) if parsed.problem is None else None
     pieces: list[str] = []
     at = 0
     try:
@@ -94,14 +109,38 @@ def resolved(analysis: Analysis, file: str, text: str, args: Mapping[str, str] |
     return "".join((*pieces, text[at:]))
 
 
+def _put_together(
+    analysis: Analysis, file: str, parts: Iterable[Literal | Substitution], args: Mapping[str, str] | None
+) -> str | None:
+    """Pieces of a value of ROS 2, in which substitutions nest."""
+    pieces: list[str | None] = []
+    for part in parts:
+        if isinstance(part, Literal):
+            pieces.append(part.text)
+            continue
+        words = [_put_together(analysis, file, word, args) for word in part.words]
+        known = [word for word in words if word is not None]
+        pieces.append(_substituted(analysis, file, [part.command, *known], args) if known == words else None)
+    known_pieces = [piece for piece in pieces if piece is not None]
+    return "".join(known_pieces) if len(known_pieces) == len(pieces) else None
+
+
 def _substituted(analysis: Analysis, file: str, words: list[str], args: Mapping[str, str] | None) -> str | None:
     variables = analysis.environment.variables
     match words:
-        case ["find", name]:
+        case ["find" | "find-pkg-share", name]:
             package = analysis.environment.packages.get(name)
             return package.share if package is not None else None
+        case ["find-pkg-prefix", name]:
+            package = analysis.environment.packages.get(name)
+            return package.share.removesuffix(f"/share/{name}") if package is not None else None
         case ["arg", name]:
             return (argument_values(analysis, file) if args is None else args).get(name)
+        case ["var", name, *default]:
+            known = argument_values(analysis, file) if args is None else args
+            return known.get(name, default[0] if default else None)
+        case ["env", name, default]:
+            return variables.get(name, default)
         case ["env", name]:
             return variables.get(name)
         case ["optenv", name, *default]:

@@ -8,9 +8,10 @@ from preflight_analysis.documents.document import Element
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.launch.model import NODE_KINDS
 from preflight_analysis.queries.completion_items import Item
 from preflight_analysis.queries.cursor import Place
-from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN_ENDS = 5
@@ -47,12 +48,24 @@ def parameters(analysis: Analysis, file: str, place: Place, element: Element, be
     seen: set[str] = set()
     for _, interface in _interfaces(analysis, graph, file, node):
         for use in interface.params:
-            name = use.name[1:]
-            if not use.name.startswith("~") or use.builtin or use.access == "set" or name in seen or name in present:
+            own = own_name(use, analysis.tree.generation)
+            if own is None or use.builtin or use.access == "set" or own in seen or own in present:
                 continue
-            seen.add(name)
-            detail = f"default: {use.default!r}" if use.has_default else "no default" if use.mandatory else ""
-            yield Item("parameter", name, name, detail=detail)
+            seen.add(own)
+            yield Item("parameter", own, own, detail=default_of(use))
+
+
+def own_name(use: ParamUse, generation: int) -> str | None:
+    """The name of a node's own parameter as it is written in its tag; None for one of others. In ROS 2 all are its
+    own."""
+    if generation == 2:
+        return use.name.removeprefix("~")
+    return use.name[1:] if use.name.startswith("~") else None
+
+
+def default_of(use: ParamUse) -> str:
+    """What a parameter is where it is not set."""
+    return f"default: {use.default!r}" if use.has_default else "no default" if use.mandatory else ""
 
 
 def remap_sources(analysis: Analysis, file: str, place: Place, element: Element, before: str) -> Iterator[Item]:
@@ -102,7 +115,7 @@ def _made_here(end: Connection, file: str, element: Element) -> bool:
 
 
 def _node_tag(place: Place) -> Element | None:
-    return next((e for e in reversed(place.parents) if e.tag.lower() in ("node", "test")), None)
+    return next((e for e in reversed(place.parents) if e.tag.lower() in NODE_KINDS), None)
 
 
 def _endpoints(analysis: Analysis, file: str, place: Place) -> Iterator[Endpoint]:
@@ -122,7 +135,7 @@ def _endpoints(analysis: Analysis, file: str, place: Place) -> Iterator[Endpoint
 def _interfaces(analysis: Analysis, graph: Graph, file: str, scope: Element) -> Iterator[tuple[LaunchNode, Interface]]:
     """The nodes that a tag, or what is in it, starts; for a node's tag also others that run the same executable, as
     the tag itself may be too new to be known."""
-    package, executable = scope.get("pkg"), scope.get("type")
+    package, executable = scope.get("pkg"), scope.get("exec") or scope.get("type") or scope.get("plugin")
     same = (package.value.text, executable.value.text) if package is not None and executable is not None else None
     others: list[tuple[LaunchNode, Interface]] = []
     for node, interface in zip(analysis.tree.nodes, graph.interfaces, strict=True):

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.queries.completion_items import Item
 
-_STARTS_IN_PACKAGE = re.compile(r"\$\(find +([^\s()]+) *\)(.*)\Z", re.DOTALL)
+_STARTS_IN_PACKAGE = re.compile(r"\$\(find(?:-pkg-share)? +([^\s()]+) *\)(.*)\Z", re.DOTALL)
 
 
 def listed(environment: Environment, written: str, folder: str, suffixes: tuple[str, ...]) -> Iterator[Item]:

@@ -11,20 +11,21 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.references import NAMES
 from preflight_analysis.launch.schema import Attribute, Kind
-from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.queries import completion_graph as from_graph
 from preflight_analysis.queries.arguments import accepted, argument_values, included_file, resolved, visible
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
 from preflight_analysis.queries.cursor import Place
-from preflight_analysis.queries.language import tag_of
+from preflight_analysis.queries.language import Language, language_of
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
 
 _EVAL = "$(eval "
-_COMMAND_END = re.compile(r"[a-z]*")
+_BRACKET = re.compile(r"(?<!\\)(?:\$\(|\))")
+_COMMAND_END = re.compile(r"[a-z_-]*")
 _NAME_END = re.compile(r"[^\s()$\"'<>/]*")
 _IDENTIFIER_END = re.compile(r"\w*")
 _STRING_END = re.compile(r"[^'\"]*")
@@ -46,10 +47,6 @@ _FUNCTIONS = {
 """roslaunch's own functions in expressions: the substitutions of the same names."""
 _OPERATORS = ("and", "or", "not", "in", "if", "else")
 
-_SUFFIXES: Mapping[Kind, tuple[str, ...]] = {
-    "launch-file": (".launch", ".xml", ".test"),
-    "yaml-file": (".yaml", ".yml"),
-}
 _TAKES_ARGUMENTS: frozenset[Kind] = frozenset(
     {"text", "condition", "flag", "integer", "number", "choice", "launch-file", "yaml-file", "file", "namespace"}
 )
@@ -65,6 +62,11 @@ class Asked:
     place: Place
     files: Files
     executables: ExecutableNames
+
+    @property
+    def language(self) -> Language:
+        """The language of the file."""
+        return language_of(self.launch_file)
 
     @property
     def file(self) -> str:
@@ -97,10 +99,14 @@ class Asked:
 def complete_value(asked: Asked, trigger: str | None) -> Completion | None:
     """What can be written at a place in a value."""
     before = asked.before
-    if before.startswith(_EVAL) and not (before.endswith(")") and before.count("(") <= before.count(")")):
+    if (
+        asked.language.has_expressions
+        and before.startswith(_EVAL)
+        and not (before.endswith(")") and before.count("(") <= before.count(")"))
+    ):
         return _in_expression(asked, before[len(_EVAL) :]) if trigger in (None, "'", '"', " ", "(") else None
-    opened = before.rfind("$(")
-    if opened >= 0 and ")" not in before[opened:]:
+    opened = _opened(before) if asked.language.nests else before.rfind("$(")
+    if opened >= 0 and (asked.language.nests or ")" not in before[opened:]) and not before.endswith("$"):
         return _in_substitution(asked, before[opened + 2 :], whole=opened == 0)
     if before.endswith("$"):
         return _substitutions(asked)
@@ -112,11 +118,22 @@ def complete_value(asked: Asked, trigger: str | None) -> Completion | None:
 # Substitutions
 
 
+def _opened(before: str) -> int:
+    """Where the innermost substitution begins that is still open; -1 if none is."""
+    starts: list[int] = []
+    for found in _BRACKET.finditer(before):
+        if found[0] != ")":
+            starts.append(found.start())
+        elif starts:
+            starts.pop()
+    return starts[-1] if starts else -1
+
+
 def _substitutions(asked: Asked) -> Completion:
     """After a lone `$`."""
     items = []
-    for command, (takes, doc) in SUBSTITUTIONS.items():
-        if command == "eval" and asked.before != "$":
+    for command, (takes, doc) in asked.language.substitutions.items():
+        if command == "eval" and asked.language.has_expressions and asked.before != "$":
             continue
         text = f"$({command}{' ' if takes else ''})"
         snippet = f"\\$({command} $1)" if takes else f"\\$({command})"
@@ -131,8 +148,12 @@ def _in_substitution(asked: Asked, inner: str, *, whole: bool) -> Completion | N
         span = asked.word(command, _COMMAND_END)
         following = asked.document.text[span.end : span.end + 1]
         close = ")" if following not in (")", " ") else ""
-        return Completion(span, tuple(_commands(whole, close, takes_blank=following != " ")))
+        return Completion(span, tuple(_commands(asked, whole, close, takes_blank=following != " ")))
     argument = argument.lstrip(" ")
+    if command == "exec-in-pkg":
+        first, blank, argument = argument.partition(" ")
+        command = "find-pkg-share" if blank else command
+        argument = argument if blank else first
     if " " in argument:
         return None
     span = asked.word(argument, _NAME_END)
@@ -141,9 +162,9 @@ def _in_substitution(asked: Asked, inner: str, *, whole: bool) -> Completion | N
     return Completion(span, tuple(_closed(_names(asked, command), close)))
 
 
-def _commands(whole: bool, close: str, *, takes_blank: bool) -> Iterator[Item]:
-    for command, (takes, doc) in SUBSTITUTIONS.items():
-        if command == "eval" and not whole:
+def _commands(asked: Asked, whole: bool, close: str, *, takes_blank: bool) -> Iterator[Item]:
+    for command, (takes, doc) in asked.language.substitutions.items():
+        if command == "eval" and asked.language.has_expressions and not whole:
             continue
         blank = " " if takes and takes_blank else ""
         snippet = f"{command} $1{close}" if blank and close else None
@@ -151,12 +172,12 @@ def _commands(whole: bool, close: str, *, takes_blank: bool) -> Iterator[Item]:
 
 
 def _names(asked: Asked, command: str) -> Iterable[Item]:
-    match command:
-        case "find":
+    match NAMES.get(command):
+        case "package":
             return _packages(asked)
-        case "arg":
+        case "argument":
             return _arguments(asked)
-        case "env" | "optenv":
+        case "variable":
             return _variables(asked)
     return ()
 
@@ -176,7 +197,10 @@ def _packages(asked: Asked) -> Iterator[Item]:
 
 def _arguments(asked: Asked) -> Iterator[Item]:
     values = argument_values(asked.analysis, asked.file)
+    own = asked.place.element.span if asked.place.element is not None else None
     for declared in visible(asked.launch_file, asked.offset):
+        if own is not None and own.contains(declared.span.start):
+            continue
         value = values.get(declared.name)
         detail = f"= {value}" if value is not None else argument_detail(declared)
         if declared.span.start > asked.offset:
@@ -217,7 +241,9 @@ def _expression_names(asked: Asked) -> Iterator[Item]:
             yield item
     for name, call in _FUNCTIONS.items():
         plain = re.sub(r"\$\d", "", call)
-        yield Item("function", name, plain, SUBSTITUTIONS[name][1], snippet=call if plain != call else None)
+        yield Item(
+            "function", name, plain, asked.language.substitutions[name][1], snippet=call if plain != call else None
+        )
     for name in _OPERATORS:
         yield Item("constant", name, name)
     for name, called in expression.NAMES.items():
@@ -231,7 +257,7 @@ def _expression_names(asked: Asked) -> Iterator[Item]:
 
 
 def _plain(asked: Asked, before: str, trigger: str | None) -> Completion | None:
-    element, attribute = asked.place.element, _attribute(asked.place)
+    element, attribute = asked.place.element, _attribute(asked)
     if element is None or attribute is None:
         return None
     kind = attribute.kind
@@ -258,7 +284,7 @@ def _path(asked: Asked, written: str, kind: Kind) -> Completion | None:
     where = resolved(asked.analysis, asked.file, f"{folder}/")
     if where is None or not where.startswith("/"):
         return None
-    items = listed(asked.analysis.environment, folder, where, _SUFFIXES.get(kind, ()))
+    items = listed(asked.analysis.environment, folder, where, asked.language.suffixes.get(kind, ()))
     return Completion(asked.word(typed, _PATH_END), tuple(items))
 
 
@@ -274,25 +300,27 @@ def _pieces(asked: Asked, kind: Kind) -> Iterator[Item]:
     if kind in ("launch-file", "yaml-file", "file"):
         yield from _roots(asked)
     for item in _arguments(asked):
-        text = f"$(arg {item.label})"
+        text = f"$({asked.language.argument} {item.label})"
         yield Item(item.kind, text, text, item.doc, item.detail, filter=item.label)
 
 
-def _attribute(place: Place) -> Attribute | None:
+def _attribute(asked: Asked) -> Attribute | None:
+    place = asked.place
     if place.element is None or place.attribute is None:
         return None
-    tag = tag_of(place.element)
+    tag = asked.language.tag(place.element.tag)
     return tag.attributes.get(place.attribute.name) if tag is not None else None
 
 
 def _roots(asked: Asked) -> Iterator[Item]:
     """What a path starts with: the file's own folder and package, then the other packages."""
+    find = asked.language.package
     own = [p for p in asked.analysis.environment.packages.values() if asked.file.startswith(f"{p.share}/")]
-    yield from (Item("package", f"$(find {p.name})/", f"$(find {p.name})/", detail=p.share) for p in own)
-    yield Item("folder", "$(dirname)/", "$(dirname)/", SUBSTITUTIONS["dirname"][1])
+    yield from (Item("package", f"$({find} {p.name})/", f"$({find} {p.name})/", detail=p.share) for p in own)
+    yield Item("folder", "$(dirname)/", "$(dirname)/", asked.language.substitutions["dirname"][1])
     for item in _packages(asked):
         if item.label not in {p.name for p in own}:
-            yield Item("package", f"$(find {item.label})/", f"$(find {item.label})/", detail=item.detail)
+            yield Item("package", f"$({find} {item.label})/", f"$({find} {item.label})/", detail=item.detail)
 
 
 def _executables(asked: Asked, element: Element) -> Iterator[Item]:

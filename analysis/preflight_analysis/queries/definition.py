@@ -45,7 +45,7 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
         return targets
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
-    if action is not None and action.kind == "remap":
+    if action is not None and action.kind in ("remap", "set_remap"):
         value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
         if targets := _targets(_other_ends(scene, analysis, action), Location(file, value)):
             return targets

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.document import Comment, Document, Element, Node
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.read import is_yaml
 
 FoldKind = Literal["element", "comment", "region"]
 
@@ -23,9 +25,13 @@ class Fold:
     end: int
 
 
-def folds(document: Document) -> tuple[Fold, ...]:
+def folds(launch_file: LaunchFile) -> tuple[Fold, ...]:
     """The folds of a file in document order. The line of an end tag stays visible."""
+    document = launch_file.document
     found: list[Fold] = []
+    if is_yaml(launch_file.path) and launch_file.root is not None:
+        for action in launch_file.root.walk():
+            found += _fold(document, "element", action.span.start, action.span.end)
     comments: list[Comment] = []
     nodes: list[Node] = list(document.children)
     while nodes:

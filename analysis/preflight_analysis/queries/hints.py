@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import values
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.substitutions_ros2 import nested
 from preflight_analysis.workspace.workspace import Analysis
 
 MAX_LENGTH = 40
@@ -65,7 +66,7 @@ def _attributes(action: Action, within: Span) -> Iterator[ActionAttribute]:
 
 
 def _hint(launch_file: LaunchFile, attribute: ActionAttribute, given: tuple[str, ...]) -> Hint | None:
-    if any(part.command == "anon" for part in attribute.value.substitutions):
+    if any(part.command == "anon" for part in nested(attribute.value.parts)):
         return None  # another one at each launch
     if attribute.name in ("if", "unless"):
         given = tuple(dict.fromkeys(_truth(value) for value in given))

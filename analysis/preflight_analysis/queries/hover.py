@@ -10,7 +10,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
 from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.language import described
 from preflight_analysis.queries.places import (
     action_at,
@@ -36,8 +36,9 @@ _SHOWN_COLUMNS = 160
 _SHOWN_ROOTS = 8
 _SHOWN_VALUES = 4
 
-_OF_THE_TAG = ("value", "executable", "include")
+_OF_THE_TAG = ("value", "executable", "include", "node")
 """Uses of which the tag around them tells more."""
+_SET_PARAMETERS = ("param", "rosparam", "set_parameter", "set_parameters_from_file")
 
 _SOURCES = {
     "trace": "from a run in the sandbox",
@@ -81,8 +82,8 @@ def hover(analyses: Sequence[Analysis], file: str, offset: int, unseen: int = 0)
     contexts = _contexts(analyses, file, offset, unseen) if found else ""
     if found is not None and contexts:
         found = Hover(f"{found.markdown}\n\n{contexts}", found.span)
-    document = next((a.documents[file] for a in analyses if file in a.documents), None)
-    language = described(document, offset) if document is not None else None
+    launch_file = next((a.launch_files[file] for a in analyses if file in a.launch_files), None)
+    language = described(launch_file, offset) if launch_file is not None else None
     if language is None:
         return found
     if found is None:
@@ -154,23 +155,23 @@ def _is_of_use(analysis: Analysis, file: str, offset: int) -> bool:
 
 
 def _made(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
-    if action.kind in ("node", "test"):
+    if action.kind in NODE_KINDS:
         yield from (f"`{node.name}`" for _, node in nodes_of(analysis, file, action))
     elif action.kind == "include":
         for include in analysis.tree.includes:
             if include.origin[-1].file == file and include.origin[-1].span == action.head_span:
                 given = (f" `{name}:={value}`" for name, value in include.args.items())
                 yield f"`{include.path or 'not known'}`{''.join(given)}"
-    elif action.kind in ("param", "rosparam"):
+    elif action.kind in _SET_PARAMETERS:
         yield from (f"`{p.name}` = {_value(p.value)}" for p in params_of(analysis.tree, file, action))
-    elif action.kind == "remap":
+    elif action.kind in ("remap", "set_remap"):
         for node, remap in remaps_of(analysis.tree, file, action):
             yield f"`{names.resolve(remap.source, node.name)}` → `{names.resolve(remap.target, node.name)}`"
 
 
 def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
     """One block of text for each thing that the tag makes."""
-    if action.kind in ("node", "test"):
+    if action.kind in NODE_KINDS:
         nodes = list(nodes_of(analysis, file, action))
         for index, node in nodes[:_SHOWN_CONTEXTS]:
             yield _node(analysis, index, node)
@@ -184,7 +185,7 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
             if include.path:
                 lines.insert(1, f"\n`{include.path}`\n")
             yield "\n".join(lines)
-    elif action.kind in ("param", "rosparam"):
+    elif action.kind in _SET_PARAMETERS:
         params = list(params_of(analysis.tree, file, action))
         lines = [f"- `{p.name}` = {_value(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
         if len(params) > _SHOWN_PARAMS:
@@ -197,7 +198,7 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
             if not c.launch_file and c.location.file == file and action.head_span.contains(c.location.span.start)
         ]
         yield from dict.fromkeys(_command(command) for command in made[:_SHOWN_CONTEXTS])
-    elif action.kind == "remap":
+    elif action.kind in ("remap", "set_remap"):
         yield from _remap(analysis, file, action)
 
 

@@ -1,17 +1,88 @@
-"""What the language itself says of a tag or an attribute."""
+"""The language that a launch file is written in, as data, and what it says of a tag or an attribute."""
 
 from __future__ import annotations
 
-from preflight_analysis.documents.document import Document, Element
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.schema import Attribute, Tag
+from preflight_analysis.launch.model import LaunchFile, Substitution, action_at
+from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
+from preflight_analysis.launch.schema import Attribute, Kind, Tag
 from preflight_analysis.launch.schema_ros1 import TAGS
-from preflight_analysis.queries.cursor import place_at
+from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
+from preflight_analysis.launch.substitutions import SUBSTITUTIONS
+from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, nested
+from preflight_analysis.queries.cursor import Place, place_at
+from preflight_analysis.queries.cursor_yaml import place_at_yaml
 
 
-def tag_of(element: Element) -> Tag | None:
-    """What the language says of an element; roslaunch takes some tags in capitals, too."""
-    return TAGS.get(element.tag) or TAGS.get(element.tag.lower())
+@dataclass(frozen=True, slots=True)
+class Language:
+    """The launch language of one generation of ROS. `substitutions` are what each takes and stands for.
+
+    `argument` and `package` are the substitutions for those, `executable` is the attribute that names one. `also` are
+    attributes that are not required but nearly always there; of `excludes` only one can be.
+    """
+
+    tags: Mapping[str, Tag]
+    substitutions: Mapping[str, tuple[str, str]]
+    argument: str
+    package: str
+    executable: str
+    also: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    excludes: Mapping[str, tuple[tuple[str, ...], ...]] = field(default_factory=dict)
+    only_declared: frozenset[str] = frozenset()
+    """Attributes of `<arg>` that cannot stand where it passes one on."""
+    suffixes: Mapping[Kind, tuple[str, ...]] = field(default_factory=dict)
+    has_expressions: bool = False
+    """Whether `$(eval ` takes the rest of a value and knows arguments by name."""
+    nests: bool = False
+    """Whether substitutions can stand in substitutions."""
+
+    def tag(self, name: str) -> Tag | None:
+        """What the language says of a tag; roslaunch takes some in capitals, too."""
+        return self.tags.get(name) or self.tags.get(name.lower())
+
+
+ROS1 = Language(
+    TAGS,
+    SUBSTITUTIONS,
+    "arg",
+    "find",
+    "type",
+    also={"arg": ("default",), "param": ("value",), "rosparam": ("file",)},
+    excludes={"arg": (("default", "value"),), "param": (("value", "textfile", "binfile", "command"),)},
+    only_declared=frozenset({"default", "doc"}),
+    suffixes={"launch-file": (".launch", ".xml", ".test"), "yaml-file": (".yaml", ".yml")},
+    has_expressions=True,
+)
+ROS2 = Language(
+    TAGS_ROS2,
+    {command: (takes, doc) for command, (takes, doc, _) in SUBSTITUTIONS_ROS2.items()},
+    "var",
+    "find-pkg-share",
+    "exec",
+    also={"node": ("pkg", "exec", "name"), "arg": ("default",), "param": ("name", "value")},
+    excludes={"arg": (("default", "value"),), "param": (("value", "from"), ("name", "from"))},
+    only_declared=frozenset({"default", "description"}),
+    suffixes={"launch-file": (".launch", ".xml", ".py", ".yaml", ".yml"), "yaml-file": (".yaml", ".yml")},
+    nests=True,
+)
+
+
+def language_of(launch_file: LaunchFile) -> Language:
+    """The language of a launch file."""
+    return ROS2 if launch_file.generation == 2 else ROS1
+
+
+def place_in(launch_file: LaunchFile, offset: int) -> Place | None:
+    """What kind of place a cursor is in; None where nothing of the language can stand."""
+    if launch_file.path.endswith(PYTHON_SUFFIX):
+        return None
+    if is_yaml(launch_file.path):
+        return place_at_yaml(launch_file.document, offset)
+    return place_at(launch_file.document, offset)
 
 
 def attribute_doc(attribute: Attribute) -> str:
@@ -24,18 +95,37 @@ def attribute_doc(attribute: Attribute) -> str:
     return "\n\n".join(lines)
 
 
-def described(document: Document, offset: int) -> tuple[str, Span] | None:
-    """The description, as Markdown, of the tag or attribute whose name is at `offset`, and where that name is."""
-    place = place_at(document, offset)
+def described(launch_file: LaunchFile, offset: int) -> tuple[str, Span] | None:
+    """The description, as Markdown, of the tag, attribute or substitution whose name is at `offset`, and where that
+    name is."""
+    substitution = _substitution_at(launch_file, offset)
+    if substitution is not None:
+        known = language_of(launch_file).substitutions.get(substitution.command)
+        takes = f" {known[0]}" if known is not None and known[0] else ""
+        text = f"`$({substitution.command}{takes})` {known[1]}" if known is not None else ""
+        return (text, substitution.command_span) if text else None
+    place = place_in(launch_file, offset)
     element = place.element if place is not None else None
-    tag = tag_of(element) if element is not None else None
+    tag = language_of(launch_file).tag(element.tag) if element is not None else None
     if place is None or element is None or tag is None:
         return None
     if place.kind == "element":
-        return f"`<{element.tag}>` {tag.doc}", place.word
+        name = element.tag if is_yaml(launch_file.path) else f"<{element.tag}>"
+        return f"`{name}` {tag.doc}", place.word
     if place.kind == "attribute" and place.attribute is not None:
         attribute = tag.attributes.get(place.attribute.name)
         if attribute is not None:
             required = " (required)" if attribute.required else ""
             return f"`{attribute.name}`{required}: {attribute_doc(attribute)}", place.word
+    return None
+
+
+def _substitution_at(launch_file: LaunchFile, offset: int) -> Substitution | None:
+    """The substitution whose command is at `offset`."""
+    action = action_at(launch_file, offset)
+    for attribute in action.attributes if action is not None else ():
+        if attribute.value.span.contains(offset):
+            for part in nested(attribute.value.parts):
+                if part.command_span.contains(offset) and part.command_span.end > part.command_span.start:
+                    return part
     return None

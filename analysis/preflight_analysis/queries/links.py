@@ -15,7 +15,7 @@ from preflight_analysis.workspace.workspace import Analysis
 
 _NAMED_FILES = ("include", "file")
 _WORD = re.compile(r"(?:\$\([^()]*\)|[^\s$=,;'\"]|\$(?!\())+")
-_STARTS_PATH = re.compile(r"\$\((?:find|dirname|arg|env|optenv)\b|/")
+_STARTS_PATH = re.compile(r"\$\((?:find|find-pkg-share|find-pkg-prefix|dirname|arg|var|env|optenv)\b|/")
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,7 @@ def include_of(tree: LaunchTree, file: str, action: Action) -> Include | None:
 
 def params_of(tree: LaunchTree, file: str, action: Action) -> Iterator[Param]:
     """The parameters that a tag sets, overridden ones left out."""
-    for param in tree.params.values():
+    for param in (*tree.params.values(), *(param for node in tree.nodes for param in node.params)):
         if param.origin and any(_within(step, file, action.span) for step in param.origin):
             yield param
 

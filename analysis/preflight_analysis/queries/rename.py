@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.launch.references import NOT_ARGUMENTS
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.node_names import mentions_of, remap_ends, tags_of
@@ -175,7 +175,7 @@ def _tags_named(scene: Scene, subject: Subject) -> Iterator[Location]:
         return
     evaluated = {node.location for tree in scene.trees for node in tree.nodes}
     for parent in launch_file.root.walk():
-        nodes = [child for child in parent.children if child.kind in ("node", "test")]
+        nodes = [child for child in parent.children if child.kind in NODE_KINDS]
         own = next((child for child in nodes if _names(child, subject.span)), None)
         if own is None:
             continue

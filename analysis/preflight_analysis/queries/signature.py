@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.arguments import accepted, included_file
-from preflight_analysis.queries.cursor import is_closed, place_at
+from preflight_analysis.queries.cursor import is_closed
+from preflight_analysis.queries.language import place_in
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -33,9 +35,10 @@ class Signature:
     active: int | None
 
 
-def signature(analysis: Analysis, document: Document, offset: int, files: Files) -> Signature | None:
+def signature(analysis: Analysis, launch_file: LaunchFile, offset: int, files: Files) -> Signature | None:
     """The signature of the `<include>` around `offset`, None where there is none or its file is not known."""
-    place = place_at(document, offset)
+    document = launch_file.document
+    place = place_in(launch_file, offset)
     if place is None:
         return None
     include = next((e for e in reversed(place.parents) if e.tag.lower() == "include"), None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,12 +21,26 @@ class Symbol:
 
 
 _NAMED_BY = {
-    "node": ("name", "type"),
+    "node": ("name", "exec", "type"),
+    "node_container": ("name", "exec"),
+    "composable_node": ("name", "plugin"),
+    "load_composable_node": ("target",),
+    "lifecycle_node": ("name", "exec"),
+    "executable": ("name", "cmd"),
+    "let": ("name",),
+    "push_ros_namespace": ("namespace",),
+    "push-ros-namespace": ("namespace",),
+    "set_remap": ("from",),
+    "set_parameter": ("name",),
+    "set_parameters_from_file": ("filename",),
+    "set_env": ("name",),
+    "timer": ("period",),
+    "ros_timer": ("period",),
     "test": ("test-name", "name", "type"),
     "include": ("file",),
     "group": ("ns",),
     "arg": ("name",),
-    "param": ("name",),
+    "param": ("name", "from"),
     "rosparam": ("param", "file", "ns"),
     "remap": ("from",),
     "env": ("name",),
@@ -35,7 +49,7 @@ _NAMED_BY = {
 
 
 def symbols(launch_file: LaunchFile) -> tuple[Symbol, ...]:
-    """The outline of the file; empty when it has no `<launch>`. Tags that roslaunch does not know are left out."""
+    """The outline of the file; empty when it has no `<launch>`. Tags that the launcher does not know are left out."""
     root = launch_file.root
     return tuple(_symbol(child) for child in root.children if child.kind in _NAMED_BY) if root else ()
 
@@ -59,11 +73,11 @@ def _symbol(action: Action) -> Symbol:
 def _detail(action: Action) -> str:
     """What else is worth a glance, as written in the file."""
     given = {a.name: " ".join(a.value.text.split()) for a in action.attributes}
-    if action.kind in ("node", "test"):
-        detail = "/".join(given[n] for n in ("pkg", "type") if n in given)
-    elif action.kind == "remap":
+    if action.kind in NODE_KINDS:
+        detail = "/".join(given[n] for n in ("pkg", "type", "exec", "plugin") if n in given)
+    elif action.kind in ("remap", "set_remap"):
         detail = f"→ {given['to']}" if "to" in given else ""
-    elif action.kind in ("param", "arg", "env"):
+    elif action.kind in ("param", "arg", "env", "let", "set_parameter", "set_env"):
         detail = next((given[n] for n in ("value", "default", "textfile", "binfile", "command") if n in given), "")
     else:
         detail = ""

@@ -8,19 +8,20 @@ from typing import Literal, NamedTuple, get_args
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution, Value
+from preflight_analysis.launch.references import NAMES, Named
 
 TokenKind = Literal["keyword", "operator", "parameter", "namespace", "variable", "function", "number", "string"]
 """Semantic token types of LSP: `parameter` for arguments, `namespace` for packages, `variable` for those of the
 environment and for what `$(anon)` names."""
 KINDS: tuple[TokenKind, ...] = get_args(TokenKind)
 
-_OF_COMMAND: Mapping[str, TokenKind] = {
-    "arg": "parameter",
-    "find": "namespace",
-    "env": "variable",
-    "optenv": "variable",
-    "anon": "variable",
+_OF_NAMED: Mapping[Named, TokenKind] = {
+    "argument": "parameter",
+    "package": "namespace",
+    "variable": "variable",
+    "identifier": "variable",
 }
+_OF_COMMAND = {command: _OF_NAMED[named] for command, named in NAMES.items()}
 _EXPRESSION = re.compile(
     r"""(?P<string>'(?:\\.|[^'\\])*'|"(?:\\.|[^"\\])*"|&quot;.*?&quot;|&apos;.*?&apos;)"""
     r"|(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+)"
@@ -77,7 +78,9 @@ def _of(text: str, part: Substitution) -> Iterator[Token]:
     if part.command_span.end > part.command_span.start:
         yield Token(part.command_span, "keyword")
     span = part.arguments_span
-    if part.command == "eval":
+    if part.words:
+        yield from _of_words(text, part)
+    elif part.command == "eval":
         yield from _of_expression(text, span)
     elif part.command in _OF_COMMAND and span.end > span.start:
         first = span.start + len(text[span.start : span.end].split(" ", 1)[0])
@@ -85,6 +88,18 @@ def _of(text: str, part: Substitution) -> Iterator[Token]:
         if part.command == "optenv" and first + 1 < span.end:
             yield Token(Span(first + 1, span.end), "string")
     yield Token(Span(part.span.end - 1, part.span.end), "operator")
+
+
+def _of_words(text: str, part: Substitution) -> Iterator[Token]:
+    """The arguments of a substitution of ROS 2, other substitutions among them."""
+    for number, word in enumerate(part.words):
+        for piece in word:
+            if isinstance(piece, Substitution):
+                yield from _of(text, piece)
+            elif part.command == "eval" and number == 0:
+                yield from _of_expression(text, piece.span)
+            elif piece.span.end > piece.span.start:
+                yield Token(piece.span, _OF_COMMAND.get(part.command, "string") if number == 0 else "string")
 
 
 def _of_expression(text: str, span: Span) -> Iterator[Token]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
-from preflight_analysis.launch.references import arg_references
+from preflight_analysis.launch.references import NAMES, Named, arg_references, first_word
+from preflight_analysis.launch.substitutions_ros2 import nested
 
 Kind = Literal[
     "arg-declaration",
@@ -24,9 +25,14 @@ Kind = Literal[
     "env",
     "machine",
 ]
-"""`package`: in `pkg=` or `$(find)`; `executable`: `pkg/type`; `include`: the text of `file=`, unresolved; `node`,
+"""`package`: in `pkg=` or `$(find)`; `executable`: `pkg/type` or, in ROS 2, `pkg/exec`;
+`include`: the text of `file=`, unresolved; `node`,
 `param` and remaps: the name as written; `env`: in `$(env)`, `$(optenv)` or an `<env>` tag; `machine`: declared or
 used."""
+
+_OF_SUBSTITUTION: Mapping[Named | None, Kind] = {"package": "package", "variable": "env"}
+SCOPES = ("group", "timer", "ros_timer")
+"""Tags whose children are read as if they stood in the file itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,12 +84,14 @@ def facts_of(launch_file: LaunchFile) -> FileFacts:
     mentions = tuple(_mentions(root, None)) if root is not None else ()
     args = tuple(declaration(action) for action in _declarations(root)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
-    passing_all = frozenset(_passing_all(root)) if root is not None else frozenset[Span]()
+    passing_all = frozenset(_passing_all(root, launch_file.generation)) if root is not None else frozenset[Span]()
     return FileFacts(launch_file.path, launch_file.document.digest, args, mentions, has_nodes, passing_all)
 
 
-def _passing_all(root: Action) -> Iterator[Span]:
+def _passing_all(root: Action, generation: int) -> Iterator[Span]:
     for action in root.walk():
+        if generation == 2 and action.kind == "include":  # what is set around an include is set in the file too
+            yield action.head_span
         value = action.value("pass_all_args") if action.kind == "include" else None
         if value is not None and may_be_true(value):
             yield action.head_span
@@ -98,7 +106,7 @@ def _declarations(action: Action) -> Iterator[Action]:
     for child in action.children:
         if child.kind == "arg" and child.attribute("name") is not None:
             yield child
-        elif child.kind == "group":
+        elif child.kind in SCOPES:
             yield from _declarations(child)
 
 
@@ -106,7 +114,8 @@ def declaration(action: Action) -> ArgDeclaration:
     """What an `<arg>` tag that has a name declares."""
     texts = {a.name: a.value.text for a in action.attributes}
     span = next(a.value.span for a in action.attributes if a.name == "name")
-    return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), texts.get("doc"), span)
+    doc = texts.get("doc") or texts.get("description")
+    return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), doc, span)
 
 
 def _mentions(action: Action, parent: Action | None) -> Iterator[Mention]:
@@ -115,13 +124,10 @@ def _mentions(action: Action, parent: Action | None) -> Iterator[Mention]:
         if attribute.value.problem is None and "$" in attribute.value.text:
             for name, span in arg_references(attribute.value):
                 yield Mention("arg-use", name, span, action.head_span)
-            for part in attribute.value.substitutions:
-                if part.command == "find":
-                    yield Mention("package", part.arguments, part.arguments_span, action.head_span)
-                elif part.command in ("env", "optenv"):
-                    name = part.arguments.split(" ", 1)[0]
-                    span = Span(part.arguments_span.start, part.arguments_span.start + len(name))
-                    yield Mention("env", name, span, action.head_span)
+            for part in nested(attribute.value.parts):
+                kind = _OF_SUBSTITUTION.get(NAMES.get(part.command))
+                if kind is not None:
+                    yield Mention(kind, *first_word(part), action.head_span)
     if "$" in action.body.text:
         for name, span in arg_references(action.body):
             yield Mention("arg-use", name, span, action.head_span)
@@ -135,25 +141,27 @@ def _of_attribute(action: Action, attribute: ActionAttribute, parent: Action | N
         return Mention(kind, name, attribute.value.span, where)
 
     match action.kind, attribute.name:
+        case "let" | "keep", "name":
+            yield mention("arg-declaration")
         case "arg", "name":
             passed = parent is not None and parent.kind == "include"
             yield mention("arg-passed" if passed else "arg-declaration")
-        case "node" | "test", "pkg":
+        case "node" | "test" | "node_container" | "composable_node", "pkg":
             yield mention("package")
-        case "node" | "test", "type":
+        case ("node" | "test", "type") | ("node" | "node_container", "exec"):
             package = action.value("pkg")
             yield mention("executable", f"{package.text if package else ''}/{attribute.value.text}")
-        case ("node", "name") | ("test", "name" | "test-name"):
+        case ("node" | "node_container" | "composable_node", "name") | ("test", "name" | "test-name"):
             yield mention("node")
         case "node" | "test" | "machine", "machine" | "name":
             yield mention("machine")
         case "include", "file":
             yield mention("include")
-        case "param", "name":
+        case "param" | "set_parameter", "name":
             yield mention("param")
-        case "remap", "from":
+        case "remap" | "set_remap", "from":
             yield mention("remap-from")
-        case "remap", "to":
+        case "remap" | "set_remap", "to":
             yield mention("remap-to")
-        case "env", "name":
+        case "env" | "set_env" | "unset_env" | "append_env", "name":
             yield mention("env")

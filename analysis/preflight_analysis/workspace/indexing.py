@@ -11,12 +11,11 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.walk import walk
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.workspace import Workspace
 
-SUFFIXES = (".launch", ".launch.xml", ".test")
-"""Launch files by their name; any other file is one if a launch file includes it."""
 SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"})
 """Folders right below the workspace that hold copies of what is in its source."""
 
@@ -162,7 +161,7 @@ def _written_path(value: Value, path: str, packages: Mapping[str, str]) -> str |
     for part in value.parts:
         if isinstance(part, Literal):
             text += part.text
-        elif part.command == "find" and part.arguments in packages:
+        elif part.command in ("find", "find-pkg-share") and part.arguments in packages:
             text += packages[part.arguments]
         elif part.command == "dirname":
             text += os.path.dirname(path)
@@ -178,5 +177,5 @@ def _launch_files(folder: str) -> list[str]:
     for place, folders, names in walk(folder, SKIPPED):
         if place in (tempfile.gettempdir(), os.path.expanduser("~"), "/"):
             folders.clear()
-        found += (os.path.join(place, name) for name in names if name.endswith(SUFFIXES))
+        found += (os.path.join(place, name) for name in names if name.endswith(LAUNCH_SUFFIXES))
     return found

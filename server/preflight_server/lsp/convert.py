@@ -28,12 +28,20 @@ SYMBOL_KINDS: Mapping[str, types.SymbolKind] = {
     "include": types.SymbolKind.File,
     "node": types.SymbolKind.Class,
     "test": types.SymbolKind.Class,
+    "node_container": types.SymbolKind.Class,
+    "composable_node": types.SymbolKind.Class,
+    "lifecycle_node": types.SymbolKind.Class,
+    "executable": types.SymbolKind.Function,
     "machine": types.SymbolKind.Object,
     "arg": types.SymbolKind.Variable,
+    "let": types.SymbolKind.Variable,
     "param": types.SymbolKind.Property,
+    "set_parameter": types.SymbolKind.Property,
     "rosparam": types.SymbolKind.Struct,
     "remap": types.SymbolKind.Event,
+    "set_remap": types.SymbolKind.Event,
     "env": types.SymbolKind.Constant,
+    "set_env": types.SymbolKind.Constant,
 }
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+
 from preflight_server.lsp.text_store import OpenDocument
 
-_SUFFIXES = (".launch", ".launch.xml", ".test")
 _LAUNCH_ROOT = re.compile(
     r"\ufeff?\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^<>]*>\s*)*<launch(?=[\s/>]|\Z)", re.DOTALL
 )
@@ -16,6 +17,6 @@ def is_launch_file(document: OpenDocument) -> bool:
     """By its name, by the language that the editor gave it, or, for other XML, by its document element."""
     if document.path is None:
         return False
-    if document.language_id == "roslaunch" or document.path.endswith(_SUFFIXES):
+    if document.language_id == "roslaunch" or document.path.endswith(LAUNCH_SUFFIXES):
         return document.language_id != "python"
     return document.language_id == "xml" and _LAUNCH_ROOT.match(document.text) is not None

@@ -80,6 +80,8 @@ class Context:
         self.launch_file = ""
         """The launch file that was included last: that of `$(dirname)`, also after the include."""
         self._stack: list[Scope] = []
+        self.declared: dict[tuple[str, str], Location] = {}
+        """Where each file declares or sets a configuration, by file and name: the latest place."""
 
     def push(self) -> None:
         """Begin a scope."""

@@ -227,7 +227,8 @@ class _Walk:
         value_origin = found.origin if found is not None else None
         text = default.text if default is not None else None
         state.args.setdefault(name, Arg(name, shown, text, default is None, origin, location, value_origin, doc))
-        state.uses.append(Use("arg", location, name, shown, location))
+        state.uses.append(Use("declaration", location, name, shown, None, value_origin or ()))
+        self._context.declared[place.file, name] = location
 
     def _check_choices(self, performer: Performer, action: Action, name: str, value: Resolved | None) -> None:
         choices = [v.text for c in action.children if c.kind == "choice" and (v := c.value("value")) is not None]
@@ -242,8 +243,12 @@ class _Walk:
     def _let(self, performer: Performer, action: Action) -> None:
         name, value = action.value("name"), action.value("value")
         if name is not None and value is not None:
-            result = performer.value(value)
-            self._context.set(performer.value(name).text, result, performer.place.origin(action.head_span))
+            result, set_name = performer.value(value), performer.value(name).text
+            self._context.set(set_name, result, performer.place.origin(action.head_span))
+            location = Location(performer.place.file, name.span)
+            shown = result.text if result.known else None
+            self._state.uses.append(Use("declaration", location, set_name, shown))
+            self._context.declared[location.file, set_name] = location
 
     def _group(self, performer: Performer, action: Action) -> None:
         """`GroupAction`: scoped and forwarding unless it says otherwise."""

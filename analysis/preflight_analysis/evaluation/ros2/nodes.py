@@ -100,6 +100,8 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     else:
         place_of_name = name_value.span if name_value is not None else action.kind_span
     state.uses.append(Use("node", Location(place.file, place_of_name), full, full))
+    target = Location(resolved.path, Span(0, 0)) if resolved.path is not None else None
+    state.uses.append(Use("executable", Location(place.file, executable.span), exec_name, resolved.path, target))
     state.nodes.append(
         LaunchNode(
             full,

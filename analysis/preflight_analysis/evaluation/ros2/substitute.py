@@ -13,7 +13,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
@@ -71,6 +71,7 @@ class Performer:
 
     def _one(self, part: Substitution) -> str | None:
         target: Location | None = None
+        origin: Origin = ()
         try:
             known = SUBSTITUTIONS_ROS2.get(part.command)
             of_python = _PERFORM_PYTHON.get(part.command) if self.place.file.endswith(".py") else None
@@ -95,12 +96,13 @@ class Performer:
         name = "".join(p.text for p in part.words[0]) if part.words else ""
         if part.command == "var":
             given = self.context.get(name)
-            target = given.origin[-1] if given is not None and given.origin else None
+            origin = (given.origin if given is not None else None) or ()
+            target = self.context.declared.get((self.place.file, name), origin[-1] if origin else None)
         elif part.command == "find-pkg-share" and text is not None:
             manifest = self.state.environment.packages[self._word(part, 0)].manifest
             target = Location(manifest, Span(0, 0))
         kind = {"var": "arg", "find-pkg-share": "find"}.get(part.command, part.command)
-        self.state.uses.append(Use(kind, Location(self.place.file, part.span), name, text, target))
+        self.state.uses.append(Use(kind, Location(self.place.file, part.span), name, text, target, origin))
         return text
 
     # What a substitution's `perform` does

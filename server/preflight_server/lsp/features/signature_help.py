@@ -46,7 +46,7 @@ def register(server: PreflightServer) -> None:
         (launch_file, analysis), workspace = latest, await ls.session.workspace()
         document = launch_file.document
         offset = Positions(document.text, document.lines, ls.texts.encoding).offset(params.position)
-        found = await ls.session.in_pool(lambda: query(analysis, document, offset, workspace.sources))
+        found = await ls.session.in_pool(lambda: query(analysis, launch_file, offset, workspace.sources))
         client = ls.client_capabilities.text_document
         asked = client.signature_help.signature_information if client and client.signature_help else None
         return _help(found, asked or types.ClientSignatureInformationOptions()) if found else None

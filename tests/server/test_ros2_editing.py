@@ -1,0 +1,187 @@
+"""The launch files of ROS 2 and their parameter files through the real server."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, editing, position
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+MANIFEST = """<package format="3"><name>robot</name><version>0.0.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>MIT</license>
+<exec_depend>rclpy</exec_depend><export><build_type>ament_python</build_type></export></package>
+"""
+SETUP = """from setuptools import setup
+setup(
+    name="robot",
+    packages=["robot"],
+    data_files=[("share/robot", ["package.xml", "inner.launch.yaml", "main.launch.xml", "params.yaml"])],
+    entry_points={"console_scripts": ["talker = robot.talker:main"]},
+)
+"""
+TALKER = """import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.declare_parameter("rate", 10.0)
+        self.declare_parameter("frame", "map")
+        self.publisher = self.create_publisher(String, "chatter", 10)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Talker())
+"""
+MAIN = """<launch>
+  <arg name="speed" default="5.0" description="In m/s"/>
+  <let name="twice" value="$(var speed)"/>
+  <include file="$(find-pkg-share robot)/inner.launch.yaml">
+    <arg name="name" value="talker"/>
+  </include>
+</launch>
+"""
+INNER = """launch:
+  - arg:
+      name: name
+      description: Of the node
+  - node:
+      pkg: robot
+      exec: talker
+      name: $(var name)
+      namespace: ns
+      param:
+        - from: $(find-pkg-share robot)/params.yaml
+        - name: frame
+          value: $(var name)
+      remap:
+        - from: chatter
+          to: words
+"""
+PARAMS = """/ns/talker:
+  ros__parameters:
+    rate: 5.0
+    fram: odom
+/**:
+  ros__parameters:
+    use_sim_time: false
+"""
+
+
+@pytest.fixture
+def package(desk: Desk) -> Path:
+    folder = desk.home / "ros2_ws/src/robot"
+    (folder / "robot").mkdir(parents=True)
+    for name, text in {
+        "package.xml": MANIFEST,
+        "setup.py": SETUP,
+        "robot/__init__.py": "",
+        "robot/talker.py": TALKER,
+        "main.launch.xml": MAIN,
+        "inner.launch.yaml": INNER,
+        "params.yaml": PARAMS,
+    }.items():
+        (folder / name).write_text(text)
+    return folder
+
+
+def text_of(hover: types.Hover | None) -> str:
+    assert hover is not None
+    assert isinstance(hover.contents, types.MarkupContent)
+    return hover.contents.value
+
+
+async def targets(editor: Editor, path: Path, needle: str, after: int = 0) -> list[str]:
+    """Where go-to-definition leads: `file:line`, counted from 1."""
+    found = await editor.definition(path, editor.at(path, needle, after))
+    return [f"{Path(t.target_uri).name}:{t.target_selection_range.start.line + 1}" for t in found]
+
+
+async def test_an_xml_file(desk: Desk, package: Path) -> None:
+    main = package / "main.launch.xml"
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(main)
+        assert "`speed` = `5.0`" in text_of(await editor.hover(main, editor.at(main, "speed")))
+        assert "argument `speed` = `5.0`" in text_of(await editor.hover(main, editor.at(main, "(var speed", 5)))
+        assert "Sets a launch configuration." in text_of(await editor.hover(main, editor.at(main, "let")))
+        assert "The share folder" in text_of(await editor.hover(main, editor.at(main, "find-pkg-share")))
+        assert await targets(editor, main, "(var speed", 5) == ["main.launch.xml:2"]
+        assert await targets(editor, main, "robot)") == ["package.xml:1"]
+        assert await targets(editor, main, "/inner", 2) == ["inner.launch.yaml:1"]
+        assert ("speed", "parameter") in await editor.tokens(main)
+        assert ("robot", "namespace") in await editor.tokens(main)
+        assert [s.name for s in await editor.symbols(main)][:2] == ["speed", "twice"]
+        assert [h.label for h in await editor.hints(main)][0] == "= 5.0"
+        assert [Path(link.target or "").name for link in await editor.links(main)] == ["inner.launch.yaml"]
+        signature = await editor.signature(main, editor.at(main, '"talker"', 3))
+        assert signature is not None
+        assert signature.signatures[0].label == "inner.launch.yaml(name)"
+
+
+async def test_a_yaml_file(desk: Desk, package: Path) -> None:
+    inner, main = package / "inner.launch.yaml", package / "main.launch.xml"
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(inner, language="yaml")
+        await editor.having(package / "params.yaml", "PRM013", 60)  # seen in the root that includes the file
+        assert [lens.command.title for lens in await editor.lenses(inner) if lens.command][0] == "1 includer"
+        node = text_of(await editor.hover(inner, editor.at(inner, "node:")))
+        assert "**/ns/talker** `robot/talker`" in node
+        assert "Starts a node." in node
+        assert "`pkg`: The package of the node." in text_of(await editor.hover(inner, editor.at(inner, "pkg")))
+        assert "argument `name` = `talker`" in text_of(await editor.hover(inner, editor.at(inner, "(var name", 6)))
+        assert await targets(editor, inner, "(var name", 6) == ["inner.launch.yaml:3"]
+        assert await targets(editor, inner, "exec: talker", 7) == ["talker.py:1"]
+        assert await targets(editor, inner, "pkg: robot", 6) == ["package.xml:1"]
+        assert await targets(editor, inner, "/params", 3) == ["params.yaml:1"]
+        assert [s.name for s in await editor.symbols(inner)] == ["name", "$(var name)"]
+        assert (1, 3) in [(f.start_line, f.end_line) for f in await editor.folds(inner)]
+        assert ("name", "parameter") in await editor.tokens(inner)
+        references = await editor.references(inner, editor.at(inner, "name: name", 6))
+        assert sorted(Path(r.uri).name for r in references) == ["inner.launch.yaml"] * 3 + ["main.launch.xml"]
+        editor.apply(await editor.rename(inner, editor.at(inner, "name: name", 6), "called"))
+        assert "name: $(var called)" in editor.texts[inner]
+        assert '<arg name="called"' in editor.texts[main]
+
+
+async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, package: Path) -> None:
+    """At each place of texts that end anywhere: an answer or none, and no error."""
+    async with editing(desk, folder=package.parents[1]) as editor:
+        for name, text in (("typed.launch.yaml", INNER), ("typed.launch.xml", MAIN), ("other_launch.yaml", PARAMS)):
+            path = package / name
+            for end in range(0, len(text) + 1, 23):
+                if path in editor.texts:
+                    editor.change(path, text[:end])
+                else:
+                    editor.open(path, text[:end], language="yaml" if name.endswith("yaml") else "roslaunch")
+                await ask_everything(editor, path, position(text[:end], end, editor.encoding))
+            editor.change(path, text)
+            for at in range(0, len(text), 19):
+                await ask_everything(editor, path, position(text, at, editor.encoding))
+            editor.close(path)
+
+
+async def ask_everything(editor: Editor, path: Path, where: types.Position) -> None:
+    await asyncio.gather(
+        editor.hover(path, where),
+        editor.definition(path, where),
+        editor.references(path, where),
+        editor.completion(path, where),
+        editor.signature(path, where),
+        editor.symbols(path),
+        editor.folds(path),
+        editor.links(path),
+        editor.hints(path),
+        editor.tokens(path),
+        editor.lenses(path),
+        editor.actions(path, types.Range(where, where)),
+        editor.hierarchy(path, where),
+        editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("t")),
+    )
