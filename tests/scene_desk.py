@@ -87,7 +87,7 @@ def lay(folder: Path, text: str, *, named: tuple[Root, ...] = (), analysed: int 
     assert index is not None
     path = str(folder / cursor[0])
     analyses = []
-    for root in index.roots_of(path)[:analysed]:
+    for root in (index.roots_reading(path) or index.roots_of(path))[:analysed]:
         analysis = workspace.static(root.path, dict(root.args))
         if interfaces:
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]

@@ -119,7 +119,7 @@ async def test_an_xml_file(desk: Desk, package: Path) -> None:
         assert ("speed", "parameter") in await editor.tokens(main)
         assert ("robot", "namespace") in await editor.tokens(main)
         assert [s.name for s in await editor.symbols(main)][:2] == ["speed", "twice"]
-        assert [h.label for h in await editor.hints(main)][0] == "= 5.0"
+        assert "= 5.0" in [h.label for h in await editor.hints(main)]
         assert [Path(link.target or "").name for link in await editor.links(main)] == ["inner.launch.yaml"]
         signature = await editor.signature(main, editor.at(main, '"talker"', 3))
         assert signature is not None
@@ -131,7 +131,7 @@ async def test_a_yaml_file(desk: Desk, package: Path) -> None:
     async with editing(desk, folder=package.parents[1]) as editor:
         editor.open(inner, language="yaml")
         await editor.having(package / "params.yaml", "PRM013", 60)  # seen in the root that includes the file
-        assert [lens.command.title for lens in await editor.lenses(inner) if lens.command][0] == "1 includer"
+        assert "1 includer" in [lens.command.title for lens in await editor.lenses(inner) if lens.command]
         node = text_of(await editor.hover(inner, editor.at(inner, "node:")))
         assert "**/ns/talker** `robot/talker`" in node
         assert "Starts a node." in node
@@ -151,19 +151,53 @@ async def test_a_yaml_file(desk: Desk, package: Path) -> None:
         assert '<arg name="called"' in editor.texts[main]
 
 
+async def test_a_parameter_file(desk: Desk, package: Path) -> None:
+    params = package / "params.yaml"
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(params, language="yaml")  # no launch file is open
+        unknown = await editor.having(params, "PRM013", 60)
+        assert editor.covered(params, unknown.range) == "fram"
+        (fix,) = [a for a in await editor.actions(params, unknown.range) if a.title == "Rename 'fram' to 'frame'"]
+        rate = text_of(await editor.hover(params, editor.at(params, "rate")))
+        assert "`/ns/talker` declares it: double, default `10.0` — [talker.py:9]" in rate
+        assert await targets(editor, params, "rate", 1) == ["talker.py:9"]
+        assert await targets(editor, params, "/ns/talker", 3) == ["inner.launch.yaml:5"]
+        editor.apply(fix.edit)
+        await editor.without(params, "PRM013", 60)
+        text = editor.texts[params]
+        typed = text.replace("    rate: 5.0\n", "    ra\n")
+        editor.change(params, typed)
+        found = await editor.completion(params, editor.at(params, "    ra", 6))
+        assert [(i.label, i.detail) for i in found] == [("rate", "double, default 10.0")]
+        editor.change(params, "/n\n" + text)
+        found = await editor.completion(params, types.Position(0, 2))
+        assert [i.label for i in found] == []  # all of them are there already
+        editor.change(params, "/n\n")
+        assert [i.label for i in await editor.completion(params, types.Position(0, 2))] == ["/ns/talker", "/**"]
+        other = package / "other.yaml"
+        editor.open(other, "a: 1\n", language="yaml")
+        assert await editor.hover(other, types.Position(0, 0)) is None
+        assert await editor.completion(other, types.Position(0, 0)) == []
+
+
 async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, package: Path) -> None:
     """At each place of texts that end anywhere: an answer or none, and no error."""
     async with editing(desk, folder=package.parents[1]) as editor:
-        for name, text in (("typed.launch.yaml", INNER), ("typed.launch.xml", MAIN), ("other_launch.yaml", PARAMS)):
+        for name, text in (
+            ("typed.launch.yaml", INNER),
+            ("typed.launch.xml", MAIN),
+            ("other_launch.yaml", PARAMS),
+            ("params.yaml", PARAMS),
+        ):
             path = package / name
-            for end in range(0, len(text) + 1, 23):
+            for end in range(0, len(text) + 1, 41):
                 if path in editor.texts:
                     editor.change(path, text[:end])
                 else:
                     editor.open(path, text[:end], language="yaml" if name.endswith("yaml") else "roslaunch")
                 await ask_everything(editor, path, position(text[:end], end, editor.encoding))
             editor.change(path, text)
-            for at in range(0, len(text), 19):
+            for at in range(0, len(text), 37):
                 await ask_everything(editor, path, position(text, at, editor.encoding))
             editor.close(path)
 

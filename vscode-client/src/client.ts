@@ -7,7 +7,7 @@ import {
   NotificationType,
   RevealOutputChannelOn,
 } from "vscode-languageclient/node";
-import { launchFiles } from "./documents";
+import { servedFiles } from "./documents";
 import type { ServerCommand } from "./findServer";
 import { clientCommands } from "./rootCommands";
 
@@ -38,7 +38,7 @@ export function createClient(server: ServerCommand, log: LogOutputChannel, close
       options: { cwd: homedir() },
     },
     {
-      documentSelector: [...launchFiles],
+      documentSelector: [...servedFiles],
       outputChannel: log,
       traceOutputChannel: log,
       revealOutputChannelOn: RevealOutputChannelOn.Never,

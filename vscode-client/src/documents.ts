@@ -6,7 +6,7 @@ interface LanguageFilter {
 }
 
 /**
- * The documents that the server is told of.
+ * Launch files: the first one that is open starts the server.
  *
  * Many users have associated `*.launch` with XML in their settings, and a `.test` file that starts with an XML
  * declaration is taken for XML too: those are launch files all the same.
@@ -14,4 +14,9 @@ interface LanguageFilter {
 export const launchFiles: readonly LanguageFilter[] = [
   { scheme: "file", language: "roslaunch" },
   { scheme: "file", language: "xml", pattern: "**/*.{launch,launch.xml,test}" },
+  { scheme: "file", language: "xml", pattern: "**/*_launch.xml" },
+  { scheme: "file", language: "yaml", pattern: "**/*{.,_}launch.{yaml,yml}" },
 ];
+
+/** The documents that the server is told of: launch files, and what may be a parameter file of their nodes. */
+export const servedFiles: readonly LanguageFilter[] = [...launchFiles, { scheme: "file", language: "yaml" }];

@@ -17,6 +17,8 @@ from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.completion_writing import Writing, XmlWriting, YamlWriting
 from preflight_analysis.queries.cursor import Place
 from preflight_analysis.queries.language import Language, language_of, place_in
+from preflight_analysis.queries.param_file_completion import complete_param_file
+from preflight_analysis.queries.param_files import is_param_file
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -37,6 +39,8 @@ def complete(
     `launch_file` is the text as it is now, `analysis` may be one of an earlier text. `trigger` is the character of
     `TRIGGERS` that was just typed, None where the user asked.
     """
+    if is_param_file(analysis, launch_file.path):
+        return complete_param_file(analysis, launch_file.document, offset, trigger)
     place = place_in(launch_file, offset)
     if place is None:
         return None

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.model import Action
 from preflight_analysis.queries import shared_arguments
+from preflight_analysis.queries.param_files import from_param_file, is_param_file
 from preflight_analysis.queries.places import action_at, remaps_of, use_at
 from preflight_analysis.queries.references import connections, made_at
 from preflight_analysis.queries.scene import Scene
@@ -33,6 +34,8 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
     that reads a parameter; from a remap to the other ends, in the nodes' sources where they are known, and from the
     name that it replaces to the node's own; from a finding to its related places."""
     analysis, file = scene.analyses[0], scene.path
+    if is_param_file(analysis, file):
+        return tuple(Target(place, Location(file, span)) for place, span in from_param_file(scene, offset))
     use = use_at(analysis.tree, file, offset)
     if use is not None and use.kind != "executable":
         target = use.target

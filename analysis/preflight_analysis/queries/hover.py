@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Origin, Span
+from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
 from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import NODE_KINDS, Action
+from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.language import described
+from preflight_analysis.queries.param_files import in_param_file, is_param_file
+from preflight_analysis.queries.param_texts import default_text, value_text
 from preflight_analysis.queries.places import (
     action_at,
     include_of,
@@ -35,6 +37,7 @@ _SHOWN_LINES = 12
 _SHOWN_COLUMNS = 160
 _SHOWN_ROOTS = 8
 _SHOWN_VALUES = 4
+_SHOWN_QOS = ("reliability", "durability")
 
 _OF_THE_TAG = ("value", "executable", "include", "node")
 """Uses of which the tag around them tells more."""
@@ -64,20 +67,14 @@ _SIDES = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Hover:
-    """A text in Markdown and what it speaks of."""
-
-    markdown: str
-    span: Span
-
-
 def hover(analyses: Sequence[Analysis], file: str, offset: int, unseen: int = 0) -> Hover | None:
     """What is known of the thing at `offset`, in the first of the roots in which there is something to say, what it
     comes to in each where that is not the same, and what the language says of a tag or attribute whose name is there.
 
     None where there is nothing to say. `unseen` is how many more roots there are that reach the file.
     """
+    if analyses and is_param_file(analyses[0], file):
+        return in_param_file(analyses, file, offset)
     found = next((h for a in analyses if (h := _known(a, file, offset)) is not None), None)
     contexts = _contexts(analyses, file, offset, unseen) if found else ""
     if found is not None and contexts:
@@ -138,7 +135,7 @@ def _values(analysis: Analysis, file: str, offset: int) -> tuple[str, ...]:
     uses = uses_at(analysis.tree, file, offset)
     if _is_of_use(analysis, file, offset):
         uses = [u for u in uses if u.location == uses[0].location and u.kind == uses[0].kind]
-        return tuple(dict.fromkeys(_value(use.value) for use in uses))
+        return tuple(dict.fromkeys(value_text(use.value) for use in uses))
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
     return tuple(dict.fromkeys(_made(analysis, file, action))) if action else ()
@@ -163,7 +160,7 @@ def _made(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
                 given = (f" `{name}:={value}`" for name, value in include.args.items())
                 yield f"`{include.path or 'not known'}`{''.join(given)}"
     elif action.kind in _SET_PARAMETERS:
-        yield from (f"`{p.name}` = {_value(p.value)}" for p in params_of(analysis.tree, file, action))
+        yield from (f"`{p.name}` = {value_text(p.value)}" for p in params_of(analysis.tree, file, action))
     elif action.kind in ("remap", "set_remap"):
         for node, remap in remaps_of(analysis.tree, file, action):
             yield f"`{names.resolve(remap.source, node.name)}` → `{names.resolve(remap.target, node.name)}`"
@@ -181,13 +178,13 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
         include = include_of(analysis.tree, file, action)
         if include is not None:
             lines = [f"Includes {link(include.path, None)}" if include.path else "Includes a file that is not known"]
-            lines += [f"- `{name}` = {_value(value)}" for name, value in include.args.items()]
+            lines += [f"- `{name}` = {value_text(value)}" for name, value in include.args.items()]
             if include.path:
                 lines.insert(1, f"\n`{include.path}`\n")
             yield "\n".join(lines)
     elif action.kind in _SET_PARAMETERS:
         params = list(params_of(analysis.tree, file, action))
-        lines = [f"- `{p.name}` = {_value(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
+        lines = [f"- `{p.name}` = {value_text(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
         if len(params) > _SHOWN_PARAMS:
             lines.append(f"- … and {len(params) - _SHOWN_PARAMS} more")
         if lines:
@@ -293,9 +290,11 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
             if ends:
                 lines += ["", title, *(_connection(c, interface) for c in sorted(ends, key=lambda c: c.name))]
         reads = [p for p in interface.params if not p.builtin]
-        if reads:
+        if reads and analysis.tree.generation == 1:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]
         lines += [f"\n{note}" for note in interface.notes]
+    if analysis.tree.generation == 2:
+        lines += _own_params(analysis, node, interface or NOT_RUN)
     frames = frames_of(node, interface or NOT_RUN)
     if frames:
         lines += ["", "Broadcasts", *map(_frame, frames[:_SHOWN_FRAMES])]
@@ -354,6 +353,7 @@ def _connection(connection: Connection, interface: Interface) -> str:
         text += f", called `{endpoint.name}` by the node and remapped"
     if endpoint.qos.get("latch"):
         text += ", latched"
+    text += "".join(f", {str(endpoint.qos[p]).replace('_', ' ')}" for p in _SHOWN_QOS if endpoint.qos.get(p))
     if endpoint.speculative:
         text += ", after a made-up answer"
     if endpoint.on_demand:
@@ -363,31 +363,37 @@ def _connection(connection: Connection, interface: Interface) -> str:
     return text + _made_at(endpoint)
 
 
+def _own_params(analysis: Analysis, node: LaunchNode, interface: Interface) -> list[str]:
+    """What a ROS 2 node gets and from where, then what else it declares."""
+    declared = {u.name.removeprefix("~"): u for u in interface.params if not u.builtin and u.access != "set"}
+    lines: list[str] = []
+    for param in node.params:
+        use = declared.pop(param.name, None)
+        text = f"- `{param.name}` = {value_text(param.value)} from {place(analysis, param.origin[-1])}"
+        if param.overrides:
+            text += f", in place of {value_text(param.overrides[-1].value)}"
+        if use is not None and (default := default_text(use)):
+            text += f" ({default})"
+        lines.append(text)
+    lines += [f"- `{name}`: {default_text(use)}{_made_at(use)}" for name, use in declared.items()]
+    more = [f"- … and {len(lines) - _SHOWN_PARAMS} more"] if len(lines) > _SHOWN_PARAMS else []
+    return ["", "Parameters", *lines[:_SHOWN_PARAMS], *more] if lines else []
+
+
 def _read(analysis: Analysis, graph: Graph, node: LaunchNode, use: ParamUse) -> str:
     full = next((r.name for r in graph.param_reads if r.node is node and r.use == use), use.name)
     param = analysis.tree.params.get(full)
     if param is not None:
-        text = f"- `{full}` = {_value(param.value)}"
+        text = f"- `{full}` = {value_text(param.value)}"
     elif use.access in ("set", "delete"):
         text = f"- `{full}` is {use.access} by the node"
     else:
         text = f"- `{full}` is not set"
     if use.has_default:
-        text += f", default {_value(use.default)}"
+        text += f", default {value_text(use.default)}"
     elif use.mandatory:
         text += ", no default"
     return text + _made_at(use)
-
-
-def _value(value: ParamValue) -> str:
-    if isinstance(value, CommandValue):
-        return f"what `{value.command}` prints" + (f" ({value.reason})" if value.reason else "")
-    if isinstance(value, bytes):
-        return f"{len(value)} bytes"
-    if value is None:
-        return "not known"
-    text = " ".join(str(value).split())
-    return f"`{text[:200]}…`" if len(text) > 200 else f"`{text}`"
 
 
 def _type(value: ParamValue) -> str:

@@ -88,6 +88,10 @@ class WorkspaceIndex:
         """The roots that reach a file, those that name it or reach it most directly first; itself where none does."""
         return self._reaching.get(path) or (Root(path),)
 
+    def roots_reading(self, path: str) -> tuple[Root, ...]:
+        """The roots that read a file which is none of their launch files, such as one of parameters."""
+        return self._readers.get(path, ())
+
     def includers(self, path: str) -> tuple[Inclusion, ...]:
         """Who includes a file, each place with each set of arguments once."""
         return self._includers.get(path, ())
@@ -113,6 +117,14 @@ class WorkspaceIndex:
             for rank, path in enumerate(entry.files):
                 found.setdefault(path, []).append((rank, root))
         return {path: tuple(root for _, root in sorted(ranked)) for path, ranked in found.items()}
+
+    @cached_property
+    def _readers(self) -> dict[str, tuple[Root, ...]]:
+        found: dict[str, list[Root]] = {}
+        for root, entry in self.entries.items():
+            for path in entry.inputs.keys() - set(entry.files):
+                found.setdefault(path, []).append(root)
+        return {path: tuple(roots) for path, roots in found.items()}
 
     @cached_property
     def _includers(self) -> dict[str, tuple[Inclusion, ...]]:

@@ -1,10 +1,11 @@
-"""Which open documents are launch files: everything else is left alone, whatever the editor calls it."""
+"""Which open documents are launch files, or may be read by one: everything else is left alone, whatever the editor
+calls it."""
 
 from __future__ import annotations
 
 import re
 
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES, is_yaml
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -20,3 +21,8 @@ def is_launch_file(document: OpenDocument) -> bool:
     if document.language_id == "roslaunch" or document.path.endswith(LAUNCH_SUFFIXES):
         return document.language_id != "python"
     return document.language_id == "xml" and _LAUNCH_ROOT.match(document.text) is not None
+
+
+def may_be_parameter_file(document: OpenDocument) -> bool:
+    """By its name: whether it is one, the launch files say."""
+    return document.path is not None and is_yaml(document.path) and not is_launch_file(document)

@@ -30,7 +30,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
-from preflight_server.lsp.launch_documents import is_launch_file
+from preflight_server.lsp.launch_documents import is_launch_file, may_be_parameter_file
 from preflight_server.lsp.publisher import Publisher
 from preflight_server.lsp.runs import Runs, with_known
 from preflight_server.lsp.settings import Settings
@@ -86,7 +86,8 @@ class Session:
         self._analyses: dict[Root, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}
         self._focus: list[str] = []
-        """Paths of open launch files, the one that was last opened or edited first."""
+        """Paths of open launch files, and of what may be a parameter file, the one that was last opened or edited
+        first."""
         self._selected: dict[str, Root] = {}
         """The root that the user chose for a file to be shown in."""
         self._dirty: dict[Root, int] = {}
@@ -126,9 +127,9 @@ class Session:
         if document.path is None:
             return
         self._sources.open(document.path, document.text)
-        if is_launch_file(document):
+        if is_launch_file(document) or may_be_parameter_file(document):
             self._focus = [document.path, *(p for p in self._focus if p != document.path)]
-            if self.folder is None:
+            if self.folder is None and is_launch_file(document):
                 # An editor that opened a file and no folder: the workspace is the one around the file.
                 self.folder, self._workspace = workspace_of(document.path), None
                 self.indexing.changed(None)
@@ -211,10 +212,11 @@ class Session:
     # What the handlers ask
 
     async def view(self, uri: str) -> View | None:
-        """The file as it is now, analysed; None if it is no open launch file, or could not be analysed."""
+        """The file as it is now, analysed; None if it is no open launch file or parameter file of one, or could not be
+        analysed."""
         await self.settled()
         document = self._server.texts.get(uri)
-        if document is None or document.path is None or not is_launch_file(document):
+        if document is None or document.path not in self._focus:
             return None
         analyses = tuple(self._of(document.path))
         parsed = analyses[0].documents.get(document.path) if analyses else None
@@ -227,9 +229,10 @@ class Session:
 
     async def latest(self, uri: str) -> tuple[LaunchFile, Analysis] | None:
         """The file as it is now, and the newest analysis that there is, which may be one of an earlier text: for what
-        cannot wait while somebody types. None if it is no open launch file, or was never analysed."""
+        cannot wait while somebody types. None if it is no open launch file or parameter file of one, or was never
+        analysed."""
         document = self._server.texts.get(uri)
-        path = document.path if document is not None and is_launch_file(document) else None
+        path = document.path if document is not None and document.path in self._focus else None
         if document is None or path is None:
             return None
         if next(self._of(path), None) is None:
@@ -255,13 +258,17 @@ class Session:
 
     @property
     def focus(self) -> str | None:
-        """The open launch file that was last opened or edited."""
+        """The open file that was last opened or edited."""
         return next(iter(self._focus), None)
 
     def roots_of(self, path: str) -> list[Root]:
-        """The roots that reach a file, the one that it is shown in first."""
+        """The roots that reach a launch file or read a parameter file, the one that it is shown in first. None reads a
+        YAML file that is something else."""
         chosen = [self._selected[path]] if path in self._selected else []
-        return list(dict.fromkeys((*chosen, *self.indexing.index.roots_of(path))))
+        document, index = self._server.texts.by_path(path), self.indexing.index
+        is_read_only = document is not None and may_be_parameter_file(document)
+        found = index.roots_reading(path) if is_read_only else index.roots_of(path)
+        return list(dict.fromkeys((*chosen, *found)))
 
     async def in_pool(self, work: Callable[[], _T]) -> _T:
         """Run `work` in a thread."""
@@ -301,7 +308,9 @@ class Session:
         """The roots that open files are shown in. A file that its root does not reach any more is shown by itself."""
         shown: dict[Root, None] = {}
         for path in self._focus:
-            root = self.roots_of(path)[0]
+            root = next(iter(self.roots_of(path)), None)
+            if root is None:
+                continue
             shown[root] = None
             analysis = self._analyses.get(root)
             if analysis is not None and root not in self._dirty and path not in analysis.tree.inputs:

@@ -49,7 +49,7 @@ def register(server: PreflightServer) -> None:
         if ls.session is None or path is None:
             return {"shown": None, "roots": []}
         found = [_to_json(ls.session, root) for root in ls.session.roots_of(path)]
-        return {"shown": found[0], "roots": found}
+        return {"shown": next(iter(found), None), "roots": found}
 
     @server.feature(SELECT_ROOT)
     async def select_root(ls: PreflightServer, params: Any) -> dict[str, Any]:
@@ -60,4 +60,5 @@ def register(server: PreflightServer) -> None:
         wanted = given.get("root")
         root = _from_json(wanted)
         message = await ls.session.select(path, root) if wanted is None or root else "the root is no file"
-        return {"shown": _to_json(ls.session, ls.session.roots_of(path)[0]), "message": message}
+        shown = next(iter(ls.session.roots_of(path)), None)
+        return {"shown": _to_json(ls.session, shown) if shown is not None else None, "message": message}

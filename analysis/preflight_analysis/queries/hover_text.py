@@ -1,0 +1,15 @@
+"""What a hover is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Hover:
+    """A text in Markdown and what it speaks of."""
+
+    markdown: str
+    span: Span

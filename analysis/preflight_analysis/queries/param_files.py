@@ -1,0 +1,118 @@
+"""What stands at a place of a parameter file of ROS 2: the nodes that a section is for, the parameters that they
+declare."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.ros2.param_files import FileParam, Section, read_param_file
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.launch.read import is_yaml
+from preflight_analysis.queries.hover_text import Hover
+from preflight_analysis.queries.param_texts import default_text, type_text, value_text
+from preflight_analysis.queries.places import link, place
+from preflight_analysis.queries.references import made_at
+from preflight_analysis.queries.scene import Scene
+from preflight_analysis.tracing.interface import NOT_RUN, Interface, ParamUse
+from preflight_analysis.workspace.workspace import Analysis
+
+_SHOWN_NODES = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """A node that gets a parameter file."""
+
+    node: LaunchNode
+    interface: Interface
+
+    def declared(self, name: str) -> ParamUse | None:
+        """How the node declares a parameter."""
+        return next((use for use in self.interface.params if use.name.removeprefix("~") == name), None)
+
+
+def is_param_file(analysis: Analysis, path: str) -> bool:
+    """Whether the launch reads that file for its parameters."""
+    return analysis.tree.generation == 2 and is_yaml(path) and path not in analysis.launch_files
+
+
+def readers(analysis: Analysis, path: str) -> tuple[Reader, ...]:
+    """The nodes that get a parameter file, whether a section of it is for them or not."""
+    interfaces = analysis.graph.interfaces if analysis.graph is not None else (NOT_RUN,) * len(analysis.tree.nodes)
+    return tuple(
+        Reader(node, interface)
+        for node, interface in zip(analysis.tree.nodes, interfaces, strict=True)
+        if any(source.path == path for source in node.param_sources)
+    )
+
+
+def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover | None:
+    """The hover of a key: which nodes get the section; how they declare the parameter, and what they get."""
+    found = _at(analyses[0], path, offset)
+    if found is None:
+        return None
+    section, param, span = found
+    known = [(a, r) for a in analyses for r in readers(a, path) if section.fits(r.node.name)]
+    first: dict[str, tuple[Analysis, Reader]] = {}
+    for analysis, reader in known:
+        first.setdefault(reader.node.name, (analysis, reader))
+    if param is None:
+        lines = [f"- {_node(analysis, reader)}" for analysis, reader in first.values()]
+        title = f"`{section.pattern}` is for" if lines else f"`{section.pattern}` fits no node that gets this file"
+    else:
+        lines = [f"- {_declared(analysis, reader, param, path)}" for analysis, reader in first.values()]
+        title = f"`{param.name}` = {value_text(param.value)} ({type_text(param.value) or 'no value'})"
+    more = [f"- … and {len(lines) - _SHOWN_NODES} more"] if len(lines) > _SHOWN_NODES else []
+    return Hover("\n".join([title, "", *lines[:_SHOWN_NODES], *more]).rstrip(), span)
+
+
+def _at(analysis: Analysis, path: str, offset: int) -> tuple[Section, FileParam | None, Span] | None:
+    document = analysis.documents.get(path)
+    for section in read_param_file(document.text).sections if document is not None else ():
+        for span in section.spans:
+            if span.contains(offset):
+                return section, None, span
+        for param in section.params:
+            if param.name_span.contains(offset):
+                return section, param, param.name_span
+    return None
+
+
+def _node(analysis: Analysis, reader: Reader) -> str:
+    node = reader.node
+    return f"`{node.name}` `{node.package}/{node.executable}`, started at {place(analysis, node.location)}"
+
+
+def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -> str:
+    use = reader.declared(param.name)
+    if use is None:
+        text = f"`{reader.node.name}`" + (" does not declare it" if reader.interface.known else "")
+    else:
+        made = f" — {link(use.source_file, use.source_line)}" if use.source_file else ""
+        text = f"`{reader.node.name}` declares it: {default_text(use)}{made}"
+    effective = next((p for p in reader.node.params if p.name == param.name), None)
+    own = Location(path, param.name_span)
+    if effective is not None and effective.name_location != own:
+        where = place(analysis, effective.name_location or effective.origin[-1])
+        text += f"; it gets {value_text(effective.value)} from {where}"
+    return text
+
+
+def from_param_file(scene: Scene, offset: int) -> Iterator[tuple[Location, Span]]:
+    """Where a key leads: from a parameter to where the nodes' sources declare it, from a node's name to its tag."""
+    found = _at(scene.analyses[0], scene.path, offset)
+    if found is None:
+        return
+    section, param, span = found
+    seen: set[Location] = set()
+    for analysis in scene.analyses:
+        for reader in readers(analysis, scene.path):
+            if not section.fits(reader.node.name):
+                continue
+            use = reader.declared(param.name) if param is not None else None
+            target = reader.node.location if param is None else made_at(scene, use) if use is not None else None
+            if target is not None and target not in seen:
+                seen.add(target)
+                yield target, span

@@ -1,0 +1,127 @@
+"""Editing of ROS 2's parameter files: names of nodes, what they declare, and where."""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+
+from hypothesis import given
+from hypothesis import strategies as st
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.queries.completion import complete
+from preflight_analysis.queries.completion_items import Completion
+from preflight_analysis.queries.definition import definition
+from preflight_analysis.queries.hover import hover
+from query_desk import Executables, at_cursor
+from scene_desk import lay
+
+MAIN = """//- {folder}/main.launch.xml
+<launch>
+  <node pkg="p" exec="pump" name="pump" namespace="left"><param from="{folder}/p.yaml"/></node>
+  <node pkg="p" exec="pump" name="pump" namespace="right">
+    <param from="{folder}/p.yaml"/>
+    <param name="rate" value="2.5"/>
+  </node>
+  <node pkg="p" exec="other" name="other"/>
+</launch>
+"""
+INTERFACES = """
+//- interfaces
+{"/left/pump": {"params": {"rate": 10.0, "on": false, "limits.low": 1, "frame": "map"},
+  "made": {"rate": ["/pump.py", 7]}},
+ "/right/pump": {"params": {"rate": 10.0, "on": false}}}
+"""
+
+
+def completed(params: str, trigger: str | None = None) -> Completion | None:
+    text = MAIN.replace("{folder}", "") + "//- /p.yaml\n" + textwrap.dedent(params).strip("\n")
+    there = at_cursor(text + INTERFACES)
+    launch_file = there.sources.launch_file("/p.yaml")
+    assert not isinstance(launch_file, Unreadable)
+    return complete(there.analysis, launch_file, there.offset, there.sources, Executables(), trigger)
+
+
+def offered(params: str, trigger: str | None = None) -> list[tuple[str, str]]:
+    found = completed(params, trigger)
+    return [(item.label, item.detail) for item in found.items] if found else []
+
+
+def labels(params: str) -> list[str]:
+    return [label for label, _ in offered(params)]
+
+
+def hovered(params: str) -> str:
+    text = MAIN.replace("{folder}", "") + "//- /p.yaml\n" + textwrap.dedent(params).strip("\n")
+    there = at_cursor(text + INTERFACES)
+    found = hover([there.analysis], "/p.yaml", there.offset)
+    return found.markdown if found else ""
+
+
+def test_names_of_the_nodes_that_get_the_file() -> None:
+    assert offered("$0") == [("/left/pump", "p/pump"), ("/right/pump", "p/pump"), ("/**", "all nodes")]
+    assert labels("/left/pump:\n  ros__parameters:\n    rate: 1.0\n/ri$0") == ["/right/pump", "/**"]
+    assert labels("left:\n  $0") == ["ros__parameters", "pump"]
+    assert labels("left:\n  pump:\n    $0") == ["ros__parameters"]
+
+
+def test_parameters_that_the_node_declares() -> None:
+    found = [("rate", "double, default 10.0"), ("on", "bool, default False"), ("limits", "")]
+    assert offered("/left/pump:\n  ros__parameters:\n    frame: x\n    $0") == found
+    assert labels("/right/*:\n  ros__parameters:\n    $0") == ["rate", "on"]
+    assert labels("/**:\n  ros__parameters:\n    o$0: true\n    rate: 1.0") == ["on", "limits", "frame"]
+    assert offered("/left/pump:\n  ros__parameters:\n    limits:\n      $0") == [("low", "integer, default 1")]
+    completion = completed("/left/pump:\n  ros__parameters:\n    ra$0")
+    assert completion is not None
+    assert completion.items[0].snippet == "rate: ${1:10.0}"
+    assert labels("/nobody:\n  ros__parameters:\n    $0") == []
+
+
+def test_values() -> None:
+    assert labels("/left/pump:\n  ros__parameters:\n    on: $0") == ["false", "true"]
+    assert offered("/left/pump:\n  ros__parameters:\n    rate: $0", " ") == [("10.0", "default")]
+    assert offered("/left/pump:\n  ros__parameters:\n    $0", " ") == []
+
+
+def test_hover_tells_who_gets_it_and_how_it_is_declared() -> None:
+    assert "- `/left/pump` `p/pump`, started at [main.launch.xml:2]" in hovered(
+        "/lef$0t/*:\n  ros__parameters:\n    a: 1"
+    )
+    assert hovered("/nob$0ody:\n  ros__parameters:\n    a: 1") == "`/nobody` fits no node that gets this file"
+    text = hovered("/**:\n  ros__parameters:\n    rat$0e: 5")
+    assert text.startswith("`rate` = `5` (integer)")
+    assert "- `/left/pump` declares it: double, default `10.0` — [pump.py:7]" in text
+    assert "- `/right/pump` declares it: double, default `10.0`; it gets `2.5` from [main.launch.xml:5]" in text
+    assert "does not declare it" in hovered("/right/pump:\n  ros__parameters:\n    ra$0te_: 5")
+
+
+def test_hover_of_the_node_says_what_it_gets_and_from_where() -> None:
+    text = MAIN.replace("{folder}", "").replace('pump" namespace="right', 'pu$0mp" namespace="right')
+    there = at_cursor(text + "//- /p.yaml\n/**:\n  ros__parameters:\n    rate: 5.0\n    on: true" + INTERFACES)
+    found = hover([there.analysis], "/main.launch.xml", there.offset)
+    assert found is not None
+    assert "- `rate` = `2.5` from [main.launch.xml:5]" in found.markdown
+    assert ", in place of `5.0` (double, default `10.0`)" in found.markdown
+    assert "- `on` = `True` from [p.yaml:4]" in found.markdown
+
+
+def test_to_the_declaration_in_the_source(tmp_path: Path) -> None:
+    made = '{"/pump": {"params": {"rate": 10.0}, "made": {"rate": ["%s/pump.py", 2]}}}' % tmp_path
+    text = (
+        '//- main.launch.xml\n<launch>\n<node pkg="p" exec="t" name="pump"><param from="{folder}/p.yaml"/></node>\n'
+        "<let name='a' value='b'/></launch>\n//- pump.py\nimport rclpy\ndeclare('rate')\n"
+        f"//- p.yaml\npump:\n  ros__parameters:\n    ra$0te: 5.0\n//- interfaces\n{made}\n"
+    )
+    stage = lay(tmp_path, text)
+    assert [stage.shown(t.location) for t in definition(stage.scene, stage.offset, ())] == ["pump.py:2 declare('rate')"]
+
+
+@given(
+    st.lists(
+        st.sampled_from(["/left/pump:", "\n", "  ", "- ", "ros__parameters:", "rate: 1", ": ", "'", "#", "{", "*"])
+    ),
+    st.integers(0, 60),
+)
+def test_nothing_that_is_typed_raises(pieces: list[str], cursor: int) -> None:
+    text = "".join(pieces)
+    completed(text[:cursor] + "$0" + text[cursor:])
+    hovered(text[:cursor] + "$0" + text[cursor:])
