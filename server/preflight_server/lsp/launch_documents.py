@@ -9,6 +9,8 @@ from preflight_analysis.launch.read import LAUNCH_SUFFIXES, is_yaml
 
 from preflight_server.lsp.text_store import OpenDocument
 
+_LIKE_OTHER_XML = "_launch.xml"
+"""Usual in ROS 2, but no name that only a launch file can have."""
 _LAUNCH_ROOT = re.compile(
     r"\ufeff?\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^<>]*>\s*)*<launch(?=[\s/>]|\Z)", re.DOTALL
 )
@@ -18,7 +20,8 @@ def is_launch_file(document: OpenDocument) -> bool:
     """By its name, by the language that the editor gave it, or, for other XML, by its document element."""
     if document.path is None:
         return False
-    if document.language_id == "roslaunch" or document.path.endswith(LAUNCH_SUFFIXES):
+    says_so = document.path.endswith(LAUNCH_SUFFIXES) and not document.path.endswith(_LIKE_OTHER_XML)
+    if document.language_id == "roslaunch" or says_so:
         return document.language_id != "python"
     return document.language_id == "xml" and _LAUNCH_ROOT.match(document.text) is not None
 
