@@ -70,7 +70,7 @@ def test_a_container_that_is_not_there() -> None:
             <push_ros_namespace namespace="robot"/>
             <node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>
             <load_composable_node target="vision">
-                                          ^^^^^^ warning[LCH034] no node '/vision' is started by this launch
+                                          ^^^^^^ warning[LCH034] no node '/vision'
               <composable_node pkg="p" plugin="p::Detector" name="detector"/>
             </load_composable_node>
             <load_composable_node target="/robot/vision">
@@ -78,7 +78,7 @@ def test_a_container_that_is_not_there() -> None:
             </load_composable_node>
           </group>
           <load_composable_node target="/elsewhere">
-                                        ^^^^^^^^^^ info[LCH034] no node '/elsewhere' is started by this launch
+                                        ^^^^^^^^^^ hint[LCH034] no node '/elsewhere' is started by this launch
             <composable_node pkg="p" plugin="p::Mapper" name="mapper"/>
           </load_composable_node>
         </launch>
@@ -104,10 +104,10 @@ def test_a_lifecycle_manager_that_has_another_name() -> None:
         //- /map.launch.xml
         <launch>
           <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
-                                            ^^^^^^^^^^ warning[LCH035] did you mean '/map_sever'?
           <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
           <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
             <param name="node_names" value="[map_sever, amcl]"/>
+                         ^^^^^^^^^^ warning[LCH035] /manager waits for '/map_sever', which is no node of this launch
           </node>
         </launch>
         //- /nav2_map_server/package.xml
@@ -128,4 +128,81 @@ def test_what_may_be_activated() -> None:
         </launch>
         //- /nav2_map_server/package.xml
         <package><name>nav2_map_server</name></package>
+    """)
+
+
+def test_a_parameter_from_two_sources() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <set_parameter name="rate" value="1"/>
+          <node pkg="p" exec="a" name="a">
+            <param name="rate" value="10"/>
+                         ^^^^ warning[PRM006] 'rate' of /a is set to '10' here, which does not count
+            <param from="/a.yaml"/>
+          </node>
+          <node pkg="p" exec="b" name="b">
+            <param from="/a.yaml"/>
+            <param name="rate" value="10"/>
+          </node>
+          <node pkg="p" exec="c" name="c">
+            <param name="rate" value="10"/>
+                         ^^^^ warning[PRM006] which does not count: it is set again below
+            <param name="rate" value="11"/>
+          </node>
+        </launch>
+        //- /a.yaml
+        /**:
+          ros__parameters: {rate: 20}
+    """)
+
+
+def test_parameter_files_that_are_not_there() -> None:
+    """launch goes on without that of a node."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/no.yaml"/></node>
+                                                       ^^^^^^^^ warning[PRM002] '/no.yaml' does not exist
+          <node_container pkg="p" exec="component_container" name="box" namespace="">
+            <composable_node pkg="p" plugin="p::A" name="b"><param from="/no.yaml"/></composable_node>
+                                                                         ^^^^^^^^ error[PRM002] '/no.yaml'
+          </node_container>
+        </launch>
+    """)
+
+
+def test_paths_packages_and_remaps_as_in_ros1() -> None:
+    check("""
+        //- /p/launch/robot.launch.yaml
+        launch:
+          - node:
+              pkg: camera
+                   ^^^^^^ hint[PKG004] package 'camera' is not among
+              exec: driver
+              name: $(find-pkg-share lidar)
+                    ^^^^^^^^^^^^^^^^^^^^^^^ error[LCH009]
+                                     ^^^^^ hint[PKG004] package 'lidar' is not among the dependencies
+              remap:
+                - {from: scan, to: scan}
+        //- /p/package.xml
+        <package><name>p</name><exec_depend>q</exec_depend></package>
+        //- /camera/package.xml
+        <package><name>camera</name></package>
+        //- /lidar/package.xml
+        <package><name>lidar</name></package>
+    """)
+
+
+def test_a_path_of_one_user() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a" args="--map /home/bob/maps/lab.yaml">
+                                                      ^^^^^^^^^^^^^^^^^^^^^^^ info[LCH021] in the home folder of one
+            <remap from="scan" to="scan"/>
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH024] 'scan' is remapped to itself
+            <remap from="image" to="/home/bob/image"/>
+          </node>
+        </launch>
     """)

@@ -52,7 +52,8 @@ ament_package()
 
 
 def manifest(name: str, build_type: str) -> str:
-    return f"<package><name>{name}</name><export><build_type>{build_type}</build_type></export></package>"
+    uses = "<exec_depend>arm</exec_depend>" if name == "robot" else ""
+    return f"<package><name>{name}</name>{uses}<export><build_type>{build_type}</build_type></export></package>"
 
 
 @pytest.fixture

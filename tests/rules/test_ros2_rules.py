@@ -315,7 +315,7 @@ def test_an_attribute_that_ros2_needs() -> None:
         //- /robot.launch.xml
         <launch>
           <load_composable_node target="/box">
-                                        ^^^^ info[LCH034] no node '/box' is started by this launch
+                                        ^^^^ hint[LCH034] no node '/box' is started by this launch
             <composable_node pkg="p" plugin="p::A" nam="a"/>
              ^^^^^^^^^^^^^^^ error[LCH006] <composable_node> needs 'name'; is 'nam' meant to be it?
                                                    ^^^ error[LCH005] <composable_node> has no attribute 'nam'

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
@@ -29,7 +29,9 @@ def check_missing_files(what: str) -> Check:
             if near is not None:
                 message += f"; did you mean '{shown(near, context)}'?"
                 fixes = correct_path(context, problem.location, path, near)
-            yield problem_finding(rule, problem, message, fixes=fixes)
+            # ros2 launch goes on without the parameter file of a node: it is missed, and nothing stops.
+            severity: Severity | None = None if problem.fatal else "warning"
+            yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)
 
     return check
 

@@ -26,6 +26,5 @@ RULE = Rule(
     why="The item is left out, so that findings that rest on the annotation are missing or wrong.",
     example='<!-- <topics><topic name="chatter" type="String" class="publish"/></topics> -->',
     instead='<!-- <topics><topic name="chatter" type="std_msgs/String" class="pub"/></topics> -->',
-    generations=(1,),
     check=_check,
 )

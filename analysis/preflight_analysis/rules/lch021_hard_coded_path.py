@@ -19,8 +19,9 @@ _END = r"[^\s'\":;,<>|)]*"
 _ABSOLUTE = re.compile(rf"(?:(?<=file://)|(?<![\w./$)}}-]))/(?!/){_END}")
 _TILDE = re.compile(rf"(?<![^\s'\":;,=])~[a-z_][\w-]*/{_END}\.[A-Za-z]\w*")
 _NOT_PATHS = frozenset(
-    ("name", "ns", "from", "to", "pkg", "type", "test-name", "doc", "deprecated", "if", "unless", "machine", "param")
+    ("name", "ns", "to", "pkg", "type", "test-name", "doc", "deprecated", "if", "unless", "machine", "param")
 )
+_NOT_PATHS_ROS2 = frozenset(("namespace", "exec", "plugin", "target", "description", "message", "reason"))
 _SYSTEM = ("/usr/", "/etc/", "/opt/", "/dev/", "/tmp/", "/proc/", "/sys/", "/var/", "/run/", "/bin/", "/lib/")  # noqa: S108
 
 
@@ -56,7 +57,7 @@ def _of_tag(action: Action, document: str) -> Iterator[tuple[int, str]]:
     if action.kind in ("machine", "remap"):
         return
     for attribute in action.attributes:
-        if attribute.name in _NOT_PATHS or "/" not in attribute.value.text:
+        if attribute.name in _NOT_PATHS or attribute.name in _NOT_PATHS_ROS2 or "/" not in attribute.value.text:
             continue
         for part in attribute.value.parts:
             if not isinstance(part, Literal):
@@ -94,16 +95,17 @@ def _severity(text: str, in_package: str | None) -> Severity | None:
 def _in_package(text: str, context: Context) -> str | None:
     """The same file by `$(find ...)`, if the path has the folder of a known package in which that file exists."""
     packages = context.environment.packages
+    find = "find" if context.tree.generation == 1 else "find-pkg-share"
     for package in packages.values():
         share = package.share.rstrip("/")
         if text.startswith(share + "/"):
-            return f"$(find {package.name}){text[len(share) :]}"
+            return f"$({find} {package.name}){text[len(share) :]}"
     parts = text.split("/")
     for at in range(len(parts) - 1, 0, -1):
         known = packages.get(parts[at])
         below = "/".join(parts[at + 1 :])
         if known is not None and below and os.path.exists(os.path.join(known.share, below)):
-            return f"$(find {known.name})/{below}"
+            return f"$({find} {known.name})/{below}"
     return None
 
 
@@ -113,11 +115,10 @@ RULE = Rule(
     severity="info",
     what="Points out paths below `/home/...`, `/Users/...`, `/root`, `~user` and `/opt/ros/...`, and other absolute "
     "paths into the workspace, in the values of attributes. Where the file belongs to a package that is known here it "
-    "says how to write it with `$(find ...)`. What a `<machine>` says is left alone.",
+    "says how to write it with `$(find ...)` (ROS 2: `$(find-pkg-share ...)`). What a `<machine>` says is left alone.",
     why="The launch file works for the one who wrote it: for other users, on the robot, or after an upgrade of ROS the "
     "path leads nowhere.",
     example='<param name="model" value="/home/bob/catkin_ws/src/vision/models/net.pt"/>',
     instead='<param name="model" value="$(find vision)/models/net.pt"/>',
-    generations=(1,),
     check=_check,
 )

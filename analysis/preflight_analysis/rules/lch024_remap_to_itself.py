@@ -54,6 +54,5 @@ RULE = Rule(
     why="It does nothing. Either it is left over, or one of the names was to be another.",
     example='<remap from="scan" to="scan"/>',
     instead='<remap from="scan" to="front/scan"/>',
-    generations=(1,),
     check=_check,
 )

@@ -32,6 +32,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not near:
             near = [name for name in containers if (found := likeness(full, name)) is not None and found[0] == "typo"]
         near = near[:1] if len(near) == 1 else []
+        document = context.documents.get(location.file)
+        # What an argument says may be the container of another launch, which includes this file.
+        given = document is None or "$(" in document.text[location.span.start : location.span.end]
         message = f"no node '{full}' is started by this launch, into which components are to be loaded"
         if near and near[0].rpartition("/")[2] == leaf and not container.startswith("/"):
             message += "; a target without a leading slash is below '/', whatever namespace surrounds it"
@@ -40,7 +43,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             message + did_you_mean(near[0] if near else None),
             location,
-            severity="warning" if near and tree.complete else "info",
+            severity="warning" if near and tree.complete and not given else "hint",
             confidence="likely" if near else "possible",
             related=(*related, *include_chain(node.origin)),
             fixes=fixes,
@@ -61,8 +64,8 @@ RULE = Rule(
     name="container-not-found",
     severity="warning",
     what="Reports a `<load_composable_node>` whose target is no node of the launch. Where there is a container of "
-    "that name in another namespace, or of a name that is nearly the same, it is a warning; otherwise the container "
-    "may be started elsewhere, and it is for information (ROS 2).",
+    "that name in another namespace, or of a name that is nearly the same, it is a warning; otherwise it is but a "
+    "hint, as the container may be started elsewhere (ROS 2).",
     why="launch waits for the service of the container, without end, and the components are never loaded.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.places import attribute_location, node_location
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -31,28 +32,39 @@ _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    waiting = [node for node in context.tree.nodes if _waits(node)]
-    if not waiting or _others_may_act(context):
-        return
-    managed: list[str] = []
-    for node in context.tree.nodes:
+    nodes = context.tree.nodes
+    there = {node.name for node in nodes if node.kind != "process"}
+    managed: dict[str, tuple[LaunchNode, Param]] = {}
+    listed = True
+    for node in nodes:
         if node.executable == "lifecycle_manager" or "lifecycle_manager" in node.name:
-            names = next((param.value for param in node.params if param.name == "node_names"), None)
-            if not isinstance(names, list):
-                return
-            managed += [_full(node, str(name)) for name in names]
+            param = next((param for param in node.params if param.name == "node_names"), None)
+            if param is None or not isinstance(param.value, list):
+                listed = False
+                continue
+            for name in param.value:
+                managed.setdefault(_full(node, str(name)), (node, param))
+    meant: set[str] = set()
+    for name, (manager, param) in managed.items():
+        near = nearest(name, there - managed.keys()) if name not in there else None
+        if near is not None:
+            meant.add(near)
+            yield rule.finding(
+                f"{manager.name} waits for '{name}', which is no node of this launch; did you mean '{near}'?",
+                name_place(param),
+                severity="warning",
+                confidence="likely" if context.tree.complete else "possible",
+                related=(Related(f"{manager.name}", node_location(manager)), *include_chain(param.origin)),
+            )
+    waiting = [node for node in nodes if _waits(node) and node.name not in managed and node.name not in meant]
+    if not waiting or not listed or _others_may_act(context):
+        return
     for node in waiting:
-        if node.name in managed:
-            continue
-        free = [name for name in managed if name not in {other.name for other in context.tree.nodes}]
-        near = nearest(node.name, free)
-        by = f"; the lifecycle managers have {quoted(managed[:3])}" if managed else " and no lifecycle manager is"
+        who = f"the lifecycle managers have {quoted(list(managed)[:3])}" if managed else "there is no lifecycle manager"
         yield rule.finding(
-            f"{node.name} is a lifecycle node, which does nothing until it is activated: nothing in this launch does "
-            + (f"that{by}" if managed else f"that,{by} started")
-            + did_you_mean(near),
+            f"{node.name} is a lifecycle node, which does nothing until it is activated, and nothing in this launch "
+            f"activates it: {who}",
             attribute_location(node, "exec"),
-            severity="warning" if near and context.tree.complete else None,
             confidence="likely" if context.tree.complete else "possible",
             related=include_chain(node.origin),
         )
@@ -83,7 +95,8 @@ RULE = Rule(
     name="lifecycle-not-activated",
     severity="info",
     what="Points out a lifecycle node, one of the servers of Nav2 for instance, that no `lifecycle_manager` of the "
-    "launch has among its `node_names`. Where there are handlers of events, timers or commands that may activate it, "
+    "launch has among its `node_names`, and warns of a name there that is nearly that of a "
+    "node. Where there are handlers of events, timers or commands that may activate it, "
     "nothing is said (ROS 2).",
     why="A lifecycle node starts unconfigured: it publishes nothing and offers only the services to change its state, "
     "until somebody configures and activates it.",

@@ -17,6 +17,8 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^>]*>[^<]*</\w+>", re.MULTILINE)
 _END = re.compile(r"^([ \t]*)</package\s*>", re.MULTILINE)
 _FORMAT = re.compile(r"<package\b[^>]*\bformat\s*=\s*[\"']([23])[\"']")
+_OF_A_PACKAGE = ("node", "test", "node_container", "lifecycle_node", "composable_node")
+_FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
 
 
@@ -59,11 +61,13 @@ def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     for action in launch_file.root.walk():
         for attribute in action.attributes:
             value = attribute.value
-            if attribute.name == "pkg" and action.kind.lower() in ("node", "test") and value.is_literal:
+            if attribute.name == "pkg" and action.kind.lower() in _OF_A_PACKAGE and value.is_literal:
                 found.setdefault(value.text, value.span)
             for part in value.substitutions:
-                if part.command == "find" and part.arguments:
-                    found.setdefault(part.arguments, part.arguments_span)
+                name = part.arguments.split()[-1:] if part.command in _FINDS else []
+                if name and "$" not in name[0]:
+                    start = part.arguments_span.start + part.arguments.rindex(name[0])
+                    found.setdefault(name[0].strip("'\""), Span(start, start + len(name[0])))
     return found
 
 
@@ -93,13 +97,12 @@ RULE = Rule(
     id="PKG004",
     name="package-not-in-manifest",
     severity="hint",
-    what="Points out a package that a launch file uses, as `pkg` of a node or in `$(find ...)`, and that the package "
-    "to which the file belongs does not name in its `package.xml`, as a dependency of whatever kind. Each package is "
-    "spoken of once in a file.",
+    what="Points out a package that a launch file names, as a node's `pkg` or in `$(find ...)`, "
+    "`$(find-pkg-share ...)`, and that the package to which the file belongs does not name in its `package.xml`, as a "
+    "dependency of whatever kind. Each package is spoken of once in a file.",
     why="Where the package is installed with `rosdep` or from a binary, what it does not name is not installed: the "
-    "launch file works only where somebody else needed it. `roslaunch_add_file_check` reports the same in a build.",
+    "launch file works only where somebody else needed it. In ROS 1 `roslaunch_add_file_check` reports the same.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
     instead="<exec_depend>rviz</exec_depend>",
-    generations=(1,),
     check=_check,
 )

@@ -7,9 +7,10 @@ RULE = Rule(
     id="PRM002",
     name="parameter-file-not-found",
     severity="error",
-    what="Reports a `<rosparam file=...>`, `<param textfile=...>` or `<param binfile=...>` whose file does not exist, "
-    "and names the nearest one of that folder or package.",
-    why="`roslaunch` stops and starts nothing.",
+    what="Reports a `<rosparam file=...>`, `<param textfile=...>`, `<param binfile=...>` or `<param from=...>` whose "
+    "file does not exist, and names the nearest one of that folder or package.",
+    why="`roslaunch` stops and starts nothing. `ros2 launch` stops at that of a component; it starts other nodes "
+    "without the file, on their defaults: then it is a warning.",
     example='<rosparam command="load" file="$(find camera)/config/camrea.yaml"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     check=check_missing_files("parameter file"),

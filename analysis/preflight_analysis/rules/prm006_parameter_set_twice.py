@@ -52,6 +52,9 @@ class _Setting:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _keys_twice(rule, context)
+    if context.tree.generation == 2:
+        yield from _of_ros2_nodes(rule, context)
+        return
     tags: Tags | None = None
     for param in context.tree.params.values():
         if not param.overrides:
@@ -74,6 +77,32 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     severity=severity,
                     related=(Related("the one that counts", winner.place), *include_chain(old.origin)),
                 )
+
+
+def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
+    """A node's sources apply in the order in which they are written: a file after a `<param>` overrides it."""
+    tags = Tags(context.launch_files)
+    for node in context.tree.nodes:
+        for param in node.params:
+            for old in param.overrides:
+                tag = tags.at(old.origin[-1])
+                if tag is None or not _is_own(tag) or (type(old.value), old.value) == (type(param.value), param.value):
+                    continue
+                winner, loser = param.name_location or param.origin[-1], old.name_location or old.origin[-1]
+                by = "it is set again below"
+                if winner.file not in context.launch_files:
+                    by = "the parameter file that is given after it sets it again"
+                yield rule.finding(
+                    f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {by}, to "
+                    f"{_shown(param.value)}",
+                    loser,
+                    related=(Related("the one that counts", winner), *include_chain(old.origin)),
+                )
+
+
+def _is_own(tag: Tag) -> bool:
+    """Whether it is a `<param>` in the tag of a node: what a `<set_parameter>` says is there to be overridden."""
+    return tag.action.kind == "param" and not tag.action.value("from")
 
 
 def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -155,10 +184,10 @@ RULE = Rule(
     "missed: twice in one tag or file, before an include or a file that sets it again, in a `<rosparam>` of a node "
     "that has a `<param>` of the name, or as a key that stands twice in one YAML dictionary. A parameter file that is "
     "overridden is what such files are for; of it nothing is said, nor of included files, nor of tags under a "
-    "condition.",
+    "condition. In ROS 2 it is a `<param>` of a node before another one or a file of it that sets the same.",
     why="Whoever reads or changes the value that does not count sees no effect. Of several settings the last one "
-    "counts, and `roslaunch` says nothing; but in a `<node>` each `<param>` comes after each `<rosparam>`, and a "
-    '`<param name="~...">` around the node after those too.',
+    "counts, and neither launcher says anything; but in a `<node>` of ROS 1 each `<param>` comes after each "
+    '`<rosparam>`, and a `<param name="~...">` around the node after those too.',
     example='<param name="use_sim_time" value="true"/>\n<!-- sets use_sim_time to false -->\n'
     '<include file="$(find robot)/launch/robot.launch"/>',
     instead='<include file="$(find robot)/launch/robot.launch"/>\n<param name="use_sim_time" value="true"/>',
