@@ -53,6 +53,8 @@ def test_arguments_that_stay_what_they_are() -> None:
           <let name="rate" value="10"/>
           <log message="$(var rate)"/>
           <include file="/camera.launch.xml"><arg name="name" value="rear"/></include>
+          <let name="name" value="robot"/>
+          <log message="$(var name)"/>
         </launch>
         //- /camera.launch.xml
         <launch>

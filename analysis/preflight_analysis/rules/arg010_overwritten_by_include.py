@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -16,34 +15,29 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     own: dict[tuple[str, str], str | None] = {}
     said: set[Location] = set()
     for use in context.tree.uses:  # in the order in which they are evaluated
-        if use.kind != "arg":
-            continue
         file, key = use.location.file, (use.location.file, use.name)
-        if use.target == use.location:
+        if use.kind == "declaration":
             own[key] = use.value
+        if use.kind != "arg" or not use.origin or own.get(key) in (None, use.value) or use.value is None:
             continue
-        if use.target is None or own.get(key) in (None, use.value) or use.value is None or use.location in said:
+        setter = use.origin[-1]
+        if use.location in said:
             continue
-        launch_file = context.launch_files.get(file)
-        if launch_file is None or use.name not in declarations(launch_file):
-            continue
-        tag = tags.around(use.target)
-        if use.target.file == file:
+        if setter.file == file:
+            tag = tags.around(setter)
             passed = tag is not None and tag.action.kind == "arg" and bool(tag.above) and tag.above[0].kind == "include"
             what = "an include above was passed this"
         else:
             below = below if below is not None else _below(context.tree)
-            passed, what = use.target.file in below.get(file, set()), "a file that is included above sets it"
+            passed, what = setter.file in below.get(file, set()), "a file that is included above sets it"
         if passed:
             said.add(use.location)
             yield rule.finding(
                 f"'{use.name}' is '{use.value}' here, no longer '{own[key]}': {what}, and what is set there stays set "
                 "after the include; put the <include> into a <group>",
                 use.location,
-                related=(Related("set here", use.target),),
+                related=(Related("set here", setter),),
             )
-        elif use.target.file == file:
-            own[key] = use.value
 
 
 def _below(tree: LaunchTree) -> Mapping[str, set[str]]:
