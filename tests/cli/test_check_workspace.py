@@ -182,3 +182,18 @@ def test_the_repository_cannot_make_git_run_something(
     (workspace / "inner.launch").write_text(INNER + "\n")
     assert preflight("check", "--no-run", "--changed-since", "HEAD", cwd=workspace).code == 0
     assert not trace.exists()
+
+
+@pytest.mark.parametrize("way", ["option", "variable"])
+def test_the_cache_folder_can_be_one_that_a_ci_keeps(desk: Desk, preflight: Run, way: str) -> None:
+    option = ("--cache-dir", "ci cache") if way == "option" else ()
+    variable = {"ROS_PREFLIGHT_CACHE_DIR": "ci cache"} if way == "variable" else {}
+    done = preflight("check", desk.launch_file, *option, environment=variable)
+    assert "2 nodes, 2 of them traced" in done.out
+    kept = desk.workspace / "ci cache"
+    assert list(kept.iterdir())
+    assert not list((desk.home / ".cache").iterdir())
+    starts = desk.sandbox_starts()
+    moved = kept.rename(desk.home / "restored")
+    again = preflight("check", desk.launch_file, "--cache-dir", moved)
+    assert (again.out, desk.sandbox_starts()) == (done.out, starts + 1), "only the probe"

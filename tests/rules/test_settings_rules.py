@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.workspace.settings_schema import COMMAND, text
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
+ROOT = Path(__file__).resolve().parents[2]
 GOOD = """external: {topics: [/a]}
 roots: [a.launch]
 nodes:
@@ -53,3 +55,8 @@ def test_what_is_wrong_in_it_is_a_finding_at_its_place(tmp_path: Path) -> None:
 def test_a_settings_file_that_is_understood_is_no_finding(tmp_path: Path) -> None:
     assert settings_findings(tmp_path, GOOD) == []
     assert settings_findings(tmp_path, "") == []
+
+
+def test_the_schema_of_it_names_each_rule() -> None:
+    written = (ROOT / "vscode-client/ros-preflight.schema.json").read_text()
+    assert written == text(), f"run: {COMMAND}"

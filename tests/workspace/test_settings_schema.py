@@ -11,7 +11,7 @@ import preflight_analysis.workspace.project_settings as reader
 import pytest
 import yaml
 from preflight_analysis.workspace.project_settings import KEYS, read_project_settings
-from preflight_analysis.workspace.settings_schema import COMMAND, schema, text
+from preflight_analysis.workspace.settings_schema import schema
 
 ROOT = Path(__file__).resolve().parents[2]
 EVERYTHING = """
@@ -33,11 +33,6 @@ paths: [{path: old, severities: {PRM001: error}}]
 def yaml_1_2(text: str) -> Any:
     """As editors read it: `off` is a text there."""
     return yaml.safe_load(text.replace("off", "'off'"))
-
-
-def test_it_is_up_to_date() -> None:
-    written = (ROOT / "vscode-client/ros-preflight.schema.json").read_text()
-    assert written == text(), f"run: {COMMAND}"
 
 
 def test_the_extension_brings_it() -> None:

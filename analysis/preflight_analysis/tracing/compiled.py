@@ -21,11 +21,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import platformdirs
-
 from preflight_analysis.tracing import run
 from preflight_analysis.tracing.agents.compiling import FOLDERS
 from preflight_analysis.tracing.backend import AGENTS, Agents
+from preflight_analysis.tracing.cache_folder import cache_folder
 
 _log = logging.getLogger(__name__)
 
@@ -37,7 +36,7 @@ class Copies:
     """The copies in one cache folder, one an interpreter. Usable from several threads at once."""
 
     def __init__(self, folder: Path | None = None) -> None:
-        self._folder = folder or Path(platformdirs.user_cache_dir("ros-preflight")) / "agents"
+        self._folder = folder or cache_folder() / "agents"
         self._lock = threading.Lock()
         self._found: dict[str, Agents] = {}
 

@@ -23,9 +23,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import platformdirs
-
 from preflight_analysis.tracing import preload_compile
+from preflight_analysis.tracing.cache_folder import cache_folder
 from preflight_analysis.tracing.preload_compile import FLAGS, MACHINES, PREBUILT, SECONDS, SOURCE, compile_library
 from preflight_analysis.tracing.store import ABANDONED
 
@@ -61,7 +60,7 @@ class Library:
     is such a file and it can be loaded."""
 
     def __init__(self, folder: Path | None = None, prebuilt: Path = PREBUILT) -> None:
-        self._folder = folder or Path(platformdirs.user_cache_dir("ros-preflight")) / "preload"
+        self._folder = folder or cache_folder() / "preload"
         self._prebuilt = prebuilt
         self._lock = threading.Lock()
         self._unfit = False

@@ -16,6 +16,7 @@ from pathlib import Path
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.request import TraceRequest
 
 ROS_HOME = "/tmp/ros_home"  # noqa: S108
@@ -154,6 +155,7 @@ def _program_paths(executable: str) -> list[str]:
 def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
     """What a node gets of the user's variables, and what the launch file sets."""
     overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
+    overridden.add(VARIABLE)  # where the cache lies is nothing that a run may depend on
     kept = {
         name: value
         for name, value in environment.variables.items()

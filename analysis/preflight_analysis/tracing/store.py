@@ -21,7 +21,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import platformdirs
+from preflight_analysis.tracing.cache_folder import cache_folder
 
 MAX_BYTES = 64 << 20
 VARIANTS = 32
@@ -53,7 +53,7 @@ class Store:
     """
 
     def __init__(self, name: str, schema: str, entry_bytes: int, folder: Path | None, max_bytes: int) -> None:
-        self.folder = folder or Path(platformdirs.user_cache_dir("ros-preflight")) / name
+        self.folder = folder or cache_folder() / name
         self.max_bytes = max_bytes
         self._schema = schema
         self._entry_bytes = entry_bytes

@@ -100,7 +100,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _severities() -> dict[str, Any]:
     choice = {"enum": list(CHOICES)}
-    rules = {rule.id: {**choice, "description": f"{rule.name}: {rule.what}"} for rule in all_rules()}
+    rules = {rule.id: {**choice, "description": rule.name} for rule in all_rules()}
     every = {ALL: {**choice, "description": "Each rule that is not named beside it."}}
     return _object("Severities of rules, instead of their own.", {**every, **rules})
 

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 from preflight_analysis import __version__
+from preflight_analysis.tracing.cache_folder import VARIABLE
 
 from preflight_server.cli.errors import FAILED, CannotDoError
 from preflight_server.cli.output import say
@@ -24,6 +25,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; the return value is the exit code."""
     logging.basicConfig(level=logging.WARNING, format="ros-preflight: %(message)s")
     args = _parse(sys.argv[1:] if argv is None else argv)
+    if getattr(args, "cache_dir", None):
+        os.environ[VARIABLE] = args.cache_dir
     try:
         code: int = args.run(args)
         sys.stdout.flush()

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from preflight_analysis.evaluation.arguments import parse_arguments
 from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.tracing.cache_folder import VARIABLE
 
 from preflight_server.cli.errors import CannotDoError
 
@@ -44,6 +45,11 @@ def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None
         "--package-path",
         metavar="A:B",
         help="look for packages in these folders, in this order, and nowhere else",
+    )
+    parser.add_argument(
+        "--cache-dir",
+        metavar="DIR",
+        help=f"keep what runs told in this folder (default: that of {VARIABLE}, else one in the user's cache)",
     )
 
 
