@@ -175,6 +175,65 @@ def test_targets_made_by_a_function_with_keywords(desk: Desk) -> None:
     assert ends(desk.read(CLASS + REGISTER)) == DRIVER
 
 
+def test_targets_made_of_a_folder(desk: Desk) -> None:
+    desk.write(
+        "CMakeLists.txt",
+        """
+        project(p)
+        ament_auto_add_library(driver SHARED DIRECTORY src)
+        rclcpp_components_register_node(driver PLUGIN "p::Driver" EXECUTABLE t)
+        """,
+    )
+    assert ends(desk.read(CLASS + REGISTER)) == DRIVER
+
+
+def test_a_base_class_of_another_package(desk: Desk) -> None:
+    base = """
+        #pragma once
+        namespace project::filters {
+        class Filter : public rclcpp::Node {
+        public:
+          explicit Filter(const std::string & name, const rclcpp::NodeOptions & options);
+        };
+        }
+        """
+    made = """
+        #include "project/filters/filter.hpp"
+        project::filters::Filter::Filter(const std::string & name, const rclcpp::NodeOptions & options)
+        : Node(name, options) { pub_ = create_publisher<std_msgs::msg::String>("output", 1); }
+        """
+    desk.write("../project_filters/package.xml", MANIFEST.replace("<name>p<", "<name>project_filters<"))
+    desk.write("../project_filters/CMakeLists.txt", "add_library(filters src/filter.cpp)\n")
+    desk.write("../project_filters/include/project/filters/filter.hpp", base)
+    desk.write("../project_filters/src/filter.cpp", made)
+    found = desk.main(
+        'auto n = std::make_shared<Crop>("crop", rclcpp::NodeOptions());',
+        before="""
+        #include "project/filters/filter.hpp"
+        class Crop : public project::filters::Filter { public: using Filter::Filter;
+          Crop(const std::string & n, const rclcpp::NodeOptions & o) : Filter(n, o) { declare_parameter("size", 1.0); }
+        };
+        """,
+    )
+    assert [e.name for e in found.endpoints] == ["output"]
+    assert params(found) == {"~size": 1.0}
+
+
+def test_a_base_class_that_is_not_there(desk: Desk) -> None:
+    before = """
+        class Driver : public vendor::DriverNode {
+        public:
+          Driver() : DriverNode("driver") {
+            pub_ = create_publisher<std_msgs::msg::String>("state", 1);
+            declare_parameter("rate", 1.0);
+          }
+        };
+        """
+    found = desk.main("auto driver = std::make_shared<Driver>();", before=before)
+    assert [e.name for e in found.endpoints] == ["state"]
+    assert [use.name for use in found.params] == ["/", "~rate"]
+
+
 LIFECYCLE = """
 #include "rclcpp_lifecycle/lifecycle_node.hpp"
 class Talker : public rclcpp_lifecycle::LifecycleNode {

@@ -356,6 +356,11 @@ class _Lists:
         if not name or any(word in ("ALIAS", "IMPORTED") for word in rest[:2]):
             return
         made = self._targets.setdefault(name, _Making(name, kind, []))
+        if "DIRECTORY" in rest:  # of ament_auto_add_library and ament_auto_add_executable: all that is in the folders
+            at = rest.index("DIRECTORY")
+            patterns = [os.path.join(each, f"*{ending}") for each in rest[at + 1 :] for ending in _SOURCES]
+            made.sources += _globbed(patterns, folder, False)
+            rest = rest[:at]
         made.sources += _files(rest, folder)
 
     def _outputs(self, targets: Sequence[str], output: str) -> None:

@@ -142,7 +142,7 @@ class CppFiles:
     def _included(self, file: FileText, package: str) -> Iterator[str]:
         for include in file.includes:
             folders = [os.path.dirname(file.path), *self._folders(package)]
-            other = include.partition("/")[0]
+            other = self._package_of(include)
             if other != package:
                 folders += self._folders(other) if other not in self._known else []
             path = _first(os.path.normpath(os.path.join(folder, include)) for folder in folders)
@@ -151,6 +151,12 @@ class CppFiles:
             yield path
             if other in self._packages and other != package and other not in self._known:
                 yield from self._implementing(path, other)
+
+    def _package_of(self, include: str) -> str:
+        """The package that a header is of by convention: `pkg/x.hpp`, or `project/name/x.hpp` of `project_name`."""
+        first, _, rest = include.partition("/")
+        joined = f"{first}_{rest.partition('/')[0]}"
+        return joined if first not in self._packages and "/" in rest and joined in self._packages else first
 
     def _folders(self, package: str) -> list[str]:
         found = self._packages.get(package)

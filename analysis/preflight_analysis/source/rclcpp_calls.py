@@ -60,7 +60,7 @@ _NODES: Mapping[str, bool] = {
 """The classes of nodes, and whether they have a lifecycle."""
 _POINTERS = re.compile(r"::(?:(?:Const)?(?:Shared|Weak|Unique)Ptr)\Z")
 _TRANSITIONS = ("on_configure", "on_activate")
-_HARMLESS = frozenset({"bond", "std", *LIBRARIES})
+_HARMLESS = frozenset({"autoware_utils", "bond", "std", *LIBRARIES})
 """Namespaces of libraries that may get a node and declare none of its parameters in a way not known here."""
 _LOADERS = frozenset({"pluginlib::ClassLoader"})
 
@@ -99,6 +99,7 @@ _WITH_NODE: Mapping[str, tuple[Role, str]] = {
     "rclcpp_action::create_server": ("action_server", "action"),
     "rclcpp_action::create_client": ("action_client", "action"),
     "message_filters::Subscriber": ("subscriber", "msg"),
+    "autoware_utils::InterProcessPollingSubscriber": ("subscriber", "msg"),
     "nav2_util::SimpleActionServer": ("action_server", "action"),
     "nav2_util::ServiceClient": ("client", "srv"),
 }
@@ -192,7 +193,8 @@ class RclcppCalls:
         f"{' '.join((*_METHODS, *_GENERIC, *_IMAGES, *_DECLARE))} create_server declare_parameters get_parameter "
         "get_parameters get_parameter_or get_parameter_types Subscriber SubscriberFilter ImageTransport Node "
         "TransformListener TransformBroadcaster StaticTransformBroadcaster Updater CameraInfoManager LifecycleNode "
-        "SimpleActionServer ServiceClient ClassLoader ParamListener wait_for_message".split()
+        "SimpleActionServer ServiceClient InterProcessPollingSubscriber ClassLoader ParamListener "
+        "wait_for_message".split()
     )
     includes: Sequence[str] = ()
     """What the files of the program include."""
@@ -270,6 +272,9 @@ class RclcppCalls:
             self._with_node(name, type_.args, args, place)
         else:
             self._unknown_library(name, given, place)
+            if name.endswith("Node") and any(isinstance(value, str) or _is_options(value) for value in given):
+                self._any_parameter(place)  # of a package that is not there in source form
+                return NodeObject()
         return Unmade(type_)
 
     def _new_node(self, given: Sequence[Any], place: Place, *, has_lifecycle: bool) -> NodeObject:
@@ -670,6 +675,10 @@ def _parameter(argument: Argument, type_: CppType | None) -> _Parameter:
     if isinstance(value, list) and type_.args:
         return _Parameter([converted(each, type_.args[0]) for each in value])
     return _Parameter(converted(value, type_))
+
+
+def _is_options(value: Any) -> bool:
+    return isinstance(value, _Options) or (isinstance(value, Unmade) and value.type.name == "rclcpp::NodeOptions")
 
 
 def _is_descriptor(value: Any) -> bool:
