@@ -210,8 +210,8 @@ def test_names_that_a_node_uses(begin: str) -> None:
 )
 def test_nothing_that_is_typed_in_yaml_raises(pieces: list[str], cursor: int, trigger: str | None) -> None:
     text = "".join(pieces)
-    found = completed(YAML + text[:cursor] + "$0" + text[cursor:], trigger)
+    fixture = YAML + text[:cursor] + "$0" + text[cursor:]
+    found, there = completed(fixture, trigger), at_cursor(textwrap.dedent(fixture))
     if found is not None:
-        at = min(cursor, len(text))
-        assert found.span.start <= at <= found.span.end
-        assert "\n" not in text[found.span.start : found.span.end]
+        assert found.span.start <= there.offset <= found.span.end
+        assert "\n" not in there.text(found.span)
