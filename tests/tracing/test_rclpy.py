@@ -237,6 +237,30 @@ def test_a_trace_is_kept_until_what_it_depends_on_changes(tmp_path: Path) -> Non
     assert not desk.trace("talker", "<param name='topic' value='c'/>").cached
 
 
+def test_traces_of_two_entry_points_of_one_module_are_told_apart(tmp_path: Path) -> None:
+    body = node_of("self.create_publisher(String, os.environ.pop('TOPIC', 'a'), 1)", "import os")
+    body += "\n\ndef other():\n    os.environ['TOPIC'] = 'b'\n    main()\n"
+    desk = Ros2Desk(tmp_path / "ws", talker=body)
+    setup = (desk.package / "setup.py").read_text()
+    desk.write("setup.py", setup.replace("['talker", "['second = pkg.talker:other', 'talker"))
+    desk.cache = TraceCache(tmp_path / "cache")
+    assert set(ends(desk.trace("talker"))) == {("publisher", "a")}
+    assert set(ends(desk.trace("second"))) == {("publisher", "b")}
+
+
+def test_what_depends_on_the_name_is_traced_anew(tmp_path: Path) -> None:
+    desk = Ros2Desk(
+        tmp_path / "ws",
+        asks=node_of("self.create_publisher(String, '/of_' + self.get_name(), 1)"),
+        there=node_of("self.create_publisher(String, 'a', 1)").replace("'own')", "'own', namespace='/there')"),
+    )
+    desk.cache = TraceCache(tmp_path / "cache")
+    assert set(ends(desk.trace("asks"))) == {("publisher", "/of_n")}
+    assert set(ends(desk.trace("asks", attributes="name='m'"))) == {("publisher", "/of_m")}
+    assert set(ends(desk.trace("there"))) == {("publisher", "/there/a")}
+    assert set(ends(desk.trace("there", attributes="name='n' namespace='robot'"))) == {("publisher", "a")}
+
+
 def test_a_crash_is_not_kept_when_its_parameters_change(tmp_path: Path) -> None:
     desk = Ros2Desk(tmp_path / "ws", talker=node_of("assert self.declare_parameter('n', 1).value == 2"))
     desk.cache = TraceCache(tmp_path / "cache")

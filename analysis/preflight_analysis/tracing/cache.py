@@ -164,11 +164,13 @@ class TraceCache(Store):
             "watched": recipe.remapped,
             "interpreter": list(recipe.argv[: recipe.argv.index(request.executable)]),
             "args": list(request.args),
+            "entry_point": request.entry_point,
+            "named": request.named,
             "env": dict(recipe.stable),
             "cwd": recipe.cwd,
         }
         name = os.path.basename(request.executable)
-        return self._place_of(named, self._executable_folder(request.package, name, nodelets.plugin(request)))
+        return self._place_of(named, self._executable_folder(request.package, name, part(request)))
 
 
 class _View:
@@ -223,6 +225,11 @@ def _valid(known: Mapping[str, Any], view: _View) -> bool:
         and all(fingerprint(path) == value for path, value in known["files"].items())
         and all(listing(folder) == value for folder, value in known["listings"].items())
     )
+
+
+def part(request: TraceRequest) -> str | None:
+    """Which of the things that one file can run: a nodelet, an entry point."""
+    return request.entry_point or nodelets.plugin(request)
 
 
 def texts(value: Any) -> Iterator[str]:

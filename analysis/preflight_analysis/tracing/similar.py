@@ -16,7 +16,7 @@ from typing import Any
 
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing import nodelets
-from preflight_analysis.tracing.cache import Kept, TraceCache, bare, texts
+from preflight_analysis.tracing.cache import Kept, TraceCache, bare, part, texts
 from preflight_analysis.tracing.interface import Elsewhere, Interface
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.store import fingerprint
@@ -62,9 +62,16 @@ class SimilarTraces:
             path = node.resolved.path or ""
             executable = path or node.executable
             request = nodelets.standalone(
-                TraceRequest(node.name, node.package, executable, split_args(node.args), params=params)
+                TraceRequest(
+                    node.name,
+                    node.package,
+                    executable,
+                    split_args(node.args),
+                    params=params,
+                    entry_point=node.resolved.entry_point,
+                )
             )
-            key = (node.package, os.path.basename(executable), nodelets.plugin(request))
+            key = (node.package, os.path.basename(executable), part(request))
             if key not in known:
                 known[key] = self._traces(key)
             if path not in builds:
@@ -79,7 +86,7 @@ class SimilarTraces:
         self, node: LaunchNode, request: TraceRequest, traces: tuple[Kept, ...], build: str, said: frozenset[str]
     ) -> Interface | None:
         path = node.resolved.path or ""
-        key = (node.name, node.package, request.executable, node.args)
+        key = (node.name, node.package, f"{request.executable}:{request.entry_point}", node.args)
         told = self._told.get(key)
         if told is not None and told.traces is traces and told.build == build and told.strange == told.given - said:
             return told.found

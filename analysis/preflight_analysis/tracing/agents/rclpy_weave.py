@@ -104,6 +104,7 @@ def _given(node: Any, name: str) -> str:
     in_place = (node.get_namespace().rstrip("/") or "") == space and (not private or node.get_name() == base)
     if name.startswith("/") or (in_place and "{" not in name):
         return name
+    channel.send("asked", what="name")
     return _full(node, name)
 
 
@@ -181,6 +182,17 @@ def _action(role: str) -> Callable[..., Any]:
         return made
 
     return advice
+
+
+def _asks(original: Callable[..., Any]) -> Callable[..., Any]:
+    """The node looks at its own name: what it does may depend on it."""
+
+    def asked(*args: Any, **kwargs: Any) -> Any:
+        if _top(sys._getframe(1)) not in _LIBRARIES:
+            channel.send("asked", what="name")
+        return original(*args, **kwargs)
+
+    return asked
 
 
 # Parameters
@@ -512,6 +524,9 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
         node = found.Node
         _wrap(node, "__init__", _constructed)
         _wrap(node, "declare_parameters", _declares)
+        for method in ("get_name", "get_namespace", "get_fully_qualified_name", "resolve_topic_name"):
+            _wrap(node, method, _asks)
+        _wrap(node, "resolve_service_name", _asks)
         _wrap(node, "create_publisher", _creates("publisher", "msg_type", "topic", True))
         _wrap(node, "create_subscription", _creates("subscriber", "msg_type", "topic", True))
         _wrap(node, "create_service", _creates("service", "srv_type", "srv_name", False))
