@@ -120,3 +120,28 @@ def test_types_of_one_definition_can_be_called() -> None:
     """)
         == []
     )
+
+
+def test_a_service_that_is_waited_for_may_be_the_one_that_nobody_calls() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="b" name="base"/>
+          <node pkg="p" type="d" name="dock"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] waits for when it starts; did you mean '/reset_od
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC005] it waits for the service /base/reset_odom
+          <node pkg="p" type="c" name="calls"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] '/calls/reset' (std_srvs/Empty)
+          <node pkg="p" type="o" name="other"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] '/load_map' (std_srvs/Empty)
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC005] it waits for the service /load_map
+        </launch>
+        //- interfaces
+        {"/base": {"services": {"reset_odometry": "std_srvs/Empty"}},
+         "/dock": {"clients": {"base/reset_odom": "std_srvs/Empty"},
+                   "answers": ["it waits for the service /base/reset_odom, and was told that it is there"],
+                   "notes": ["it waits for the service /base/reset_odom, and was told that it is there"]},
+         "/calls": {"clients": {"~reset": "std_srvs/Empty"}},
+         "/other": {"clients": {"load_map": "std_srvs/Empty"},
+                    "answers": ["it waits for the service /load_map, and was told that it is there"],
+                    "notes": ["it waits for the service /load_map, and was told that it is there"]}}
+    """)

@@ -1,10 +1,21 @@
 """SRV001: a node calls a service that nobody offers."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import meant_ends
-from preflight_analysis.rules.near_miss import dangling_wants, fixes, near_misses, nodes_looked_at, weight
+from preflight_analysis.rules.near_miss import (
+    by_type,
+    dangling_offers,
+    dangling_wants,
+    fixes,
+    near_misses,
+    nodes_looked_at,
+    weight,
+)
+from preflight_analysis.rules.nearest import numbers_in, share_words
 from preflight_analysis.rules.places import connection_location, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -31,18 +42,45 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ),
             fixes=fixes(context, pair),
         )
+    answers = {
+        id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
+    }
+    unused = by_type(dangling_offers(graph.services)) if answers else {}
     explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.services):
         if id(end) not in explained:
             sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
+            meant = _meant(end, answers.get(id(end.node), ()), unused)
+            hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
+            related = [related_end(meant, "offers")] if meant is not None else []
             yield rule.finding(
-                f"{nodes_looked_at(graph)} offers service '{end.name}'{kind}, which {end.node.name} calls",
+                f"{nodes_looked_at(graph)} offers service '{end.name}'{kind}, which {end.node.name} calls{hint}",
                 connection_location(end),
-                severity="hint",
+                severity="hint" if meant is None else "warning",
                 confidence="likely" if sure else "possible",
-                related=include_chain(end.node.origin),
+                related=(*related, *include_chain(end.node.origin)),
             )
+
+
+def _meant(
+    end: Connection, answers: Iterable[str], unused: Mapping[str | None, Sequence[Connection]]
+) -> Connection | None:
+    """For a client that its node was seen to wait for before it did anything else: the one service of its type that
+    nobody calls and that has a word in common."""
+    given = {end.name, end.endpoint.name, names.resolve(end.endpoint.name, end.node.name)}
+    if not any(answer.startswith(f"it waits for the service {name}, ") for name in given for answer in answers):
+        return None
+    alike = [
+        offer
+        for offer in unused.get(end.endpoint.type, ())
+        if end.endpoint.type
+        and offer.node is not end.node
+        and not offer.endpoint.uncertain
+        and share_words(offer.name, end.name)
+        and numbers_in(offer.name) == numbers_in(end.name)
+    ]
+    return alike[0] if len(alike) == 1 else None
 
 
 RULE = Rule(
@@ -50,7 +88,8 @@ RULE = Rule(
     name="service-not-offered",
     severity="warning",
     what="Reports a node with a client of a service that no node of the launch offers. Where one offers a service of a "
-    "like name and the same type, it is a warning that names both; otherwise a hint, as the service may be offered by "
+    "like name and the same type, or one with a word in common that nobody calls while the client's node waits for its "
+    "own, it is a warning that names both; otherwise a hint, as the service may be offered by "
     "something that is started elsewhere.",
     why="A client that waits for the service waits for ever; one that does not gets an error at its first call.",
     example='<!-- the base offers reset_odometry -->\n<remap from="reset" to="reset_odometri"/>',
