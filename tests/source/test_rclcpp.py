@@ -234,6 +234,42 @@ def test_a_base_class_that_is_not_there(desk: Desk) -> None:
     assert [use.name for use in found.params] == ["/", "~rate"]
 
 
+def test_what_a_class_has_in_the_place_of_a_method_of_rclcpp(desk: Desk) -> None:
+    before = """
+        class Base : public rclcpp::Node {
+        public:
+          explicit Base(const std::string & name) : Node(name) {}
+          template<typename T> auto create_publisher(const std::string & topic) {
+            if (!has_parameter("introspection")) { declare_parameter("introspection", false); }
+            return rclcpp::create_publisher<T>(*this, topic, rclcpp::QoS(10));
+          }
+        };
+        class Driver : public Base {
+        public:
+          Driver() : Base("driver") {
+            pub_ = create_publisher<std_msgs::msg::String>("state");
+          }
+        };
+        """
+    found = desk.main("auto driver = std::make_shared<Driver>();", before=before)
+    assert ends(found) == [("publisher", "state", "std_msgs/msg/String")]
+    assert params(found) == {"~introspection": False}
+    text = (desk.folder / "src/p/src/t.cpp").read_text().splitlines()
+    assert '("state")' in text[(found.endpoints[0].source_line or 0) - 1]
+
+
+def test_the_type_of_an_action_is_as_ros_2_has_it(desk: Desk) -> None:
+    desk.write("CMakeLists.txt", CMAKE)
+    desk.read(CLASS + MAIN)
+    environment = detect_environment(str(desk.folder), {}, root=str(desk.folder / "nothing"))
+    workspace = Workspace(environment, Sources())
+    analysis = workspace.static(str(desk.folder / "src/p/main.launch.xml"))
+    graph = workspace.with_interfaces(analysis, [NOT_RUN], "not run here").graph
+    assert graph is not None
+    offers = [offer.endpoint.type for offer in graph.actions["/navigate"].offers]
+    assert offers == ["nav2_msgs/action/NavigateToPose"]
+
+
 LIFECYCLE = """
 #include "rclcpp_lifecycle/lifecycle_node.hpp"
 class Talker : public rclcpp_lifecycle::LifecycleNode {

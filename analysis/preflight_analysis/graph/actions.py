@@ -75,8 +75,8 @@ def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEnd | No
 
 def _declared(endpoint: Endpoint) -> ActionEnd:
     type_ = endpoint.type if endpoint.type != "*" else None
-    if type_ is not None and not type_.endswith("Action"):
-        type_ += "Action"  # `pkg/Fetch`, the name of the file, is meant for the same
+    if type_ is not None and not type_.endswith("Action") and "/action/" not in type_:
+        type_ += "Action"  # `pkg/Fetch`, the name of the file, is meant for the same; ROS 2 has `pkg/action/Fetch`
         endpoint = replace(endpoint, type=type_)
     topics = tuple(
         Endpoint(

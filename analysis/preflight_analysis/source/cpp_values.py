@@ -159,6 +159,11 @@ class Calls(Protocol):
         """Whether a call is told here although the program has the function: what it does is known. `owner` is None
         for a free function."""
 
+    def notice(
+        self, owner: Instance, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place
+    ) -> None:
+        """A call of a method of the program, which is gone through next."""
+
     def cut_short(self) -> None:
         """Not all of the program is gone through that may lead to a call."""
 

@@ -843,6 +843,8 @@ class _Walk:
         taken = self._calls.takes(None if len(path) > 1 else scope.this, name, types, args)
         function = self._function(path, scope, len(args)) if not taken else None
         if function is not None and function.text is not None:
+            if function.instance is not None:
+                self._calls.notice(function.instance, name, types, args, place)
             return self._call_text(function.text, function.instance, args, self._given(function.text, types))
         type_ = self._type(callee, scope)
         if type_ is not None and (self._class(type_) is not None or type_.name != "::".join(p for p in path if p)):
@@ -880,6 +882,7 @@ class _Walk:
         if isinstance(owner, Instance) and not self._calls.takes(owner, name, types, args):
             text = self._method(owner, name, len(args))
             if text is not None:
+                self._calls.notice(owner, name, types, args, place)
                 return self._call_text(text, owner, args, self._given(text, types))
         if name == "reset" and len(args) == 1 and not isinstance(owner, (str, list, dict, Stream)):
             reference = self._lvalue(target, scope)

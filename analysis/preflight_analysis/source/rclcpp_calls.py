@@ -215,14 +215,19 @@ class RclcppCalls:
         self.found.use(ParamUse("/", "list"))
 
     def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
-        """What declares parameters in the way of a library, and what a node class has in the place of rclcpp's own."""
+        """What declares parameters in the way of a library, and what gives the node itself."""
         if name in _DECLARE_FUNCTIONS or name == _ADD_ARGUMENT:
             return True
-        if name in _ITSELF and not args:
-            return _node_of(owner) is not None
-        if name not in _METHODS or not types or _node_of(owner) is None:
-            return False
-        return isinstance(value_at(args, 0), str) and self._first(types, _METHODS[name][1]) is not None
+        return name in _ITSELF and not args and _node_of(owner) is not None
+
+    def notice(
+        self, owner: Instance, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place
+    ) -> None:
+        """What a class has in the place of a method of rclcpp makes the same end; here is where it is asked for."""
+        node = _node_of(owner)
+        role, kind = _METHODS.get(name, ("publisher", ""))
+        if node is not None and kind and (type_ := self._first(types, kind)) is not None:
+            self._end(role, node.name(value_at(args, 0)), type_, _qos(args[1:]) if kind == "msg" else {}, place)
 
     # Objects.
 

@@ -201,6 +201,9 @@ class RoscppCalls:
     def cut_short(self) -> None:
         """Nothing: what is found is never taken for all."""
 
+    def notice(self, *_: object) -> None:
+        """Nothing: the method is gone through."""
+
     def takes(self, *_: object) -> bool:
         """No."""
         return False
