@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from preflight_analysis.documents.reading import Unreadable
@@ -12,6 +13,7 @@ from preflight_analysis.queries.completion import complete
 from preflight_analysis.queries.completion_items import Completion
 from preflight_analysis.queries.definition import definition
 from preflight_analysis.queries.hover import hover
+from preflight_analysis.queries.rename import RenameRefusedError, rename
 from query_desk import Executables, at_cursor
 from scene_desk import lay
 
@@ -125,3 +127,57 @@ def test_nothing_that_is_typed_raises(pieces: list[str], cursor: int) -> None:
     text = "".join(pieces)
     completed(text[:cursor] + "$0" + text[cursor:])
     hovered(text[:cursor] + "$0" + text[cursor:])
+
+
+def test_from_a_param_tag_to_the_declaration(tmp_path: Path) -> None:
+    made = f'{{"/pump": {{"params": {{"rate": 10.0}}, "made": {{"rate": ["{tmp_path}/pump.py", 2]}}}}}}'
+    text = (
+        '//- main.launch.xml\n<launch>\n<node pkg="p" exec="t" name="pump"><param name="ra$0te" value="1.0"/></node>\n'
+        f"</launch>\n//- pump.py\nimport rclpy\ndeclare('rate')\n//- interfaces\n{made}\n"
+    )
+    stage = lay(tmp_path, text)
+    assert [stage.shown(t.location) for t in definition(stage.scene, stage.offset, ())] == ["pump.py:2 declare('rate')"]
+
+
+RENAMED = """
+//- main.launch.yaml
+launch:
+- node:
+    pkg: p
+    exec: t
+    name: pu$0mp
+    namespace: left
+    param:
+    - from: {folder}/p.yaml
+- node:
+    pkg: p
+    exec: t
+    name: %s
+    namespace: right
+    param:
+    - from: {folder}/p.yaml
+//- p.yaml
+/left/pump:
+  ros__parameters: {a: 1}
+left:
+  pump:
+    ros__parameters: {b: 1}
+/*/pump:
+  ros__parameters: {c: 1}
+/**:
+  ros__parameters: {d: 1}
+"""
+
+
+def test_a_renamed_node_keeps_its_parameters(tmp_path: Path) -> None:
+    stage = lay(tmp_path, RENAMED % "fan")
+    edited = stage.edited(rename(stage.scene, stage.offset, "motor"))
+    assert "name: motor\n" in edited["main.launch.yaml"]
+    keys = [line for line in edited["p.yaml"].split("\n") if "motor" in line or "pump" in line]
+    assert keys == ["/left/motor:", "  motor:", "/*/motor:"]
+
+
+def test_a_node_is_not_renamed_if_a_section_means_others_too(tmp_path: Path) -> None:
+    stage = lay(tmp_path, RENAMED % "pump")
+    with pytest.raises(RenameRefusedError, match="rename it by hand"):
+        rename(stage.scene, stage.offset, "motor")

@@ -36,6 +36,8 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
     analysis, file = scene.analyses[0], scene.path
     if is_param_file(analysis, file):
         return tuple(Target(place, Location(file, span)) for place, span in from_param_file(scene, offset))
+    if targets := _targets_of_param(scene, offset):
+        return targets
     use = use_at(analysis.tree, file, offset)
     if use is not None and use.kind != "executable":
         target = use.target
@@ -56,6 +58,21 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
         if finding.location.file == file and finding.location.span.contains(offset) and finding.related:
             return tuple(Target(related.location, finding.location) for related in finding.related)
     return ()
+
+
+def _targets_of_param(scene: Scene, offset: int) -> tuple[Target, ...]:
+    """From the name of a ROS 2 node's parameter to where its source declares it."""
+    found: dict[Target, None] = {}
+    for analysis in scene.analyses:
+        interfaces = analysis.graph.interfaces if analysis.graph is not None else ()
+        for node, interface in zip(analysis.tree.nodes, interfaces, strict=False):
+            for param in node.params:
+                place = param.name_location
+                if place is None or place.file != scene.path or not place.span.contains(offset):
+                    continue
+                uses = (use for use in interface.params if use.name.removeprefix("~") == param.name)
+                found.update({Target(made, place): None for use in uses if (made := made_at(scene, use)) is not None})
+    return tuple(found)
 
 
 def _same_place(one: Location, other: Location) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.graph.annotations import annotated_names
@@ -50,6 +51,10 @@ def mentions_of(scene: Scene, trees: Iterable[LaunchTree], wanted: frozenset[str
         for owner in tree.nodes:
             yield from _in_annotation(scene, owner, wanted)
             yield from _in_arguments(owner, wanted)
+            if owner.name in wanted:
+                yield from _in_parameter_files(scene, tree, owner, wanted)
+            if owner.container in wanted and not _is_inside(tree, owner):
+                yield NodeMention(owner.location, None)
 
 
 def remap_ends(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
@@ -138,6 +143,37 @@ def _in_annotation(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> I
             for node in _above(full, wanted):
                 found = _part(name, full, node)
                 yield NodeMention(Location(owner.location.file, span), _moved(found, span.start))
+
+
+def _in_parameter_files(
+    scene: Scene, tree: LaunchTree, owner: LaunchNode, wanted: frozenset[str]
+) -> Iterator[NodeMention]:
+    """The keys in ROS 2's parameter files that end in the node's name; not if they mean other nodes as well."""
+    name = owner.name.rpartition("/")[2]
+    for path in dict.fromkeys(source.path for source in owner.param_sources if source.path is not None):
+        document = scene.document(path)
+        for section in read_param_file(document.text).sections if document is not None else ():
+            if not section.fits(owner.name) or section.pattern.rpartition("/")[2] != name:
+                continue
+            others = any(
+                section.fits(node.name) and node.name not in wanted and any(s.path == path for s in node.param_sources)
+                for node in tree.nodes
+            )
+            key = section.spans[-1]
+            written = document.text[key.start : key.end] if document is not None else ""
+            exact = written == name or written.endswith(f"/{name}")
+            yield NodeMention(Location(path, key), Span(key.end - len(name), key.end) if exact and not others else None)
+
+
+def _is_inside(tree: LaunchTree, component: LaunchNode) -> bool:
+    """Whether a composable node stands in the tag of its container, which it need not name then."""
+    place = component.location
+    return any(
+        node.name == component.container
+        and node.location.file == place.file
+        and node.action.span.contains(place.span.start)
+        for node in tree.nodes
+    )
 
 
 def _in_arguments(owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
