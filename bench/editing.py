@@ -4,10 +4,10 @@
 
 Through the real server process, over its standard input and output. Each round inserts or removes one line break near
 the start of the file, so that everything below it moves; in the last case a letter of a topic's name, in a launch where
-most topics have one end only and each is compared with the others of its type. The baselines are measured in the same
-rounds: a request that the server answers without looking at anything, and the time that `xml.dom.minidom` takes to
-parse the same text. The figures are the median and the 95th percentile in milliseconds, and the medians' ratio to each
-baseline.
+most topics have one end only and each is compared with the others of its type. Of ROS 2 it is a launch of
+as many nodes in 60 included files, in XML and in YAML. The baselines are measured in the same rounds: a request that
+the server answers without looking at anything, and the time that `xml.dom.minidom` (PyYAML for YAML) takes to parse the
+same text. The figures are the median and the 95th percentile in milliseconds, and the medians' ratio to each baseline.
 """
 
 from __future__ import annotations
@@ -23,10 +23,48 @@ from itertools import islice, permutations
 from pathlib import Path
 from string import ascii_letters
 
+import yaml
 from client import Client
 
 DEMO = Path(__file__).parent.parent / "fixtures" / "ros1" / "demo"
 NODES = 500
+INCLUDES = 60
+ROS2_NODES = {
+    ".launch.xml": """  <node pkg="fleet" exec="talker" name="talker_{n}" namespace="robot_{g}">
+    <param name="rate" value="$(var rate)"/>
+    <remap from="chatter" to="/robot_{g}/words"/>
+  </node>
+""",
+    ".launch.yaml": """  - node:
+      pkg: fleet
+      exec: talker
+      name: talker_{n}
+      namespace: robot_{g}
+      param:
+        - {{name: rate, value: $(var rate)}}
+      remap:
+        - {{from: chatter, to: /robot_{g}/words}}
+""",
+}
+ROS2_INCLUDES = {
+    ".launch.xml": """  <include file="$(dirname)/part_{i}.launch.xml">
+    <arg name="rate" value="$(var rate)"/>
+  </include>
+""",
+    ".launch.yaml": """  - include:
+      file: $(dirname)/part_{i}.launch.yaml
+      arg:
+        - {{name: rate, value: $(var rate)}}
+""",
+}
+ROS2_FILES = {
+    ".launch.xml": '<launch>\n\n  <arg name="rate" default="5"/>\n{body}</launch>\n',
+    ".launch.yaml": "launch:\n\n  - arg: {{name: rate, default: '5'}}\n{body}",
+}
+ROS2_PACKAGE = """<package format="3"><name>fleet</name><version>0.1.0</version><description>d</description>
+<maintainer email="a@example.org">a</maintainer><license>MIT</license>
+<export><build_type>ament_python</build_type></export></package>
+"""
 
 
 def large(nodes: int) -> str:
@@ -56,6 +94,25 @@ def dangling(nodes: int) -> str:
     return f"<launch>\n\n{body}</launch>\n"
 
 
+def fleet(workspace: Path, suffix: str) -> Path:
+    """A launch of ROS 2 that includes 60 files: each has its share of the nodes, and so has the root."""
+    folder = workspace / "fleet" / "launch"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder.parent / "package.xml").write_text(ROS2_PACKAGE)
+    share = NODES // (INCLUDES + 1)
+
+    def nodes(first: int, end: int) -> str:
+        return "".join(ROS2_NODES[suffix].format(n=n, g=n % 10) for n in range(first, end))
+
+    for i in range(INCLUDES):
+        body = nodes(i * share, (i + 1) * share)
+        (folder / f"part_{i}{suffix}").write_text(ROS2_FILES[suffix].format(body=body))
+    includes = "".join(ROS2_INCLUDES[suffix].format(i=i) for i in range(INCLUDES))
+    root = folder / f"fleet{suffix}"
+    root.write_text(ROS2_FILES[suffix].format(body=includes + nodes(INCLUDES * share, NODES)))
+    return root
+
+
 def line_break(version: int) -> dict[str, object]:
     """Inserted in even versions, removed in odd ones."""
     start = {"line": 1, "character": 0}
@@ -81,7 +138,8 @@ def measure(
 ) -> None:
     client = Client(path.parents[1], home, trusted=trusted)
     uri = path.as_uri()
-    item = {"uri": uri, "languageId": "roslaunch", "version": 1, "text": text}
+    is_yaml = path.suffix == ".yaml"
+    item = {"uri": uri, "languageId": "yaml" if is_yaml else "roslaunch", "version": 1, "text": text}
     client.notify("textDocument/didOpen", {"textDocument": item})
     if trusted:  # until the runs are done
         client.diagnostics(lambda p: p["uri"] == uri and any(d["code"] == "TOP001" for d in p["diagnostics"]))
@@ -102,7 +160,10 @@ def measure(
         trips.append(time.perf_counter() - began)
 
         began = time.perf_counter()
-        xml.dom.minidom.parseString(text.encode())
+        if is_yaml:
+            yaml.safe_load(text)
+        else:
+            xml.dom.minidom.parseString(text.encode())
         parses.append(time.perf_counter() - began)
     client.close()
 
@@ -130,6 +191,9 @@ def main() -> None:
         lone = demo.with_name("dangling.launch")
         measure(f"{NODES} nodes, most dangle: moved", lone, dangling(NODES), home, rounds)
         measure(f"{NODES} nodes, most dangle: renamed", lone, dangling(NODES), home, rounds, edit=first_name)
+        for suffix in ROS2_NODES:
+            root = fleet(workspace, suffix)
+            measure(f"{NODES} nodes of ROS 2, {suffix}", root, root.read_text(), home, rounds)
 
 
 if __name__ == "__main__":
