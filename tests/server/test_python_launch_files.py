@@ -60,3 +60,26 @@ async def test_without_trust_nothing_is_run(desk: Desk, outer: Path) -> None:
         editor.trust()
         await editor.having(outer, "ARG009", seconds=60)
         assert not ran.exists()
+
+
+async def test_beside_the_python_language_server(desk: Desk, outer: Path) -> None:
+    """A Python file shows its findings and what a node comes to, and nothing of what Python's own server does."""
+    path = outer.parent / "own.launch.py"
+    text = (
+        "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n"
+        "def generate_launch_description():\n    return LaunchDescription([\n"
+        "        Node(package='nowhere', executable='x', name='camera'),\n"
+        "        Node(package='nowhere', node_executable='x'),\n    ])\n"
+    )
+    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+        editor.open(path, text, language="python")
+        found = await editor.having(path, "LCH032", seconds=60)
+        assert "node_executable" in editor.covered(path, found.range)
+        assert await editor.symbols(path) == []
+        assert await editor.tokens(path) == []
+        assert not await editor.folds(path)
+        editor.change(path, text.replace("node_executable", "executable"))
+        await editor.without(path, "LCH032", seconds=60)
+        editor.change(path, text.replace("node_executable='x'),", "node_exec"))
+        await editor.having(path, "LCH001", seconds=60)
+        await editor.hover(path, editor.at(path, "Node(package"))

@@ -16,6 +16,7 @@ export const launchFiles: readonly LanguageFilter[] = [
   { scheme: "file", language: "xml", pattern: "**/*.{launch,launch.xml,test}" },
   { scheme: "file", language: "xml", pattern: "**/*_launch.xml" },
   { scheme: "file", language: "yaml", pattern: "**/*{.,_}launch.{yaml,yml}" },
+  { scheme: "file", language: "python", pattern: "**/*{.,_}launch.py" },
 ];
 
 /** The documents that the server is told of: launch files, and what may be a parameter file of their nodes. */

@@ -23,7 +23,7 @@ PYTHON_SUFFIX = ".py"
 LAUNCH_SUFFIXES = (
     ".launch",
     ".test",
-    *(f"{mark}launch.{suffix}" for mark in "._" for suffix in ("xml", "yaml", "yml")),
+    *(f"{mark}launch.{suffix}" for mark in "._" for suffix in ("xml", "yaml", "yml", "py")),
 )
 """Launch files by their name; any other file is one if a launch file includes it."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES, is_yaml
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_yaml
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -20,10 +20,18 @@ def is_launch_file(document: OpenDocument) -> bool:
     """By its name, by the language that the editor gave it, or, for other XML, by its document element."""
     if document.path is None:
         return False
+    if is_python_launch_file(document):
+        return True
     says_so = document.path.endswith(LAUNCH_SUFFIXES) and not document.path.endswith(_LIKE_OTHER_XML)
     if document.language_id == "roslaunch" or says_so:
         return document.language_id != "python"
     return document.language_id == "xml" and _LAUNCH_ROOT.match(document.text) is not None
+
+
+def is_python_launch_file(document: OpenDocument) -> bool:
+    """Whether the user's Python language server has it too: we say only what is ours to say."""
+    python = document.path is not None and document.path.endswith(PYTHON_SUFFIX)
+    return python and document.path is not None and document.path.endswith(LAUNCH_SUFFIXES)
 
 
 def may_be_parameter_file(document: OpenDocument) -> bool:

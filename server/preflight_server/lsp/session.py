@@ -30,7 +30,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
-from preflight_server.lsp.launch_documents import is_launch_file, may_be_parameter_file
+from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
 from preflight_server.lsp.publisher import Publisher
 from preflight_server.lsp.runs import Runs, with_known
 from preflight_server.lsp.settings import Settings
@@ -211,12 +211,14 @@ class Session:
 
     # What the handlers ask
 
-    async def view(self, uri: str) -> View | None:
+    async def view(self, uri: str, *, python: bool = False) -> View | None:
         """The file as it is now, analysed; None if it is no open launch file or parameter file of one, or could not be
-        analysed."""
+        analysed. Of Python files only those ask that say what no Python language server does: `python`."""
         await self.settled()
         document = self._server.texts.get(uri)
         if document is None or document.path not in self._focus:
+            return None
+        if is_python_launch_file(document) and not python:
             return None
         analyses = tuple(self._of(document.path))
         parsed = analyses[0].documents.get(document.path) if analyses else None
@@ -233,7 +235,7 @@ class Session:
         analysed."""
         document = self._server.texts.get(uri)
         path = document.path if document is not None and document.path in self._focus else None
-        if document is None or path is None:
+        if document is None or path is None or is_python_launch_file(document):
             return None
         if next(self._of(path), None) is None:
             await self.settled()

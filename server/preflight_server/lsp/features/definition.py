@@ -20,7 +20,7 @@ def register(server: PreflightServer) -> None:
     async def definition(
         ls: PreflightServer, params: types.DefinitionParams
     ) -> list[types.LocationLink] | list[types.Location] | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
         if ls.session is None or view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)

@@ -24,7 +24,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(ls: PreflightServer, params: types.HoverParams) -> types.Hover | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
         if ls.session is None or view is None:
             return None
         positions = view.converter.positions(view.path)
