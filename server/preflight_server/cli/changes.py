@@ -9,6 +9,7 @@ from collections.abc import Collection
 from functools import cache
 
 from preflight_analysis.environment.packages import MANIFEST, crawl
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli.errors import CannotDoError
@@ -32,12 +33,13 @@ def changed_since(revision: str, folder: str) -> frozenset[str]:
 
 def touched(analysis: Analysis, changed: Collection[str], settings: str) -> bool:
     """Whether a change may matter to a launch: to a file that it was read from, the `settings` file, or any file of a
-    package of which it starts a node."""
+    package of which it starts a node, other launch files aside."""
     if os.path.realpath(settings) in changed:
         return True
     if any(os.path.realpath(path) in changed for path in analysis.tree.inputs):
         return True
-    packages = {name for file in changed if (name := _package_of(os.path.dirname(file))) is not None}
+    made_of = (file for file in changed if not file.endswith(LAUNCH_SUFFIXES))
+    packages = {name for file in made_of if (name := _package_of(os.path.dirname(file))) is not None}
     return any(node.package in packages for node in analysis.tree.nodes)
 
 
