@@ -104,6 +104,20 @@ def test_a_snapshot_is_the_same_in_another_folder(desk: Desk, preflight: Run) ->
     assert preflight("snapshot", other, cwd=elsewhere).out == DEMO
 
 
+def test_snapshot_as_nodl_is_a_document_for_each_executable(desk: Desk, preflight: Run) -> None:
+    folder = desk.workspace / "described"
+    done = preflight("snapshot", desk.launch_file, "--format", "nodl", "--output", folder)
+    assert (done.code, done.out) == (0, "")
+    assert sorted(str(path.relative_to(folder)) for path in folder.rglob("*.yaml")) == [
+        "preflight_demo/listener.nodl.yaml",
+        "preflight_demo/talker.nodl.yaml",
+    ]
+    text = (folder / "preflight_demo/talker.nodl.yaml").read_text()
+    assert "publishers:\n- name: chatter\n  type: std_msgs/String\n" in text
+    done = preflight("snapshot", desk.launch_file, "--format", "nodl")
+    assert (done.code, "--output" in done.err) == (2, True)
+
+
 def test_diff_of_a_file_with_two_lists_of_arguments(desk: Desk, preflight: Run) -> None:
     path = desk.launch_file.with_name("arguments.launch")
     path.write_text(

@@ -43,6 +43,7 @@ _FROM = {
     "similar": "what its executable did elsewhere",
     "source": "what its source says",
     "settings": "what the settings say",
+    "nodl": "its NoDL document",
 }
 
 

@@ -47,6 +47,7 @@ _SOURCES = {
     "trace": "from a run in the sandbox",
     "annotation": "from the annotation in the launch file",
     "settings": "from the settings file",
+    "nodl": "from its NoDL document",
     "source": "from its source code",
     "similar": "from a run of the same executable elsewhere",
 }

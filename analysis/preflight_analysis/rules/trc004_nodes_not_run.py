@@ -21,11 +21,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     skipped: dict[tuple[str, str], list[LaunchNode]] = {}
     for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
         # That there is nothing to run is a finding about the package or executable.
-        if (
-            interface.outcome.status == "not-run"
-            and interface.source not in ("annotation", "settings")
-            and node.resolved.path is not None
-        ):
+        if interface.outcome.status == "not-run" and not interface.declared and node.resolved.path is not None:
             reason = interface.outcome.reason or "no reason is known"
             skipped.setdefault((node.location.file, reason), []).append(node)
     for (_, reason), nodes_there in skipped.items():

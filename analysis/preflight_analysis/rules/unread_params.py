@@ -42,7 +42,7 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
 
 def tells_params(interface: Interface) -> bool:
     """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
-    return interface.complete and (interface.source not in ("annotation", "settings") or bool(interface.params))
+    return interface.complete and (not interface.declared or bool(interface.params))
 
 
 def fits(value: object, read: ParamRead) -> bool:

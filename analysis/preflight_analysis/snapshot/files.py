@@ -14,6 +14,7 @@ _INTRODUCTION = """\
 # What this launch configuration is expected to start, and who talks to whom then.
 # Written by `ros-preflight snapshot`, compared by `ros-preflight diff`.
 """
+_BREAKS = frozenset("\x85\u2028\u2029\ufeff")
 _NODE_KEYS = {"interface", "outcome", "from", "parameters", "reads", "remaps", "env", *GROUPS}
 
 
@@ -37,6 +38,13 @@ class _Dumper(yaml.SafeDumper):
         super().increase_indent(flow, False)
 
 
+def _text(dumper: yaml.SafeDumper, data: str) -> yaml.ScalarNode:
+    """Quoted where PyYAML would write a line break of Unicode's as it is and read a blank."""
+    style = '"' if _BREAKS.intersection(data) else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", data, style=style)
+
+
+_Dumper.add_representer(str, _text)
 _Dumper.add_representer(
     _Line, lambda dumper, data: dumper.represent_mapping("tag:yaml.org,2002:map", data, flow_style=True)
 )

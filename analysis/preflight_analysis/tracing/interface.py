@@ -13,7 +13,7 @@ PENDING = "its run has not ended yet"
 REASON_COLUMNS = 200
 """How much of a line of a node's output stands in the reason of an outcome."""
 _STAMP = re.compile(r"\A\[ *[A-Z]+\] \[[\d., ]+\]: ")
-Source = Literal["trace", "annotation", "settings", "source", "similar", "none"]
+Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "none"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,11 +140,16 @@ class Interface:
         return self.source != "none"
 
     @property
+    def declared(self) -> bool:
+        """Whether somebody has written down what the node does."""
+        return self.source in ("annotation", "settings", "nodl")
+
+    @property
     def complete(self) -> bool:
         """Whether it is all that the node does: it was seen to spin, and not only after a made-up answer, or the user
-        declares it, in an annotation or the settings."""
+        or the package's author declares it, in an annotation, the settings or NoDL."""
         spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers
-        return self.source in ("annotation", "settings") or spins
+        return self.declared or spins
 
     @property
     def seen_through(self) -> bool:

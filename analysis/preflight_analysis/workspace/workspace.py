@@ -22,6 +22,7 @@ from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
@@ -101,6 +102,7 @@ class Workspace:
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._executables = ExecutableIndex(environment)
         self._similar = similar
+        self._nodl = NodlFiles(environment, sources)
         self._fallback = Fallback(SourceAnalysis(environment, sources), similar)
         self._project: tuple[str, ProjectSettings] | None = None
         self._lock = threading.Lock()
@@ -164,6 +166,7 @@ class Workspace:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
         with self._lock:
             self._executables = ExecutableIndex(self.environment)
+            self._nodl = NodlFiles(self.environment, self.sources)
             self._fallback = Fallback(SourceAnalysis(self.environment, self.sources), self._similar)
             self._memo = Memo()
             self._static.clear()
@@ -203,6 +206,7 @@ class Workspace:
         """
         project = self._project_settings()
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
+        interfaces = self._nodl.fill_in(analysis.tree, interfaces)
         interfaces = self._fallback.fill_in(analysis.tree, interfaces)
         graph = build_graph(analysis.tree, interfaces, project.external_topics)
         document, problems = located_problems(project)

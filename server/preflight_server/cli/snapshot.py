@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from preflight_analysis.nodl.write import nodl_files
 from preflight_analysis.snapshot.files import to_json, to_yaml
+from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
 from preflight_server.cli.errors import CannotDoError
@@ -21,26 +23,49 @@ command is your consent; --no-run executes nothing."""
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
-    options.add_common(parser, formats=("yaml", "json"))
+    options.add_common(parser, formats=("yaml", "json", "nodl"))
     options.add_file(parser)
     parser.add_argument(
-        "--output", "-o", metavar="FILE", type=Path, help="write to this file instead of standard output"
+        "--output",
+        "-o",
+        metavar="PATH",
+        type=Path,
+        help="write to this file instead of standard output; with --format nodl a folder, which gets a document "
+        "for each executable",
     )
 
 
 def run(args: argparse.Namespace) -> int:
     """Write the snapshot."""
+    if args.format == "nodl" and args.output is None:
+        raise CannotDoError("--format nodl writes several files: name their folder with --output")
     analysis, snapshot = from_launch(options.launch_file(args), options.launch_args(args.launch_args), args)
+    if args.format == "nodl":
+        _write_nodl(analysis, args.output)
+        say_errors(analysis)
+        return exit_code(analysis, args.fail_on)
     text = dumps_json(to_json(snapshot)) if args.format == "json" else to_yaml(snapshot)
     if args.output is None:
         print_text(text)
     else:
-        try:
-            args.output.write_text(text, encoding="utf-8", errors="backslashreplace")
-        except OSError as error:
-            raise CannotDoError(f"{args.output} cannot be written: {error.strerror}") from None
+        _write(args.output, text)
     unsure = [name for name, node in snapshot.nodes.items() if not node.sure]
     if unsure:
         say(f"not all is known of {', '.join(unsure)}; `ros-preflight check` says why")
     say_errors(analysis)
     return exit_code(analysis, args.fail_on)
+
+
+def _write_nodl(analysis: Analysis, folder: Path) -> None:
+    if analysis.graph is not None:
+        for name, text in nodl_files(analysis.graph).items():
+            _write(folder / name, text)
+            say(f"{folder / name}")
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", errors="backslashreplace")
+    except OSError as error:
+        raise CannotDoError(f"{path} cannot be written: {error.strerror}") from None
