@@ -16,7 +16,7 @@ from preflight_analysis.queries.cursor import Place
 
 _LINE = re.compile(
     r"(?P<indent> *)(?P<dashes>(?:-(?: +|(?=\n|\r|\Z)))*)"
-    r"(?P<key>(?:\"[^\"\n]*\"|'[^'\n]*'|[^\s#:'\"\[\]{}]|:(?=\S)|(?<=\S) (?! *#))*)(?P<colon> *:(?=[ \r\n]|\Z))?"
+    r"(?P<key>(?:\"[^\"\n]*\"|'[^'\n]*'|[^\s#:'\"\[\]{}]+|:(?=\S)|(?<=\S) (?! *#))*)(?P<colon> *:(?=[ \r\n]|\Z))?"
     r"(?P<rest>[^\r\n]*)"
 )
 _COMMENT = re.compile(r"(?:\A|\s)#.*\Z")
@@ -40,29 +40,30 @@ class Entry:
     above: Entry | None = None
 
 
-def outline(text: str, offset: int | None = None) -> tuple[list[Entry], Entry | None]:
+def outline(text: str, offset: int, *, one_item: bool = False) -> tuple[list[Entry], Entry | None]:
     """The entries at the left margin, with all below them, and the one on the line of `offset`. On a blank line that
-    is one without a name, where the cursor is."""
+    is one without a name, where the cursor is. With `one_item`, of the list below `launch` only the item around it."""
     top: list[Entry] = []
     stack: list[Entry] = []
     here: Entry | None = None
     block: int | None = None
-    for at, line in _lines(text):
+    lines = list(_lines(text))
+    for at, line in _of_one_item(lines, offset) if one_item else lines:
         found = _LINE.match(line)
-        cursor = offset is not None and at <= offset <= at + len(line)
+        cursor = at <= offset <= at + len(line)
         content = line.strip()
         if found is None or (not cursor and (not content or content.startswith(("#", "---")))):
             continue
         if block is not None and len(found["indent"]) > block and content:
             continue
-        entry = _entry(found, at, offset - at if cursor and offset is not None and not content else None)
+        entry = _entry(found, at, offset - at if cursor and not content else None)
         block = entry.column if _BLOCK.match(entry.value) else None
         while stack and (stack[-1].column > entry.dash if entry.dash is not None else stack[-1].column >= entry.column):
             stack.pop()
         entry.above = stack[-1] if stack else None
         (entry.above.below if entry.above is not None else top).append(entry)
         stack.append(entry)
-        end = max(at + len(line.rstrip()), offset if cursor and offset is not None else 0)
+        end = max(at + len(line.rstrip()), offset if cursor else 0)
         for open_ in stack:
             open_.end = max(open_.end, end)
         if cursor:
@@ -75,6 +76,23 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
     for line in text.split("\n")[:_MAX_LINES]:
         yield at, line.rstrip("\r")
         at += len(line) + 1
+
+
+def _of_one_item(lines: Sequence[tuple[int, str]], offset: int) -> Iterator[tuple[int, str]]:
+    """The lines at the left margin, and those of the item of `launch:` that the cursor is in: a keystroke has to be
+    answered soon, however long the file is."""
+    heads = [n for n, (_, line) in enumerate(lines) if line[:1] not in ("", " ", "-", "#", "\t")]
+    here = next((n for n in range(len(lines) - 1, -1, -1) if lines[n][0] <= offset), 0)
+    head = next((n for n in reversed(heads) if n <= here), None)
+    begin, end = 0, len(lines)
+    if head is not None and lines[head][1].startswith("launch"):
+        begin, end = head + 1, next((n for n in heads if n > here), end)
+        dashed = (line for _, line in lines[begin:end] if line.lstrip(" ").startswith("-"))
+        mark = next((line[: line.index("-") + 1] for line in dashed), None)
+        items = [n for n in range(begin, end) if lines[n][1].startswith(mark)] if mark is not None else []
+        begin = next((n for n in reversed(items) if n <= here), begin)
+        end = next((n for n in items if n > here), end)
+    yield from (lines[n] for n in sorted({*heads, *range(begin, end)}))
 
 
 def _entry(found: re.Match[str], at: int, cursor: int | None) -> Entry:
@@ -96,7 +114,7 @@ def place_at_yaml(document: Document, offset: int) -> Place | None:
     line = text[text.rfind("\n", 0, offset) + 1 : offset]
     if _COMMENT.search(line):
         return None
-    top, here = outline(text, offset)
+    top, here = outline(text, offset, one_item=True)
     if here is None:
         return None
     if here.above is None:
@@ -106,6 +124,7 @@ def place_at_yaml(document: Document, offset: int) -> Place | None:
     launch = next((entry for entry in top if entry.key == "launch"), None)
     if launch is None:
         return None
+    launch.end = len(text)
     root = builder.entity(launch)
     if builder.role is None:
         return None
