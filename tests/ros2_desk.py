@@ -37,10 +37,10 @@ def main():
 
 
 @functools.cache
-def ros2_prefix() -> Path:
+def ros2_prefix(distribution: str = "kilted") -> Path:
     """A virtual environment with rclpy, made by the first test that asks."""
-    subprocess.run([ROOT / "tests" / "tracing" / "install_ros2.sh"], check=True, timeout=600)
-    return ROOT / "out" / "ros2"
+    subprocess.run([ROOT / "tests" / "tracing" / "install_ros2.sh", distribution], check=True, timeout=600)
+    return ROOT / "out" / f"ros2-{distribution}"
 
 
 def node_of(constructor: str, *imports: str) -> str:

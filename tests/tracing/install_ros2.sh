@@ -1,15 +1,21 @@
 #!/usr/bin/env bash
-# Installs rclpy of ROS 2 Kilted with a middleware and a few messages, from PyPI alone, in out/ros2. Does nothing where it
-# is there. Tests that run ROS 2 nodes call this themselves.
+# Installs rclpy of ROS 2 Kilted, or with the argument `jazzy` of Jazzy, with a middleware and a few messages, from PyPI
+# alone, in out/ros2-kilted or out/ros2-jazzy. Does nothing where it is there. Tests that run ROS 2 nodes call this
+# themselves.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 python=${PYTHON:-python3}
-place=$root/out/ros2
-packages=(ros-rclpy==9.1.2 ros-rmw-fastrtps-cpp==9.3.3 ros-std-msgs==5.5.1 ros-std-srvs==5.5.1)
+distribution=${1:-kilted}
+place=$root/out/ros2-$distribution
+case $distribution in
+  kilted) packages=(ros-rclpy==9.1.2 ros-rmw-fastrtps-cpp==9.3.3 ros-std-msgs==5.5.1 ros-std-srvs==5.5.1) ;;
+  jazzy) packages=(ros-rclpy==7.1.6 ros-rmw-fastrtps-cpp==8.4.3 ros-std-msgs==5.3.6 ros-std-srvs==5.3.6) ;;
+  *) echo "usage: $0 [kilted|jazzy]" >&2; exit 2 ;;
+esac
 
 mkdir -p "$root/out"
-exec 9>"$root/out/.ros2.lock"
+exec 9>"$place.lock"
 flock 9
 wanted="${packages[*]} $("$python" --version)"
 [ "$(cat "$place/.ready" 2>/dev/null)" = "$wanted" ] && exit 0

@@ -52,6 +52,23 @@ def test_endpoints_have_the_names_that_the_node_gave(tmp_path: Path) -> None:
     assert (chatter.source_file, chatter.source_line) == (str(desk.package / "pkg/talker.py"), line + 1)
 
 
+def test_jazzy_is_seen_as_kilted(tmp_path: Path) -> None:
+    waits = """
+    self.declare_parameter('rate', 10.0)
+    client = self.create_client(Trigger, 'start')
+    client.wait_for_service()
+    assert client.call(Trigger.Request()).success
+    self.create_publisher(String, 'after', 1)
+    """
+    desk = Ros2Desk(tmp_path, talker=ALL_ENDS, waits=node_of(waits, "from std_srvs.srv import Trigger"))
+    kilted = [desk.trace("talker"), desk.trace("waits")]
+    desk.variables["PATH"] = f"{ros2_prefix('jazzy') / 'bin'}:/usr/bin:/bin"
+    jazzy = [desk.trace("talker"), desk.trace("waits")]
+    for one, other in zip(kilted, jazzy, strict=True):
+        assert other.outcome.status == "spinning"
+        assert (ends(one), uses(one), one.outcome.answers) == (ends(other), uses(other), other.outcome.answers)
+
+
 def test_final_names_are_those_of_the_launch(tmp_path: Path) -> None:
     desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
     graph = desk.check(

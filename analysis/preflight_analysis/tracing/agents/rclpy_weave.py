@@ -407,6 +407,11 @@ def _waits(
     return advice
 
 
+def _service_of(client: Any) -> str:
+    """The name of a client's service; Humble has only the one that was given."""
+    return str(getattr(client, "service_name", None) or getattr(client, "srv_name", ""))
+
+
 def _is_up(client: Any) -> bool:
     """Whether the client library was not shut down meanwhile."""
     context = getattr(client, "context", None)
@@ -420,12 +425,12 @@ def _is_ready(original: Callable[..., Any]) -> Callable[..., Any]:
         if original(client):
             return True
         file, line, _ = _caller()
-        key = (client.service_name, file, line)
+        key = (_service_of(client), file, line)
         _polls[key] = _polls.get(key, 0) + 1
         if _polls[key] > 3:
-            if client.service_name not in _there:
-                _there.add(client.service_name)
-                answers.made_up("services", client.service_name)
+            if _service_of(client) not in _there:
+                _there.add(_service_of(client))
+                answers.made_up("services", _service_of(client))
             return True
         return False
 
@@ -447,9 +452,9 @@ def _calls(later: bool, ready: Callable[[Any], bool]) -> Callable[..., Any]:
     def advice(original: Callable[..., Any]) -> Callable[..., Any]:
         def call(self: Any, *args: Any, **kwargs: Any) -> Any:
             # A plain call has no end without somebody who answers.
-            if ready(self) or (later and self.service_name not in _there):
+            if ready(self) or (later and _service_of(self) not in _there):
                 return original(self, *args, **kwargs)
-            answers.made_up("call", self.service_name)
+            answers.made_up("call", _service_of(self))
             response = _response(self.srv_type)
             if not later:
                 return response
@@ -533,7 +538,7 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
         _wrap(node, "create_client", _creates("client", "srv_type", "srv_name", False))
     elif name == "rclpy.client":
         ready = found.Client.service_is_ready
-        _wrap(found.Client, "wait_for_service", _waits("service", lambda c: str(c.service_name), ready, flush))
+        _wrap(found.Client, "wait_for_service", _waits("service", _service_of, ready, flush))
         _wrap(found.Client, "service_is_ready", _is_ready)
         _wrap(found.Client, "call", _calls(False, ready))
         _wrap(found.Client, "call_async", _calls(True, ready))
