@@ -270,6 +270,27 @@ def test_the_type_of_an_action_is_as_ros_2_has_it(desk: Desk) -> None:
     assert offers == ["nav2_msgs/action/NavigateToPose"]
 
 
+def test_parameters_of_a_mode_that_is_off_are_declared_by_name(desk: Desk) -> None:
+    body = """
+        if (node->declare_parameter("filter", false)) {
+          node->declare_parameter("width", 1.5);
+          auto filtered = node->create_publisher<std_msgs::msg::String>("filtered", 1);
+        } else {
+          node->declare_parameter("rate", 2.0);
+        }
+        if (!node->get_parameter("filter").as_bool()) { rclcpp::spin(node); return 0; }
+        node->declare_parameter("rate", 7);
+        node->declare_parameter("height", 0.5);
+        auto late = node->create_publisher<std_msgs::msg::String>("late", 1);
+        """
+    found = desk.main(body)
+    assert params(found) == {"~filter": False, "~rate": 2.0, "~width": 1.5, "~height": 0.5}
+    assert ends(found) == []
+    on = desk.main(body, '<param name="filter" value="true"/>')
+    assert params(on) == {"~filter": False, "~rate": 7, "~width": 1.5, "~height": 0.5}
+    assert [e.name for e in on.endpoints] == ["filtered", "late"]
+
+
 LIFECYCLE = """
 #include "rclcpp_lifecycle/lifecycle_node.hpp"
 class Talker : public rclcpp_lifecycle::LifecycleNode {

@@ -84,6 +84,7 @@ class CppAnalysis:
                 walk_class(program, cls.removeprefix("::"), None, calls)
             else:
                 walk_main(program, (executable, *args), calls)
+        calls.finish()
         return calls.found
 
     def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:

@@ -164,6 +164,9 @@ class Calls(Protocol):
     ) -> None:
         """A call of a method of the program, which is gone through next."""
 
+    def aside(self, is_aside: bool) -> bool:
+        """Whether what is not reached is gone through too; it then begins or ends here, and is not made."""
+
     def cut_short(self) -> None:
         """Not all of the program is gone through that may lead to a call."""
 

@@ -124,6 +124,7 @@ class _Walk:
         self._late = False
         """Whether only callbacks are left: what leads to no call of a library is left out then."""
         self._known_leading: dict[int, bool] = {}
+        self._is_aside = False
         self._steps = 0
         self._depth = 0
         self._nesting = 0
@@ -170,7 +171,26 @@ class _Walk:
     # Statements. Each returns whether what follows it in the block is not reached.
 
     def _block(self, nodes: Sequence[Node], scope: Scope) -> bool:
-        return any(self._statement(node, scope) for node in nodes)
+        for index, node in enumerate(nodes):
+            if self._statement(node, scope):
+                self._aside(nodes[index + 1 :], scope)
+                return True
+        return False
+
+    def _aside(self, nodes: Sequence[Node], scope: Scope) -> None:
+        """Go through what is not reached, if that tells something, and take back all that it did."""
+        if self._is_aside or not any(self._leads(node) for node in nodes) or not self._calls.aside(True):
+            return
+        self._is_aside = True
+        waiting, returned = len(self._waiting), len(self._returns[-1]) if self._returns else 0
+        try:
+            self._ways.try_out(lambda: any(self._statement(node, scope) for node in nodes))
+        finally:
+            self._calls.aside(False)
+            self._is_aside = False
+            del self._waiting[waiting:]
+            if self._returns:
+                del self._returns[-1][returned:]
 
     def _statement(self, node: Node, scope: Scope) -> bool:
         self._step()
@@ -293,7 +313,9 @@ class _Walk:
         known = truth(self._condition(condition, scope))
         then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         if known is not None:
-            way = then if known else other
+            way, left = (then, other) if known else (other, then)
+            if left is not None:
+                self._aside([left], scope)
             return way is not None and self._statement(way, scope)
         return self._ways.either(
             lambda: then is not None and self._statement(then, scope),

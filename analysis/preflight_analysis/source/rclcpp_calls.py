@@ -207,8 +207,22 @@ class RclcppCalls:
         self._has_type = has_type
         self._libraries = libraries
         self._structs: dict[str, Instance] = {}
+        self._is_aside = False
+        self._not_reached: list[ParamUse] = []
         self._declared: dict[str, Any] = {"~use_sim_time": False}
         self.found = Found()
+
+    def aside(self, is_aside: bool) -> bool:
+        """A parameter of another mode of the node is no misspelt one: that it has such a name is noted."""
+        self._is_aside = is_aside
+        return True
+
+    def finish(self) -> None:
+        """Add the parameters that are declared only where the node does not come with what the launch file sets."""
+        declared = {use.name for use in self.found.params}
+        for use in self._not_reached:
+            if use.name not in declared:
+                self.found.use(use)
 
     def cut_short(self) -> None:
         """There may be more declarations of parameters."""
@@ -285,7 +299,7 @@ class RclcppCalls:
     def _new_node(self, given: Sequence[Any], place: Place, *, has_lifecycle: bool) -> NodeObject:
         options = next((v for v in given if isinstance(v, _Options)), _Options())
         node = self._named_node(given, options, has_lifecycle=has_lifecycle)
-        for service, kind in _LIFECYCLE if has_lifecycle else ():
+        for service, kind in _LIFECYCLE if has_lifecycle and not self._is_aside else ():
             self.found.end(
                 Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
             )
@@ -539,7 +553,11 @@ class RclcppCalls:
         if full is UNKNOWN:
             return UNKNOWN
         known = default if has_default and typed and is_plain(default) else None
-        self.found.use(ParamUse(full, "get", known, has_default, False, place.file, place.line))
+        use = ParamUse(full, "get", known, has_default, False, place.file, place.line)
+        if self._is_aside:
+            self._not_reached.append(use)
+            return UNKNOWN
+        self.found.use(use)
         self._declared[full] = default if has_default else _UNSET
         return self._value(full)
 
@@ -590,7 +608,8 @@ class RclcppCalls:
     # Names and types.
 
     def _end(self, role: Role, name: Any, type_: str | None, qos: Mapping[str, Any], place: Place) -> None:
-        self.found.end(Endpoint(role, name, type_, None, qos, place.file, place.line))
+        if not self._is_aside:
+            self.found.end(Endpoint(role, name, type_, None, qos, place.file, place.line))
 
     def _first(self, types: Sequence[CppType], kind: str) -> str | None:
         return self._type(types[0], kind) if types else None

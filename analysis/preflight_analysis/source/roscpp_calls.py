@@ -204,6 +204,10 @@ class RoscppCalls:
     def notice(self, *_: object) -> None:
         """Nothing: the method is gone through."""
 
+    def aside(self, _: bool) -> bool:
+        """No."""
+        return False
+
     def takes(self, *_: object) -> bool:
         """No."""
         return False
