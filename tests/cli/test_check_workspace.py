@@ -69,6 +69,33 @@ def test_several_files(workspace: Path, preflight: Run) -> None:
     assert done.json["files"] == 2
 
 
+OUTER_PY = """from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+import os
+INNER = os.path.join(os.path.dirname(__file__), "in" + "ner.launch.xml")
+def generate_launch_description():
+    inner = AnyLaunchDescriptionSource(INNER)
+    return LaunchDescription([IncludeLaunchDescription(inner, launch_arguments={"x": "1"}.items())])
+"""
+
+
+def test_a_workspace_of_ros2(tmp_path: Path, preflight: Run) -> None:
+    folder = tmp_path / "ros2"
+    (folder / ".git").mkdir(parents=True)
+    (folder / "outer.launch.py").write_text(OUTER_PY)
+    (folder / "inner.launch.xml").write_text(
+        '<launch>\n  <arg name="x"/>\n  <let name="y" value="$(var gone)"/>\n</launch>\n'
+    )
+    (folder / "other.launch.yaml").write_text("launch:\n- nod: {pkg: a}\n")
+    done = preflight("check", "--format", "json", cwd=folder)
+    assert rules(done.json) == [("ARG001", "inner.launch.xml"), ("LCH004", "other.launch.yaml")]
+    assert done.json["findings"][0]["roots"] == [f"{folder}/outer.launch.py"], (
+        "what a run tells to be included is no root"
+    )
+    assert preflight("check", "--format", "sarif", "inner.launch.xml", cwd=folder).out.count('"ARG003"') == 2
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

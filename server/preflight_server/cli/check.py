@@ -5,20 +5,22 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.evaluation.tree_json import dumps
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
-from preflight_analysis.findings.contexts import RootFindings, by_file
+from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.github import to_github
 from preflight_analysis.findings.junit import to_junit
 from preflight_analysis.findings.report import Report, printable, relative, to_json, to_text
 from preflight_analysis.findings.sarif import to_sarif
 from preflight_analysis.rules.registry import all_rules
+from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
@@ -37,6 +39,33 @@ the current folder that nothing includes, and what .ros-preflight.yaml names, wi
 The nodes, and the commands that parameters come from, are run in a sandbox, without network and with your files out
 of reach of their writes, to see what they publish, subscribe to, read and print: calling this command is your
 consent. With --no-run nothing is executed, and what only a run can tell is missing."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Launched:
+    """What is kept of a launch: a workspace may have a thousand of them."""
+
+    root: Root
+    files: tuple[str, ...]
+    inputs: tuple[str, ...]
+    findings: tuple[Finding, ...]
+    documents: Mapping[str, Document]
+    nodes: int
+    traced: int
+
+    @classmethod
+    def of(cls, root: Root, analysis: Analysis) -> _Launched:
+        """That of an analysis with its graph."""
+        interfaces = analysis.graph.interfaces if analysis.graph else ()
+        return cls(
+            root,
+            analysis.tree.files,
+            tuple(analysis.tree.inputs),
+            analysis.findings,
+            analysis.documents,
+            nodes=len(analysis.tree.nodes),
+            traced=sum(interface.source == "trace" for interface in interfaces),
+        )
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,9 +90,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print the findings."""
     known = _known(args.baseline) if args.baseline else frozenset()
-    chosen = launches(args)
-    checked: dict[str, None] = {}
-    report = _check(chosen, args, checked)
+    report, checked = _check(launches(args), args)
     if args.write_baseline:
         return _write_baseline(report, args.write_baseline)
     if args.baseline:
@@ -71,54 +98,52 @@ def run(args: argparse.Namespace) -> int:
         report = without_known(report, known, _folder(args.baseline))
         say(f"ros-preflight: {total - len(report.findings)} of {total} findings are in {args.baseline}")
     failing = options.failing(report.findings, args.fail_on)
-    _print(report, failing, list(checked), args.format)
+    _print(report, failing, checked, args.format)
     return int(bool(failing))
 
 
-def _check(chosen: Sequence[Launches], args: argparse.Namespace, checked: dict[str, None]) -> Report:
-    """The findings of all that is launched, each once; `checked` gets the launch files."""
+def _check(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report, tuple[str, ...]]:
+    """The findings of all that is launched, each once, and the launch files that were looked at."""
     changed = {each.home: changed_since(args.changed_since, each.home) for each in chosen} if args.changed_since else {}
     progress = Progress(sum(len(each.roots) for each in chosen))
-    reports: list[RootFindings] = []
-    documents: dict[str, Document] = {}
-    nodes = traced = done = 0
+    found: list[_Launched] = []
+    done = 0
     try:
         for launch in chosen:
             for root in launch.roots:
                 progress.step(done, printable(relative(root.label, os.getcwd())))
                 done += 1
                 project = launch.workspace.analysed(root.path, dict(root.args))
-                if changed and not touched(project.analysis, changed[launch.home], _settings(launch.home)):
-                    continue
-                analysis = run_nodes(project, args, report=progress.part)
-                reports.append(_root_findings(root.label, analysis))
-                documents |= analysis.documents
-                checked |= dict.fromkeys(analysis.tree.files)
-                nodes += len(analysis.tree.nodes)
-                traced += _traced(analysis)
+                settings = os.path.join(launch.home, SETTINGS_FILE)
+                if not changed or touched(project.analysis, changed[launch.home], settings):
+                    found.append(_Launched.of(root, run_nodes(project, args, report=progress.part)))
     finally:
         progress.end()
-    return Report(_merged(reports), documents, files=len(checked), nodes=nodes, traced=traced)
+    kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))
+    files = tuple(dict.fromkeys(file for each in kept for file in each.files))
+    documents = {path: document for each in kept for path, document in each.documents.items()}
+    nodes, traced = sum(each.nodes for each in kept), sum(each.traced for each in kept)
+    return Report(_merged(kept), documents, files=len(files), nodes=nodes, traced=traced), files
 
 
-def _root_findings(label: str, analysis: Analysis) -> RootFindings:
-    return RootFindings(label, frozenset((*analysis.tree.files, *analysis.tree.inputs)), analysis.findings)
+def _not_included(found: Sequence[_Launched], asked: Collection[Root]) -> list[_Launched]:
+    """Without those that another one turned out to include, once its Python launch files were run."""
+    reached: dict[str, list[str]] = {}
+    for each in found:
+        reached.setdefault(each.root.path, []).extend(each.files)
+    tops = frozenset(roots(reached))
+    return [each for each in found if each.root.path in tops or each.root in asked]
 
 
-def _traced(analysis: Analysis) -> int:
-    return sum(each.source == "trace" for each in analysis.graph.interfaces) if analysis.graph else 0
-
-
-def _merged(reports: Sequence[RootFindings]) -> tuple[Finding, ...]:
+def _merged(launched: Sequence[_Launched]) -> tuple[Finding, ...]:
     """As an editor shows them: once, and what nodes do together only where it holds in each launch of the file."""
-    if len(reports) == 1:
-        return reports[0].findings
+    if len(launched) == 1:
+        return launched[0].findings
+    reports = [
+        RootFindings(each.root.label, frozenset((*each.files, *each.inputs)), each.findings) for each in launched
+    ]
     found: Mapping[str, Sequence[Finding]] = by_file(reports, {rule.id for rule in all_rules() if rule.every_root})
     return tuple(finding for file in sorted(found) for finding in found[file])
-
-
-def _settings(home: str) -> str:
-    return os.path.join(home, SETTINGS_FILE)
 
 
 def _folder(file: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from preflight_analysis.environment.detect import detect, workspace_of
@@ -25,6 +25,8 @@ class Launches:
     """The workspace's folder."""
     workspace: OpenWorkspace
     roots: tuple[Root, ...]
+    asked: frozenset[Root]
+    """Those that the command or the settings name: launched even if another one includes them."""
 
 
 def launches(args: argparse.Namespace) -> list[Launches]:
@@ -39,6 +41,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
     if not paths and values:
         raise CannotDoError("name:=value is for a launch file, and none is named")
     wanted: dict[str, list[Root]] = {}
+    asked: dict[str, set[Root]] = {}
     opened: dict[str, OpenWorkspace] = {}
     for given in paths or ["."]:
         path = os.path.abspath(given)
@@ -50,18 +53,25 @@ def launches(args: argparse.Namespace) -> list[Launches]:
             opened[home] = open_workspace(detect(home, package_path=options.package_path(args)), args)
         if folder and values:
             raise CannotDoError(f"{given} is a folder; arguments for its launch files stand in .ros-preflight.yaml")
-        found = list(_roots_below(path, home, opened[home])) if folder else [Root.of(path, values)]
+        named = _named_below(path, home) if folder else [Root.of(path, values)]
+        found = _roots_below(path, named, opened[home]) if folder else named
         if not found:
             raise CannotDoError(f"there are no launch files in {given}")
         wanted.setdefault(home, []).extend(found)
-    return [Launches(home, opened[home], tuple(dict.fromkeys(roots))) for home, roots in wanted.items()]
+        asked.setdefault(home, set()).update(named)
+    return [
+        Launches(home, opened[home], tuple(dict.fromkeys(roots)), frozenset(asked[home]))
+        for home, roots in wanted.items()
+    ]
 
 
-def _roots_below(folder: str, home: str, opened: OpenWorkspace) -> Iterator[Root]:
-    named = [root for root in read_project_settings(home).roots if _below(root.path, folder)]
+def _named_below(folder: str, home: str) -> list[Root]:
+    return [root for root in read_project_settings(home).roots if _below(root.path, folder)]
+
+
+def _roots_below(folder: str, named: Sequence[Root], opened: OpenWorkspace) -> list[Root]:
     index = build_index(opened.workspace, folder, named)
-    if index is not None:
-        yield from sorted(index.entries)
+    return sorted(index.entries) if index is not None else []
 
 
 def _below(path: str, folder: str) -> bool:
