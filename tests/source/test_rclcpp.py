@@ -291,6 +291,16 @@ def test_parameters_of_a_mode_that_is_off_are_declared_by_name(desk: Desk) -> No
     assert [e.name for e in on.endpoints] == ["filtered", "late"]
 
 
+def test_parameters_after_two_ways_out(desk: Desk) -> None:
+    body = """
+        if (!node->declare_parameter("first", false)) { throw std::runtime_error("first"); }
+        if (!node->declare_parameter("second", false)) { throw std::runtime_error("second"); }
+        if (node->declare_parameter("third", true)) { node->declare_parameter("a", 1.0); }
+        else { node->declare_parameter("b", 1.0); }
+        """
+    assert list(params(desk.main(body))) == ["~first", "~second", "~third", "~a", "~b"]
+
+
 LIFECYCLE = """
 #include "rclcpp_lifecycle/lifecycle_node.hpp"
 class Talker : public rclcpp_lifecycle::LifecycleNode {

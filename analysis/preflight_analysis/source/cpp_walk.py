@@ -171,11 +171,13 @@ class _Walk:
     # Statements. Each returns whether what follows it in the block is not reached.
 
     def _block(self, nodes: Sequence[Node], scope: Scope) -> bool:
+        ended = False
         for index, node in enumerate(nodes):
-            if self._statement(node, scope):
+            ended = self._statement(node, scope) or ended
+            if ended and not self._is_aside:
                 self._aside(nodes[index + 1 :], scope)
-                return True
-        return False
+                break
+        return ended
 
     def _aside(self, nodes: Sequence[Node], scope: Scope) -> None:
         """Go through what is not reached, if that tells something, and take back all that it did."""
@@ -184,7 +186,7 @@ class _Walk:
         self._is_aside = True
         waiting, returned = len(self._waiting), len(self._returns[-1]) if self._returns else 0
         try:
-            self._ways.try_out(lambda: any(self._statement(node, scope) for node in nodes))
+            self._ways.try_out(lambda: self._block(nodes, scope))
         finally:
             self._calls.aside(False)
             self._is_aside = False
@@ -310,7 +312,8 @@ class _Walk:
 
     def _if(self, node: Node, scope: Scope) -> bool:
         condition = node.child_by_field_name("condition")
-        known = truth(self._condition(condition, scope))
+        met = self._condition(condition, scope)
+        known = truth(met) if not self._is_aside else None
         then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         if known is not None:
             way, left = (then, other) if known else (other, then)

@@ -445,6 +445,8 @@ class RclcppCalls:
                 self._declare_all(node, types, args, place)
             case "get_parameter" | "get_parameter_or":
                 return self._read(node, name, types, args, place, store)
+            case "list_parameters":
+                self._any_parameter(place)
             case "has_parameter":
                 return True if isinstance(first, str) and node.param(first) in self._declared else UNKNOWN
             case "get_name":
