@@ -77,13 +77,16 @@ class SourceAnalysis:
         self._remembered: dict[tuple[object, ...], _Remembered] = {}
         self._trees: dict[str, ast.Module | None] = {}
 
-    def read(self, node: LaunchNode, params: LaunchParams) -> SourceInterface | None:
-        """What the source of the node says, None if there is none that can be read."""
+    def read(
+        self, node: LaunchNode, params: LaunchParams, digests: dict[str, str] | None = None
+    ) -> SourceInterface | None:
+        """What the source of the node says, None if there is none that can be read. For the nodes of one launch
+        `digests` keeps those of files that were looked at, so that the disk is asked once for each."""
         path = node.resolved.path or next(iter(node.resolved.not_executable), None)
         remaps = tuple((remap.source, remap.target) for remap in node.remaps)
         key = (path, node.package, node.executable, node.name, node.args, remaps)
         known = self._remembered.get(key)
-        if known is None or not self._is_valid(known, params):
+        if known is None or not self._is_valid(known, params, {} if digests is None else digests):
             known = self._analyse(path, node, remaps, params)
             with self._lock:
                 self._remembered[key] = known
@@ -91,10 +94,13 @@ class SourceAnalysis:
                     del self._remembered[next(iter(self._remembered))]
         return known.found if known.found.endpoints or known.found.params else None
 
-    def _is_valid(self, known: _Remembered, params: LaunchParams) -> bool:
-        return all(self._texts.digest(path) == digest for path, digest in known.files.items()) and all(
-            params.look(name) == value for name, value in known.asked.items()
-        )
+    def _is_valid(self, known: _Remembered, params: LaunchParams, digests: dict[str, str]) -> bool:
+        for path, digest in known.files.items():
+            if path not in digests:
+                digests[path] = self._texts.digest(path)
+            if digests[path] != digest:
+                return False
+        return all(params.look(name) == value for name, value in known.asked.items())
 
     def _analyse(
         self, path: str | None, node: LaunchNode, remaps: tuple[tuple[str, str], ...], params: LaunchParams

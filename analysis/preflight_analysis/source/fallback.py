@@ -48,10 +48,11 @@ class Fallback:
         values |= {f"{node.name}/{param.name}": param.value for node in tree.nodes for param in node.params}
         params = LaunchParams(values)
         similar = self._similar.looking(values) if self._similar is not None else None
+        digests: dict[str, str] = {}
         whole = list(interfaces)
         for at, node in enumerate(tree.nodes):
             if lacking[at]:
-                found = (similar(node) if similar is not None else None) or self._sources.read(node, params)
+                found = (similar(node) if similar is not None else None) or self._sources.read(node, params, digests)
                 if found is not None:
                     key = node.name, node.resolved.path
                     known = self._filled.get(key)

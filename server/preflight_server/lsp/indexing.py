@@ -75,6 +75,8 @@ class Indexing:
             self._changed, self._everything = set(), False
             if changed is None:
                 await self._read_settings()
+            if self._cancel.is_set():
+                break
             index = await self._make(workspace, changed)
             if index is not None:
                 self.index = index
