@@ -108,8 +108,9 @@ def test_a_lifecycle_manager_that_has_another_name() -> None:
           <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
           <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
           <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
-            <param name="node_names" value="[map_sever, amcl]"/>
+            <param name="node_names" value="[map_sever, amcl, planner]"/>
                          ^^^^^^^^^^ warning[LCH035] /manager waits for '/map_sever', which is no node of this launch
+                         ^^^^^^^^^^ info[LCH035] /manager waits for '/planner', which is no node of this launch
           </node>
         </launch>
         //- /nav2_map_server/package.xml

@@ -329,3 +329,12 @@ def test_a_process_has_no_package() -> None:
         //- /a.launch.xml
         <launch><executable cmd="echo hello"/></launch>
     """)
+
+
+def test_substitutions_of_ros1() -> None:
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - include: {file: $(find p)/base.launch.xml}
+                            ^^^^^^^^^ error[LCH011] 'find' is not a substitution; did you mean 'find-pkg-share'?
+    """)

@@ -66,8 +66,11 @@ def generation_of(path: str, text: str) -> int:
         return 2
     code = _COMMENT.sub("", text)
     ros2, ros1 = _ROS2_MARKS.search(code), _ROS1_MARKS.search(code)
-    if (ros2 is None) != (ros1 is None):
-        return 2 if ros2 is not None else 1
+    if ros2 is not None and ros1 is None:
+        return 2
+    if ros1 is not None and ros2 is None:
+        # By that name, and in a package of ROS 2, it is one that speaks the older language by mistake.
+        return 2 if path.endswith(".launch.xml") and _of_package(path) == 2 else 1
     return _of_package(path) or 1
 
 

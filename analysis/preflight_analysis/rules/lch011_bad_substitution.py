@@ -1,8 +1,26 @@
 """LCH011: a substitution that cannot be made."""
 
+from collections.abc import Iterator
+
 from preflight_analysis.evaluation.tree import Problem
-from preflight_analysis.rules.problems import check_problems
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.rule import Context, Rule
+
+_RENAMED = {"arg": "var", "find": "find-pkg-share", "optenv": "env", "env-default": "env"}
+"""What substitutions of ROS 1 are called in ROS 2."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(rule, context):
+        message = _message(problem)
+        command, known = str(problem.data.get("command", "")), problem.data.get("commands", ())
+        near = nearest(command, known) if command else None
+        near = _RENAMED.get(command, near) if context.tree.generation == 2 and known else near
+        if near is not None:
+            message += did_you_mean(near)
+        yield problem_finding(rule, problem, message)
 
 
 def _message(problem: Problem) -> str:
@@ -19,6 +37,6 @@ RULE = Rule(
     why="`roslaunch` stops. An `$(eval ...)` must be the whole attribute.",
     example='<param name="rate" value="$(args rate)"/>',
     instead='<param name="rate" value="$(arg rate)"/>',
-    check=check_problems(_message),
+    check=_check,
     problems=("bad-substitution", "eval-error"),
 )

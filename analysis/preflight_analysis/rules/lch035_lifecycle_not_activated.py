@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import attribute_location, node_location
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -46,13 +46,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 managed.setdefault(_full(node, str(name)), (node, param))
     meant: set[str] = set()
     for name, (manager, param) in managed.items():
-        near = nearest(name, there - managed.keys()) if name not in there else None
-        if near is not None:
-            meant.add(near)
+        if name in there:
+            continue
+        near = nearest(name, there - managed.keys())
+        if near is not None or context.tree.complete:
+            meant.update({near} if near is not None else ())
             yield rule.finding(
-                f"{manager.name} waits for '{name}', which is no node of this launch; did you mean '{near}'?",
+                f"{manager.name} waits for '{name}', which is no node of this launch{did_you_mean(near)}",
                 name_place(param),
-                severity="warning",
+                severity="warning" if near is not None else "info",
                 confidence="likely" if context.tree.complete else "possible",
                 related=(Related(f"{manager.name}", node_location(manager)), *include_chain(param.origin)),
             )
@@ -95,8 +97,8 @@ RULE = Rule(
     name="lifecycle-not-activated",
     severity="info",
     what="Points out a lifecycle node, one of the servers of Nav2 for instance, that no `lifecycle_manager` of the "
-    "launch has among its `node_names`, and warns of a name there that is nearly that of a "
-    "node. Where there are handlers of events, timers or commands that may activate it, "
+    "launch has among its `node_names`, and a name there that no node of the launch has, a warning if one "
+    "has nearly that. Where there are handlers of events, timers or commands that may activate it, "
     "nothing is said (ROS 2).",
     why="A lifecycle node starts unconfigured: it publishes nothing and offers only the services to change its state, "
     "until somebody configures and activates it.",
