@@ -109,10 +109,3 @@ def test_colour_and_hints_are_a_choice() -> None:
     hint = Finding("TOP002", "n", "hint", "likely", "m", Location("/a.launch", Span(0, 1)))
     quiet = Report([hint], report.documents, 1, 0, 0)
     assert to_text(quiet, show_hints=False) == "1 hint in 1 file, 0 nodes, 0 of them traced\n"
-
-
-def test_at_least() -> None:
-    report = one("<a/>", 0, 4)
-    assert report.at_least("error")
-    assert report.at_least("hint")
-    assert not Report([], {}, 0, 0, 0).at_least("hint")

@@ -27,11 +27,6 @@ class Report:
     nodes: int
     traced: int
 
-    def at_least(self, severity: Severity) -> bool:
-        """Whether there is a finding of that severity or worse."""
-        rank = SEVERITIES.index(severity)
-        return any(SEVERITIES.index(finding.severity) >= rank for finding in self.findings)
-
 
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code

@@ -44,11 +44,6 @@ class Sources:
         with self._lock:
             self._open.pop(os.path.normpath(path), None)
 
-    def is_open(self, path: str) -> bool:
-        """Whether an editor has the file open."""
-        with self._lock:
-            return os.path.normpath(path) in self._open
-
     def digest(self, path: str) -> str:
         """Names the content as it is now; "" where there is no such file."""
         entry = self._entry(path)
