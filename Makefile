@@ -51,7 +51,8 @@ corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch a
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
 	$(BIN)/python tests/against_roslaunch.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS2)/jobs-xml-yaml.jsonl > out/ros2.jsonl
-	-$(PYTHON) ../shared/tools/compare_ros2.py --root $(CORPUS2) $(CORPUS2)/expected-xml-yaml.jsonl out/ros2.jsonl
+	$(PYTHON) ../shared/tools/compare_ros2.py --root $(CORPUS2) $(CORPUS2)/expected-xml-yaml.jsonl out/ros2.jsonl > out/ros2.txt; \
+	tail -n 3 out/ros2.txt; grep -qE '^(19[5-9]|2[0-9][0-9]) of 223 equal' out/ros2.txt  # the others need what the corpus lacks
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages

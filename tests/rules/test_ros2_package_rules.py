@@ -172,3 +172,20 @@ def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> N
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001"]
     assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("info", "package 'nowhere_known'")]
+
+
+def test_launch_files_of_installed_packages_are_not_judged_by_their_manifests(workspace: Path) -> None:
+    prefix = workspace / "install" / "nav"
+    for name in ("nav", "map_server"):
+        (prefix / "share/ament_index/resource_index/packages").mkdir(parents=True, exist_ok=True)
+        (prefix / "share/ament_index/resource_index/packages" / name).touch()
+        (prefix / "share" / name).mkdir()
+    included = prefix / "share/nav/nav.launch.xml"
+    included.write_text('<launch><node pkg="map_server" exec="map_server" name="map"/></launch>')
+    root = workspace / "src/robot/launch/all.launch.xml"
+    root.write_text('<launch><include file="$(find-pkg-share nav)/nav.launch.xml"/></launch>')
+    environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
+    analysis = Workspace(environment, Sources()).static(str(root))
+    assert str(included) in analysis.tree.files
+    places = [f.location.file for f in analysis.findings if f.rule == "PKG004"]
+    assert places == [str(root)], "robot's own package.xml does not name nav"

@@ -47,13 +47,19 @@ def package_around(environment: Environment, path: str) -> Package | None:
     return None
 
 
+_FOLDERS: dict[int, tuple[Mapping[str, Package], Mapping[str, Package]]] = {}
+"""The packages of an environment by their folders. By identity: they are hundreds, and asked for at each keystroke."""
+_MOST_ENVIRONMENTS = 8
+
+
 def _by_folder(environment: Environment) -> Mapping[str, Package]:
-    return _folders(id(environment.packages), tuple(environment.packages.values()))
-
-
-@lru_cache(maxsize=4)
-def _folders(_: int, packages: tuple[Package, ...]) -> Mapping[str, Package]:
-    return {package.share: package for package in packages}
+    packages = environment.packages
+    known = _FOLDERS.get(id(packages))
+    if known is None or known[0] is not packages:
+        if len(_FOLDERS) >= _MOST_ENVIRONMENTS:
+            _FOLDERS.clear()
+        known = _FOLDERS[id(packages)] = packages, {p.share.rstrip("/"): p for p in packages.values()}
+    return known[1]
 
 
 def installed_from(package: Package, below: str) -> str | None:

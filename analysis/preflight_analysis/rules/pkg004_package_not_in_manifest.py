@@ -8,6 +8,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.environment.shares import package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.per_file import per_file
@@ -23,11 +24,13 @@ _TEST_FOLDERS = ("test", "tests")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    packages = context.environment.packages
-    by_folder = {package.share.rstrip("/"): package for package in packages.values()}
+    environment = context.environment
+    packages = environment.packages
+    # What is installed is not for the user to mend; of ROS 2's installed packages no manifest was read.
+    installed = (*environment.system_prefixes, *environment.ament_prefixes)
     for path, launch_file in context.launch_files.items():
-        owner = _owner(path, by_folder)
-        if owner is None or any(owner.share.startswith(f"{p}/") for p in context.environment.system_prefixes):
+        owner = package_around(environment, path)
+        if owner is None or any(owner.share.startswith(f"{prefix}/") for prefix in installed):
             continue
         for name, span in _used_packages(launch_file).items():
             # One that is not there at all is another rule's: it may well be a wrong name.
@@ -40,16 +43,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 location,
                 fixes=_fixes(context, owner, name, path),
             )
-
-
-def _owner(path: str, by_folder: Mapping[str, Package]) -> Package | None:
-    folder = os.path.dirname(path)
-    while folder not in by_folder:
-        above = os.path.dirname(folder)
-        if above == folder:
-            return None
-        folder = above
-    return by_folder[folder]
 
 
 @per_file

@@ -54,8 +54,7 @@ def namespace_of(performer: Performer, action: Action, scope: Scope) -> tuple[Re
     text = absolute(prefixed(base.text if base else None, own.text if own else None))
     result = Resolved(text or "/", known)
     if known and text is not None and _NAMESPACE.fullmatch(text) is None:
-        where = value if value is not None else None
-        origin = performer.place.origin(where.span if where is not None else action.kind_span)
+        origin = performer.place.origin(value.span if value is not None else action.kind_span)
         reason = "a namespace is made of letters, digits and underscores between single slashes"
         performer.state.problem("invalid-name", origin, what="namespace", name=text, reason=reason)
         return result, False
@@ -95,10 +94,7 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     remaps = _remaps(performer, action, full)
     arguments = _words(performer, action, "args")
     resolved = state.executables.find(package, exec_name) if package else Executable(_plain_executable(exec_name))
-    if package_value is not None and name_value is None:
-        place_of_name = action.kind_span
-    else:
-        place_of_name = name_value.span if name_value is not None else action.kind_span
+    place_of_name = name_value.span if name_value is not None else action.kind_span
     state.uses.append(Use("node", Location(place.file, place_of_name), full, full))
     target = Location(resolved.path, Span(0, 0)) if resolved.path is not None else None
     state.uses.append(Use("executable", Location(place.file, executable.span), exec_name, resolved.path, target))
