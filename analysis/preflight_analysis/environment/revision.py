@@ -80,7 +80,7 @@ def write_revision(revision: Revision, folder: str) -> None:
                 raise NoRevisionError(f"git does not have {os.fsdecode(path)} of {revision.commit}")
             content = git.stdout.read(int(size))
             git.stdout.read(1)
-            _write(os.path.join(folder, os.fsdecode(path)), mode, content)
+            _write(folder, os.fsdecode(path), mode, content)
 
 
 def environment_at(environment: Environment, repository: str, folder: str) -> Environment:
@@ -155,8 +155,13 @@ def _entries(listed: bytes) -> Iterator[tuple[bytes, bytes, bytes]]:
             yield about.split()[0], about.split()[2], path
 
 
-def _write(path: str, mode: bytes, content: bytes) -> None:
-    os.makedirs(os.path.dirname(path), exist_ok=True)
+def _write(top: str, name: str, mode: bytes, content: bytes) -> None:
+    path = os.path.join(top, name)
+    parent = os.path.dirname(path)
+    # A tree that was made by hand may have a link and a folder of one name.
+    if os.path.realpath(parent) != os.path.join(os.path.realpath(top), os.path.dirname(name)).rstrip("/"):
+        raise NoRevisionError(f"{name} lies behind a link")
+    os.makedirs(parent, exist_ok=True)
     if mode == b"120000":
         os.symlink(content, os.fsencode(path))
         return

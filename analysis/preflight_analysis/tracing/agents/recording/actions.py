@@ -139,7 +139,11 @@ class DeclareLaunchArgument(Action):
             t.child("choice", value=str(choice))
 
 
-class SetLaunchConfiguration(Action):
+class _Set(Action):
+    """Sets something by name; `preflight_kind` is its tag."""
+
+    preflight_kind = ""
+
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
@@ -154,12 +158,16 @@ class SetLaunchConfiguration(Action):
         return self.__value
 
     def preflight_tell(self, t: Any) -> None:
-        t.kind = "let"
+        t.kind = self.preflight_kind
         t.attribute("name", self.__name)
         t.attribute("value", self.__value)
 
 
-class UnsetLaunchConfiguration(Action):
+class _Unset(Action):
+    """Takes something away by name; `preflight_kind` is its tag."""
+
+    preflight_kind = ""
+
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
@@ -169,38 +177,24 @@ class UnsetLaunchConfiguration(Action):
         return self.__name
 
     def preflight_tell(self, t: Any) -> None:
-        t.kind = "unlet"
+        t.kind = self.preflight_kind
         t.attribute("name", self.__name)
 
 
-class SetEnvironmentVariable(Action):
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self.__value
-
-    def preflight_tell(self, t: Any) -> None:
-        t.kind = "set_env"
-        t.attribute("name", self.__name)
-        t.attribute("value", self.__value)
+class SetLaunchConfiguration(_Set):
+    preflight_kind = "let"
 
 
-class UnsetEnvironmentVariable(Action):
-    def __init__(self, name: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
+class UnsetLaunchConfiguration(_Unset):
+    preflight_kind = "unlet"
 
-    def preflight_tell(self, t: Any) -> None:
-        t.kind = "unset_env"
-        t.attribute("name", self.__name)
+
+class SetEnvironmentVariable(_Set):
+    preflight_kind = "set_env"
+
+
+class UnsetEnvironmentVariable(_Unset):
+    preflight_kind = "unset_env"
 
 
 class AppendEnvironmentVariable(Action):
