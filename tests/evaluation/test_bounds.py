@@ -58,3 +58,25 @@ def test_a_circle_ends_at_its_first_turn(tmp_path: Path) -> None:
     )
     assert [p.kind for p in tree.problems] == ["include-cycle"]
     assert len(tree.includes) <= 3
+
+
+def doubling(first: str, line: str) -> str:
+    return f"<launch>{first}{''.join(line.format(n=n, before=n - 1) for n in range(1, 60))}</launch>"
+
+
+def test_values_that_hold_others_twice(tmp_path: Path) -> None:
+    files = {
+        "root.launch": doubling(
+            '<arg name="a0" value="xx"/>', '<arg name="a{n}" value="$(arg a{before})$(arg a{before})"/>'
+        ),
+        "mixed.launch": doubling(
+            '<arg name="a0" value="xx"/>', '<arg name="a{n}" value="$(arg a{before}) $(arg a{before})"/>'
+        ),
+        "root.launch.xml": doubling('<let name="a" value="xx"/>', '<let name="a" value="$(var a)$(var a)"/>'),
+    }
+    environment = detect_environment(None, {}, [str(tmp_path)])
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+        analysis = Workspace(environment, Sources(), str(tmp_path)).static(str(tmp_path / name))
+        assert {p.kind for p in analysis.tree.problems} == {"value-too-long"}
+        assert {f.rule for f in analysis.findings} >= {"LCH018"}

@@ -13,6 +13,12 @@ from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.tree import Arg, Command, Include, LaunchNode, Problem, Unknown, Use
 from preflight_analysis.launch.model import LaunchFile
 
+MAX_TEXT = 8_000_000
+"""Characters of one value that substitutions make. A robot description has a hundredth; values that hold others twice,
+and so on, have no end."""
+MAX_TEXTS = 128_000_000
+"""Of all such values together."""
+
 
 class Collector:
     """The growing result, and what everything is read from."""
@@ -43,6 +49,7 @@ class Collector:
         self.inputs: dict[str, str] = {}
         self.made: dict[str, Document] = {}
         """Texts that a run of a launch file wrote, by path: they are gone from the disk."""
+        self._room = [MAX_TEXTS]
         self._digests: dict[str, str] = {}
         self._anonymous: dict[str, int] = {}
         self._reported: set[tuple[str, Origin, str]] = set()
@@ -63,6 +70,14 @@ class Collector:
         if key not in self._reported:
             self._reported.add(key)
             self.problems.append(problem)
+
+    def has_room(self, length: int, origin: Origin) -> bool:
+        """Whether a value may be put together that is so long; if not, that is noted."""
+        if length <= MAX_TEXT and length <= self._room[0]:
+            self._room[0] -= length
+            return True
+        self.problem("value-too-long", origin, fatal=False, limit=MAX_TEXT)
+        return False
 
     def note_unknown(self, what: str, reason: str, location: Location) -> None:
         """Note a value that cannot be known."""

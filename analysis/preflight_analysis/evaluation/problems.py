@@ -48,6 +48,7 @@ KINDS: dict[str, str] = {
     "include-not-found": "path. fatal",
     "include-unreadable": "path, reason (binary, too large, no permission, a folder, malformed root). fatal",
     "include-cycle": "path, chain (list of paths). fatal",
+    "value-too-long": "limit: a value that substitutions make has more characters than are kept here",
     "nested-too-deeply": "limit (a phrase): groups and includes go deeper, or are more, than is evaluated here",
     "param-file-not-found": "path, tag, attribute: textfile, binfile or rosparam file. fatal",
     "param-file-unreadable": "path, tag, attribute, reason. fatal",

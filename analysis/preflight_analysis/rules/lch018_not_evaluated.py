@@ -23,6 +23,8 @@ def _message(problem: Problem) -> str:
         return f"$(eval {data['expression']}) is not evaluated: {data['message']}"
     if problem.kind == "nested-too-deeply":
         return f"there are more than {data['limit']} of groups and includes; what is beyond is left out"
+    if problem.kind == "value-too-long":
+        return f"the values that are put together here have more than {data['limit']} characters; they are unknown here"
     if problem.kind == "launch-file-not-run":
         return f"{data['name']} was not run, and only what is written out is known of it: {data['reason']}"
     return f"the command was not run, and its value is unknown here: {data['reason']}"
@@ -41,5 +43,12 @@ RULE = Rule(
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',
     instead='<param name="letters" value="$(eval list(name))"/>',
     check=_check,
-    problems=("command-not-run", "launch-file-not-run", "eval-not-allowed", "xml-entity", "nested-too-deeply"),
+    problems=(
+        "command-not-run",
+        "launch-file-not-run",
+        "eval-not-allowed",
+        "xml-entity",
+        "nested-too-deeply",
+        "value-too-long",
+    ),
 )

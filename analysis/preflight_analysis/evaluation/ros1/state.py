@@ -62,6 +62,7 @@ class State(Collector):
         """A state for an included file alone, to be taken over with `absorb`."""
         inner = State(self.files, self.executables, self.environment, self.cwd, self.results, self.memo)
         inner.machines, inner._anonymous, inner._digests = self.machines, self._anonymous, self._digests
+        inner._room = self._room
         inner.includes_before, inner.exhausted = self.include_count, self.exhausted
         return inner
 
@@ -122,6 +123,12 @@ class State(Collector):
         if old is not None:
             param = param._replace(overrides=(*old.overrides, old._replace(overrides=()), *param.overrides))
         self.params[param.name] = param
+
+    def has_room(self, length: int, origin: Origin) -> bool:
+        """As for any launch; what there was no room for is not remembered for another place."""
+        found = super().has_room(length, origin)
+        self.depends_on_outside |= not found
+        return found
 
     def unknown(self, what: str, reason: str, scope: Scope, span: Span) -> None:
         """Note a value that cannot be known."""

@@ -59,8 +59,12 @@ def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) ->
         result = _one(state, scope, part, span, record=at is None)
         if result is None:
             known = False
+        elif is_eval(value.text) or text == part.text:
+            text = result
+        elif state.has_room(len(text) + text.count(part.text) * len(result), scope.origin(span)):
+            text = text.replace(part.text, result)
         else:
-            text = result if is_eval(value.text) else text.replace(part.text, result)
+            known = False
     if (finds or "$(" in text) and not is_eval(value.text):
         found = _finds(state, scope, value, text, at)
         text, known = found.text, known and found.known

@@ -67,6 +67,8 @@ class Performer:
             result = self._one(part)
             known = known and result is not None
             texts.append(part.text if result is None else result)
+        if len(texts) > 1 and not self.state.has_room(sum(map(len, texts)), self.place.origin(parts[0].span)):
+            return Resolved("".join(part.text for part in parts), False)
         return Resolved("".join(texts), known)
 
     def _one(self, part: Substitution) -> str | None:
