@@ -11,6 +11,7 @@ import configparser
 import glob
 import importlib
 import os
+import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -23,6 +24,12 @@ Read = Callable[[str], "str | None"]
 
 _MAX_TEXT = 200_000
 _MAX_FILES = 2_000
+_MAX_STEPS = 20_000
+"""Expressions that are computed of one file; loops within loops have no end otherwise."""
+_MAX_SIZE = 100_000
+"""Characters of a text or items of a list that an expression makes."""
+_BIG_NUMBER = re.compile(r"\d{4}|\*")
+"""Of a `%` that would make its text that wide."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +134,7 @@ class _Setup:
         self.scripts: dict[str, tuple[str, int]] = {}
         self.data_files: list[tuple[str, list[str]]] = []
         self.complete = True
+        self._steps = 0
         try:
             tree = ast.parse(text[:_MAX_TEXT])
         except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -227,6 +235,15 @@ class _Setup:
                 self.complete = False
 
     def _value(self, node: ast.expr) -> Any:
+        self._steps += 1
+        if self._steps > _MAX_STEPS:
+            raise _Unknown
+        value = self._computed(node)
+        if isinstance(value, (str, list, tuple)) and len(value) > _MAX_SIZE:
+            raise _Unknown
+        return value
+
+    def _computed(self, node: ast.expr) -> Any:
         match node:
             case ast.Constant(value=value) if isinstance(value, (str, int, float, bool)):
                 return value
@@ -245,8 +262,11 @@ class _Setup:
                     raise _Unknown from None
             case ast.BinOp(left=left, op=ast.Mod(), right=right):
                 try:
-                    return self._value(left) % self._value(right)
-                except (TypeError, ValueError):
+                    form = self._value(left)
+                    if isinstance(form, str) and _BIG_NUMBER.search(form):
+                        raise _Unknown
+                    return form % self._value(right)
+                except (TypeError, ValueError, ArithmeticError):
                     raise _Unknown from None
             case ast.Call(func=function, args=args):
                 return self._called(ast.unparse(function), args, node)
