@@ -19,7 +19,10 @@ from preflight_analysis.documents.yaml import parse_yaml, span_of
 
 MARK = "ros__parameters"
 _MAX_DEPTH = 40
-_MAX_VALUES = 50_000
+_MAX_KEYS = 50_000
+"""Of one file; aliases of aliases would otherwise make any number of them."""
+_MAX_WILDCARDS = 3
+"""In one key. What has more fits nothing: going through all ways to fit it would take for ever."""
 
 
 class FileParam(NamedTuple):
@@ -75,12 +78,12 @@ class _Reader:
     def __init__(self) -> None:
         self.sections: list[Section] = []
         self.unmarked: list[tuple[str, Span]] = []
-        self._values = 0
+        self._keys = 0
 
     def nodes(self, node: yaml.MappingNode, keys: tuple[str, ...], spans: tuple[Span, ...], depth: int) -> None:
         """The levels above `ros__parameters`."""
         for key, value in node.value:
-            if not isinstance(key, yaml.ScalarNode) or depth > _MAX_DEPTH:
+            if not isinstance(key, yaml.ScalarNode) or self._is_enough(depth):
                 continue
             name, span = str(key.value), span_of(key)
             if name == MARK:
@@ -92,20 +95,26 @@ class _Reader:
             else:
                 self.unmarked.append((name, span))
 
+    def _is_enough(self, depth: int) -> bool:
+        self._keys += 1
+        return depth > _MAX_DEPTH or self._keys > _MAX_KEYS
+
     def _params(self, node: yaml.MappingNode, prefix: str, depth: int) -> Iterator[FileParam]:
         for key, value in node.value:
-            if not isinstance(key, yaml.ScalarNode) or depth > _MAX_DEPTH or self._values > _MAX_VALUES:
+            if not isinstance(key, yaml.ScalarNode) or self._is_enough(depth):
                 continue
             name = f"{prefix}{key.value}"
             if isinstance(value, yaml.MappingNode):
                 yield from self._params(value, name + ".", depth + 1)
             else:
-                self._values += 1
                 yield FileParam(name, plain(value), span_of(key), span_of(value))
 
 
 def plain(node: yaml.Node) -> Any:
-    """The value of a node as plain data, by the rules of YAML 1.1."""
+    """The value of a node as plain data, by the rules of YAML 1.1. A parameter's list has no lists or dictionaries in
+    it; what a file has there all the same is None."""
+    if isinstance(node, yaml.SequenceNode):
+        return [plain(each) if isinstance(each, yaml.ScalarNode) else None for each in node.value]
     try:
         return yaml.SafeLoader("").construct_object(node, deep=True)
     except (yaml.YAMLError, ValueError, RecursionError):
@@ -120,6 +129,8 @@ def _pattern(keys: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4096)
 def _compiled(pattern: str) -> re.Pattern[str]:
+    if pattern.count("*") > 2 * _MAX_WILDCARDS:
+        return re.compile(r"(?!)")
     parts = []
     for part in pattern.split("/")[1:]:
         parts.append(r"(?:/[^/]+)*" if part == "**" else "/" + re.escape(part).replace(r"\*", "[^/]*"))
