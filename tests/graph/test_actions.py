@@ -34,7 +34,7 @@ def graph_of(launch: str, endpoints: list[Endpoint]) -> Graph:
 def test_five_topics_of_fitting_types_and_directions_are_an_action() -> None:
     (found,) = actions_of(client("~go", "/n.py"))
     assert found.endpoint == Endpoint("action_client", "~go", "m/GoAction", source_file="/n.py", source_line=7)
-    assert [topic.name for topic in found.topics] == [f"~go/{topic}" for topic in TOPICS]
+    assert [topic.name for topic in found.parts] == [f"~go/{topic}" for topic in TOPICS]
 
 
 @pytest.mark.parametrize("index", range(5))
@@ -110,3 +110,52 @@ def test_json_has_the_action_and_marks_its_topics() -> None:
 def test_an_annotation_is_written_with_the_action() -> None:
     text = annotation_text(Interface("trace", Outcome("spinning"), tuple(client("go"))))
     assert text == '<!--\n  <actions>\n    <action name="go" type="m/GoAction" class="client"/>\n  </actions>\n-->'
+
+
+ROS2 = """
+    //- /nav.launch.xml
+    <launch><node pkg="p" exec="t" name="n" namespace="a"><remap from="go" to="/b/come"/></node></launch>
+"""
+SERVICES = ("/b/come/_action/cancel_goal", "/b/come/_action/get_result", "/b/come/_action/send_goal")
+HIDDEN = ("/b/come/_action/feedback", "/b/come/_action/status")
+
+
+@pytest.mark.parametrize("role", ["action_server", "action_client"])
+def test_an_action_of_ros_2_is_three_services_and_two_topics(role: Role) -> None:
+    graph = graph_of(ROS2, [Endpoint(role, "go", "m/action/Go")])
+    assert tuple(graph.services) == SERVICES
+    assert tuple(graph.topics) == HIDDEN
+    assert [c.types for c in (*graph.services.values(), *graph.topics.values())] == [
+        ("action_msgs/srv/CancelGoal",),
+        ("m/action/Go_GetResult",),
+        ("m/action/Go_SendGoal",),
+        ("m/action/Go_FeedbackMessage",),
+        ("action_msgs/msg/GoalStatusArray",),
+    ]
+    offered = role == "action_server"
+    for channel in (*graph.services.values(), *graph.topics.values(), *graph.actions.values()):
+        assert (len(channel.offers), len(channel.wants)) == ((1, 0) if offered else (0, 1))
+    (action,) = graph.actions.values()
+    (end,) = (*action.offers, *action.wants)
+    assert (action.name, end.endpoint.type) == ("/b/come", "m/action/Go")
+
+
+def test_the_client_libraries_before_kilted_do_not_remap_an_action_as_a_whole() -> None:
+    tree = analyse(read_fixture(ROS2)).tree
+    interface = Interface("trace", Outcome("spinning"), (Endpoint("action_server", "go", "m/action/Go"),))
+    assert list(build_graph(tree, [interface], distro="jazzy").actions) == ["/a/go"]
+    assert list(build_graph(tree, [interface], distro="kilted").actions) == ["/b/come"]
+
+
+def test_a_remap_of_one_part_in_ros_2_leaves_no_action() -> None:
+    launch = ROS2.replace('from="go" to="/b/come"', 'from="go/_action/feedback" to="seen"')
+    graph = graph_of(launch, [Endpoint("action_server", "go", "m/Go")])
+    assert graph.actions == {}
+    assert list(graph.topics) == ["/a/go/_action/status", "/a/seen"]
+
+
+def test_json_of_an_action_in_ros_2() -> None:
+    (node,) = graph_json(graph_of(ROS2, [Endpoint("action_server", "go", "m/action/Go")]))["nodes"]
+    assert [(end["name"], end["action"]) for end in node["services"]] == [(name, "/b/come") for name in SERVICES]
+    assert [end["name"] for end in node["publishers"]] == list(HIDDEN)
+    assert [(end["name"], end["type"]) for end in node["action_servers"]] == [("/b/come", "m/action/Go")]

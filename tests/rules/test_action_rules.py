@@ -162,3 +162,30 @@ def test_two_servers_in_their_own_namespaces_and_two_clients_are_fine() -> None:
         {{"/l/left": {server("dock", "m/DockAction")}, "/r/right": {server("dock", "m/DockAction")},
          "/l/one": {client("dock", "m/DockAction")}, "/l/two": {client("dock", "m/DockAction")}}}
     """)
+
+
+def test_the_actions_of_ros_2() -> None:
+    """Their hidden topics and services are no dangling ends of their own, and are not offered twice."""
+    check("""
+        //- /nav.launch.xml
+        <launch>
+          <node pkg="p" exec="base" name="base"/>
+          <node pkg="p" exec="patrol" name="patrol">
+            <remap from="navigate" to="/navigate_to_pse"/>
+                                       ^^^^^^^^^^^^^^^^ warning[ACT001] offers action '/navigate_to_pse', of which
+          </node>
+          <node pkg="p" exec="arm" name="arm"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ACT002] /base offers it as m/action/Dock, /arm sends goals
+          <node pkg="p" exec="spare" name="spare"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT003] action '/lift' is offered by /base and /spare
+          <node pkg="p" exec="far" name="far"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[ACT001] offers action '/fly' (m/action/Fly), of which
+        </launch>
+        //- interfaces
+        {"/base": {"action_servers": {"navigate_to_pose": "m/action/Nav", "dock": "m/action/Dock",
+                                       "lift": "m/action/Lift"}},
+         "/patrol": {"action_clients": {"navigate": "m/action/Nav"}},
+         "/arm": {"action_clients": {"dock": "m/action/Grip"}},
+         "/spare": {"action_servers": {"lift": "m/action/Lift"}},
+         "/far": {"action_clients": {"fly": "m/action/Fly"}}}
+    """)

@@ -1,34 +1,74 @@
-"""Actions: each end is five topics below one name, whatever the client library that made them.
+"""Actions: each end is several topics and services below one name, whatever the client library that made them.
 
-See http://wiki.ros.org/actionlib/DetailedDescription: clients publish `goal` and `cancel`, servers `status`, `feedback`
-and `result`. The type of an action is that of its definition, `pkg/FetchAction`; its topics have types of their own,
-`pkg/FetchActionGoal` and so on.
+In ROS 1 (http://wiki.ros.org/actionlib/DetailedDescription) these are five topics: clients publish `goal` and
+`cancel`, servers `status`, `feedback` and `result`. The type of an action is that of its definition,
+`pkg/FetchAction`; its topics have types of their own, `pkg/FetchActionGoal` and so on.
+
+In ROS 2 (https://design.ros2.org/articles/actions.html) they are three services and two topics of hidden names:
+servers offer `_action/send_goal`, `_action/cancel_goal` and `_action/get_result`, and publish `_action/feedback` and
+`_action/status`. The type is `pkg/action/Fetch`, that of its first service `pkg/action/Fetch_SendGoal`.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from preflight_analysis.tracing.interface import Endpoint, Role
 
 _FROM_CLIENT = ("goal", "cancel")
 TOPICS = ("goal", "cancel", "status", "feedback", "result")
+"""Of an action in ROS 1."""
 _COMMON = {"cancel": "actionlib_msgs/GoalID", "status": "actionlib_msgs/GoalStatusArray"}
 _OWN = {"goal": "Goal", "feedback": "Feedback", "result": "Result"}
+
+SERVICES_ROS2 = ("_action/send_goal", "_action/cancel_goal", "_action/get_result")
+TOPICS_ROS2 = ("_action/feedback", "_action/status")
+_PARTS_ROS2 = (*SERVICES_ROS2, *TOPICS_ROS2)
+_COMMON_ROS2 = {
+    "_action/cancel_goal": "action_msgs/srv/CancelGoal",
+    "_action/status": "action_msgs/msg/GoalStatusArray",
+}
+_OWN_ROS2 = {
+    "_action/send_goal": "_SendGoal",
+    "_action/get_result": "_GetResult",
+    "_action/feedback": "_FeedbackMessage",
+}
+_PARTS_OF_CLIENT: Mapping[str, Role] = {
+    **dict.fromkeys(SERVICES_ROS2, "client"),
+    **dict.fromkeys(TOPICS_ROS2, "subscriber"),
+}
+_PARTS_OF_SERVER: Mapping[str, Role] = {
+    **dict.fromkeys(SERVICES_ROS2, "service"),
+    **dict.fromkeys(TOPICS_ROS2, "publisher"),
+}
+
+
+_WITHOUT_ACTION_REMAPS = frozenset({"foxy", "galactic", "humble", "iron", "jazzy"})
+
+
+def moves_actions(distro: str | None) -> bool:
+    """Whether a remap of an action's own name moves the action. Both client libraries of ROS 1 look the name up, and so
+    does rcl_action since Kilted (https://github.com/ros2/rcl/pull/1170); before, only its parts could be remapped."""
+    return distro not in _WITHOUT_ACTION_REMAPS
 
 
 @dataclass(frozen=True, slots=True)
 class ActionEnd:
-    """A client or server of an action and its topics, in the order of `TOPICS`."""
+    """A client or server of an action, and the ends of topics and services that it is made of. `names` are theirs
+    below the name of the action, in the same order; the first one is that of the goals."""
 
     endpoint: Endpoint
-    topics: tuple[Endpoint, ...]
+    parts: tuple[Endpoint, ...]
+    names: tuple[str, ...]
 
 
-def actions_of(endpoints: Iterable[Endpoint]) -> tuple[ActionEnd, ...]:
-    """The actions among the endpoints of a node: those that all five topics show, and those that are declared."""
+def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[ActionEnd, ...]:
+    """The actions among the endpoints of a node: those that all their parts show, and those that are declared.
+
+    A declared one whose type says that it is ROS 2's is, whatever the `generation`.
+    """
     endpoints = tuple(endpoints)
     by_name: dict[tuple[str, str], Endpoint] = {}
     for endpoint in endpoints:
@@ -44,7 +84,10 @@ def actions_of(endpoints: Iterable[Endpoint]) -> tuple[ActionEnd, ...]:
                 found[role, name] = end
     for endpoint in endpoints:
         if endpoint.role in ("action_client", "action_server"):
-            found.setdefault((endpoint.role, endpoint.name), _declared(endpoint))
+            of_ros2 = generation == 2 or "/action/" in (endpoint.type or "")
+            found.setdefault(
+                (endpoint.role, endpoint.name), _declared_ros2(endpoint) if of_ros2 else _declared(endpoint)
+            )
     return tuple(found.values())
 
 
@@ -70,26 +113,45 @@ def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEnd | No
         inferred=any(topic.inferred for topic in topics),
         similar=any(topic.similar for topic in topics),
     )
-    return ActionEnd(endpoint, tuple(topics))
+    return ActionEnd(endpoint, tuple(topics), TOPICS)
 
 
 def _declared(endpoint: Endpoint) -> ActionEnd:
     type_ = endpoint.type if endpoint.type != "*" else None
-    if type_ is not None and not type_.endswith("Action") and "/action/" not in type_:
-        type_ += "Action"  # `pkg/Fetch`, the name of the file, is meant for the same; ROS 2 has `pkg/action/Fetch`
+    if type_ is not None and not type_.endswith("Action"):
+        type_ += "Action"  # `pkg/Fetch`, the name of the file, is meant for the same
         endpoint = replace(endpoint, type=type_)
-    topics = tuple(
-        Endpoint(
-            _side(endpoint.role, topic),
-            f"{endpoint.name}/{topic}",
-            _COMMON.get(topic) if type_ is None else _type(type_, topic),
-            speculative=endpoint.speculative,
-            inferred=endpoint.inferred,
-            similar=endpoint.similar,
+    parts = tuple(
+        _part(
+            endpoint, _side(endpoint.role, topic), topic, _COMMON.get(topic) if type_ is None else _type(type_, topic)
         )
         for topic in TOPICS
     )
-    return ActionEnd(endpoint, topics)
+    return ActionEnd(endpoint, parts, TOPICS)
+
+
+def _declared_ros2(endpoint: Endpoint) -> ActionEnd:
+    type_ = endpoint.type if endpoint.type != "*" else None
+    if type_ is not None and "/action/" not in type_:
+        type_ = "/action/".join(type_.split("/", 1))  # `pkg/Fetch` is meant for the same
+        endpoint = replace(endpoint, type=type_)
+    roles = _PARTS_OF_CLIENT if endpoint.role == "action_client" else _PARTS_OF_SERVER
+    parts = tuple(
+        _part(endpoint, roles[name], name, _COMMON_ROS2.get(name) or (type_ + _OWN_ROS2[name] if type_ else None))
+        for name in _PARTS_ROS2
+    )
+    return ActionEnd(endpoint, parts, _PARTS_ROS2)
+
+
+def _part(endpoint: Endpoint, role: Role, name: str, type_: str | None) -> Endpoint:
+    return Endpoint(
+        role,
+        f"{endpoint.name}/{name}",
+        type_,
+        speculative=endpoint.speculative,
+        inferred=endpoint.inferred,
+        similar=endpoint.similar,
+    )
 
 
 def _type(action: str, topic: str) -> str:

@@ -191,7 +191,7 @@ def worth_writing(interface: Interface) -> Iterator[Endpoint | ParamUse]:
     """What of an interface belongs into an annotation, actions as such. What every node has by its client library, and
     what was found after a made-up answer, is left out; so are parameters that it does not read."""
     actions = actions_of(interface.endpoints)
-    parts = {id(topic) for action in actions for topic in action.topics}
+    parts = {id(part) for action in actions for part in action.parts}
     alone = (e for e in interface.endpoints if id(e) not in parts and not e.role.startswith("action_"))
     for endpoint in (*alone, *(action.endpoint for action in actions)):
         if not endpoint.builtin and not endpoint.speculative:

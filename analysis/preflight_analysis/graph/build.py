@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
-from preflight_analysis.graph.actions import TOPICS, ActionEnd, actions_of
+from preflight_analysis.graph.actions import ActionEnd, actions_of, moves_actions
 from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.tracing.interface import Endpoint, Interface
@@ -19,13 +19,16 @@ _TOPIC_ROLES = ("publisher", "subscriber")
 _SERVICE_ROLES = ("service", "client")
 
 
-def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topics: Sequence[str] = ()) -> Graph:
+def build_graph(
+    tree: LaunchTree, interfaces: Sequence[Interface], external_topics: Sequence[str] = (), distro: str | None = None
+) -> Graph:
     """Who talks to whom after the launch of `tree`, given what each of its nodes does.
 
     `interfaces` has one entry for each of `tree.nodes`, in that order; `NOT_RUN` for a node of which nothing is known.
     Where a trace is missing or failed, what the launch file annotates is added to what was seen.
 
-    `external_topics` are patterns of the topics that something outside of the launch offers or wants.
+    `external_topics` are patterns of the topics that something outside of the launch offers or wants. `distro` is the
+    distribution of ROS, whose client libraries differ in what a remap moves.
 
     Raises `ValueError` if the lengths differ.
     """
@@ -39,11 +42,12 @@ def build_graph(tree: LaunchTree, interfaces: Sequence[Interface], external_topi
             continue
         remaps = _effective_remaps(node, tree.generation)
         of_actions: set[int] = set()
-        for action in actions_of(interface.endpoints):
-            whole, parts = _connect_action(node, action, remaps)
-            of_actions.update(map(id, action.topics))
+        for action in actions_of(interface.endpoints, tree.generation):
+            whole, parts = _connect_action(node, action, remaps, as_a_whole=moves_actions(distro))
+            of_actions.update(map(id, action.parts))
             actions.extend(whole)
-            topics.extend(parts)
+            for part in parts:
+                (topics if part.endpoint.role in _TOPIC_ROLES else services).append(part)
         for endpoint in interface.endpoints:
             if endpoint.role in _TOPIC_ROLES and id(endpoint) not in of_actions:
                 topics.append(_connect(node, endpoint, remaps))
@@ -80,28 +84,28 @@ def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Re
 
 
 def _connect_action(
-    node: LaunchNode, action: ActionEnd, remaps: Mapping[str, tuple[Remap, str]]
+    node: LaunchNode, action: ActionEnd, remaps: Mapping[str, tuple[Remap, str]], *, as_a_whole: bool
 ) -> tuple[list[Connection], list[Connection]]:
-    """The action and its topics. It is none any more, but five topics, where remaps move those apart.
+    """The action and what it is made of. It is none any more, but topics and services, where remaps move those apart.
 
-    A remap of the action's own name moves all five: both client libraries look it up before they append the topics.
+    A remap of the action's own name moves all of them where the client library looks it up before it appends the names.
     """
     endpoint = action.endpoint
     base, remap = names.resolve(endpoint.name, node.name), None
     if endpoint.md5 is not None:
         # Told by a client library, which had moved the name when it made the topics (rospy: if it is written alike).
         remap = next((r for r, target in remaps.values() if target == base), None)
-    elif base in remaps:
+    elif base in remaps and as_a_whole:
         remap, base = remaps[base]
     ends: list[tuple[str, Remap | None]] = []
-    for topic in TOPICS:
-        moved = remaps.get(f"{base}/{topic}")
-        ends.append((moved[1], moved[0]) if moved is not None else (f"{base}/{topic}", remap))
-    full, remap = ends[0][0].removesuffix("/goal"), ends[0][1]
-    together = [name for name, _ in ends] == [f"{full}/{topic}" for topic in TOPICS]
+    for part in action.names:
+        moved = remaps.get(f"{base}/{part}")
+        ends.append((moved[1], moved[0]) if moved is not None else (f"{base}/{part}", remap))
+    full, remap = ends[0][0].removesuffix(f"/{action.names[0]}"), ends[0][1]
+    together = [name for name, _ in ends] == [f"{full}/{part}" for part in action.names]
     parts = [
-        Connection(name, node, topic, moved_by, full if together else None)
-        for (name, moved_by), topic in zip(ends, action.topics, strict=True)
+        Connection(name, node, end, moved_by, full if together else None)
+        for (name, moved_by), end in zip(ends, action.parts, strict=True)
     ]
     return [Connection(full, node, endpoint, remap)] if together else [], parts
 

@@ -104,7 +104,7 @@ def _told(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: Launc
     """All that is said by these, an action both as such and by its topics."""
     endpoints = tuple(endpoints)
     actions = actions_of(endpoints)
-    ends = (*endpoints, *(a.endpoint for a in actions), *(t for a in actions for t in a.topics))
+    ends = (*endpoints, *(a.endpoint for a in actions), *(p for a in actions for p in a.parts))
     return {_key(end, node) for end in ends} | {_key(use, node) for use in params}
 
 
@@ -136,7 +136,7 @@ def _missing(
     by_topics = {
         (a.endpoint.role, a.endpoint.name)
         for a in actions_of(interface.endpoints)
-        if all(_key(topic, node) in told for topic in a.topics)
+        if all(_key(part, node) in told for part in a.parts)
     }
     given: set[_Key] = set()
     for what in worth_writing(interface):

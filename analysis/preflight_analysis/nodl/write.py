@@ -50,7 +50,7 @@ def nodl(interfaces: Sequence[Interface], generation: int) -> str:
     params: dict[str, ParamUse] = {}
     for interface in interfaces:
         actions = actions_of(interface.endpoints)
-        parts = {id(topic) for action in actions for topic in action.topics}
+        parts = {id(topic) for action in actions for topic in action.parts}
         of_actions = {(action.endpoint.role, action.endpoint.name) for action in actions}
         plain = [e for e in interface.endpoints if id(e) not in parts and (e.role, e.name) not in of_actions]
         for end in (*plain, *(action.endpoint for action in actions)):

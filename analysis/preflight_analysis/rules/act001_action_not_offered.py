@@ -3,10 +3,14 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.near_miss import NearMiss, dangling_wants, fixes, near_misses, nodes_looked_at, weight
 from preflight_analysis.rules.places import connection_location, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+
+_OF_GOALS = ("/goal", "/send_goal")
+"""How the first part of an action is called, in ROS 1 and 2."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -43,9 +47,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:
-    """None where the topics were remapped one by one: each of those remaps would have to change."""
+    """None where the parts were remapped one by one, as each of those remaps would have to change, nor where no remap
+    moves an action."""
+    if not moves_actions(context.environment.distro):
+        return ()
     remap = pair.site.remap
-    one_by_one = remap is not None and remap.target.endswith("/goal") and not pair.site.name.endswith("/goal")
+    one_by_one = remap is not None and remap.target.endswith(_OF_GOALS) and not pair.site.name.endswith(_OF_GOALS)
     return () if one_by_one else fixes(context, pair)
 
 
@@ -55,8 +62,9 @@ RULE = Rule(
     severity="warning",
     what="Reports a node with a client of an action that no node of the launch offers. Where one offers an action of a "
     "like name and the same type, it is a warning that names both; otherwise a hint, as the action may be offered by "
-    "something that is started elsewhere. An action is recognised by its five topics (`goal`, `cancel`, `status`, "
-    "`feedback`, `result`), in any client library; a remap of its name moves all of them.",
+    "something that is started elsewhere. In ROS 1 an action is recognised by its five topics (`goal`, `cancel`, "
+    "`status`, `feedback`, `result`), in any client library. A remap of its name moves all that it is made of, but not "
+    "before Kilted in ROS 2, where it moves nothing.",
     why="A client that waits for the server waits for ever; the goals of one that does not are lost without a word.",
     example='<!-- the base offers move_base -->\n<remap from="navigate" to="mov_base"/>',
     instead='<remap from="navigate" to="move_base"/>',

@@ -208,7 +208,7 @@ class Workspace:
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
         interfaces = self._nodl.fill_in(analysis.tree, interfaces)
         interfaces = self._fallback.fill_in(analysis.tree, interfaces)
-        graph = build_graph(analysis.tree, interfaces, project.external_topics)
+        graph = build_graph(analysis.tree, interfaces, project.external_topics, self.environment.distro)
         document, problems = located_problems(project)
         context = replace(
             analysis.context,
