@@ -88,6 +88,9 @@ class Editor:
         self.refreshes = 0
         self.lens_refreshes = 0
         self.hint_refreshes = 0
+        self.statuses: list[Any] = []
+        """What `rosPreflight/status` told, for an editor with `"status": True` in its settings."""
+        self.analysed = 0
         self.progress: dict[types.ProgressToken, list[Any]] = {}
         self.on_progress: Callable[[types.ProgressToken, Any], None] = lambda token, value: None
         self.texts: dict[Path, str] = {}
@@ -104,6 +107,8 @@ class Editor:
         features[types.PROGRESS] = self._progressed()
         features[types.WINDOW_WORK_DONE_PROGRESS_CREATE] = self._created()
         register_lsp_features(self.client, features)
+        self.client.feature("rosPreflight/status")(self._told_status())
+        self.client.feature("rosPreflight/analysed")(self._told_analysed())
 
     # pygls takes no bound methods as handlers.
     def _published(self) -> Callable[..., None]:
@@ -138,6 +143,20 @@ class Editor:
     def _lenses_refreshed(self) -> Callable[..., None]:
         def handler(ls: LanguageClient, params: None) -> None:
             self.lens_refreshes += 1
+            self._news.set()
+
+        return handler
+
+    def _told_status(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: Any) -> None:
+            self.statuses.append(params)
+            self._news.set()
+
+        return handler
+
+    def _told_analysed(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: Any) -> None:
+            self.analysed += 1
             self._news.set()
 
         return handler

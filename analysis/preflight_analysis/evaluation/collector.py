@@ -10,14 +10,17 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
-from preflight_analysis.evaluation.tree import Arg, Command, Include, LaunchNode, Problem, Unknown, Use
-from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.evaluation.tree import Arg, Command, Include, LaunchNode, NotTaken, Problem, Unknown, Use
+from preflight_analysis.launch.model import NODE_KINDS, Action, ActionAttribute, LaunchFile
 
 MAX_TEXT = 8_000_000
 """Characters of one value that substitutions make. A robot description has a hundredth; values that hold others twice,
 and so on, have no end."""
 MAX_TEXTS = 128_000_000
 """Of all such values together."""
+
+
+_STARTS = NODE_KINDS | {"include", "group", "executable", "load_composable_node"}
 
 
 class Collector:
@@ -45,6 +48,7 @@ class Collector:
         self.uses: list[Use] = []
         self.problems: list[Problem] = []
         self.unknowns: list[Unknown] = []
+        self.not_taken: list[NotTaken] = []
         self.visited: list[str] = []
         self.inputs: dict[str, str] = {}
         self.made: dict[str, Document] = {}
@@ -78,6 +82,11 @@ class Collector:
             return True
         self.problem("value-too-long", origin, fatal=False, limit=MAX_TEXT)
         return False
+
+    def note_not_taken(self, action: Action, condition: ActionAttribute, value: str, origin: Origin) -> None:
+        """Note a tag that its condition leaves out, if it would start something."""
+        if action.kind in _STARTS:
+            self.not_taken.append(NotTaken(action, condition, value, origin))
 
     def note_unknown(self, what: str, reason: str, location: Location) -> None:
         """Note a value that cannot be known."""

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import Action, ActionAttribute
 
 ParamValue = Any
 """bool, int, float, str, bytes (binfile), list, dict, None or `CommandValue`: what the parameter server would hold."""
@@ -184,6 +184,16 @@ class Use(NamedTuple):
     origin: Origin = ()
 
 
+class NotTaken(NamedTuple):
+    """A tag that its condition leaves out: with all that is below it, it is never looked into. `condition` is the
+    attribute, `value` what that came to; `origin` ends at the tag."""
+
+    action: Action
+    condition: ActionAttribute
+    value: str
+    origin: Origin
+
+
 @dataclass(frozen=True, slots=True)
 class Problem:
     """Something the evaluation met. `kind` is what a rule looks for, `data` what it writes its message from.
@@ -250,6 +260,8 @@ class LaunchTree:
     inputs: Mapping[str, str] = field(default_factory=dict)
     commands: tuple[Command, ...] = ()
     """In the order in which roslaunch would run them."""
+    not_taken: tuple[NotTaken, ...] = ()
+    """What would start nodes if a condition were another."""
 
     @property
     def complete(self) -> bool:

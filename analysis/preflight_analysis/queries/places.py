@@ -35,6 +35,11 @@ def nodes_of(analysis: Analysis, file: str, action: Action) -> Iterator[tuple[in
             yield index, node
 
 
+def nodes_around(tree: LaunchTree, file: str, offset: int) -> Iterator[LaunchNode]:
+    """The nodes whose tags are around an offset: several where their file is included several times."""
+    return (node for node in tree.nodes if node.location.file == file and node.action.span.contains(offset))
+
+
 def include_of(tree: LaunchTree, file: str, action: Action) -> Include | None:
     """The include that was taken at a tag."""
     return next((i for i in tree.includes if _within(i.origin[-1], file, action.span)), None)

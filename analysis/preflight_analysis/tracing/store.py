@@ -126,6 +126,18 @@ class Store:
                 return
         self.sweep()
 
+    def clear(self) -> tuple[int, int]:
+        """Remove all entries; how many there were, and their bytes. Files that are none of ours stay."""
+        entries, freed = 0, 0
+        for path in _below(self.folder, _DEPTH):
+            if path.suffix == ".json":
+                with contextlib.suppress(OSError):
+                    size = path.lstat().st_size
+                    path.unlink()
+                    entries, freed = entries + 1, freed + size
+                    path.parent.rmdir()
+        return entries, freed
+
     def sweep(self) -> None:
         """Remove the least recently used entries until the rest fits, and what interrupted writes left behind. Files
         that are none of ours stay."""

@@ -59,13 +59,14 @@ class Tracer:
             _log.exception("looking up a trace of %s failed", request.node)
             return None
 
-    def trace(self, request: TraceRequest, cancel: threading.Event) -> Interface:
-        """The cached trace, or a new run. Never raises: what stands in the way of a run is the outcome's reason."""
-        found = self.lookup(request)
+    def trace(self, request: TraceRequest, cancel: threading.Event, *, fresh: bool = False) -> Interface:
+        """The cached trace, or a new run; with `fresh` a new run in any case. Never raises: what stands in the way of a
+        run is the outcome's reason."""
+        found = None if fresh else self.lookup(request)
         if found is not None:
             return found
         with self._turn(request, cancel):
-            found = self.lookup(request)
+            found = None if fresh else self.lookup(request)
             if found is not None:
                 return found
             try:

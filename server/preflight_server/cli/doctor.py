@@ -7,7 +7,6 @@ import os
 from typing import Any
 
 from preflight_analysis.environment.detect import detect
-from preflight_analysis.environment.doctor import describe
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
@@ -16,6 +15,7 @@ from preflight_analysis.tracing.sandbox import SandboxStatus
 from preflight_server.cli import options
 from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
 from preflight_server.cli.output import print_json, print_text
+from preflight_server.doctor import page
 
 HELP = "the ROS environment and the sandbox, and what is missing"
 DESCRIPTION = """Shows what launch files and nodes are looked at with: distribution, package path, interpreter, sandbox.
@@ -39,19 +39,9 @@ def run(args: argparse.Namespace) -> int:
     if args.format == "json":
         print_json(_json(environment, status))
     else:
-        rows = [*describe(environment), *_sandbox(status), ("traces", str(TraceCache().folder))]
-        width = max(len(what) for what, _ in rows)
-        print_text("".join(f"{what:<{width}}  {value}\n" for what, value in rows))
+        print_text(page(environment, status))
     missing = bool(environment.problems) or (status is not None and not status.works)
     return FOUND if missing and args.fail_on != options.NEVER else CLEAN
-
-
-def _sandbox(status: SandboxStatus | None) -> list[tuple[str, str]]:
-    if status is None:
-        return [("sandbox", "not tried: --no-run was given")]
-    if not status.works:
-        return [("sandbox", f"does not work: {status.reason}")]
-    return [("sandbox", f"works: {status.backend}"), *(("sandbox", guarantee) for guarantee in status.guarantees)]
 
 
 def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from preflight_server.lsp import features
 from preflight_server.lsp.protocol import PreflightProtocol, RefusedError, is_failure
 from preflight_server.lsp.session import Session
 from preflight_server.lsp.settings import Settings, as_mapping
+from preflight_server.lsp.status import Status
 from preflight_server.lsp.text_store import TextStore, to_path
 
 _log = logging.getLogger(__name__)
@@ -41,6 +42,7 @@ class PreflightServer(LanguageServer):
         self.session: Session | None = None
         self.after_analysis: list[Callable[[], None]] = []
         """Called on the event loop whenever analyses were replaced by newer ones."""
+        self.status = Status(self)
         self.client_commands: frozenset[str] = frozenset()
         """Our commands that the client carries out itself."""
         self._background: set[asyncio.Task[Any]] = set()
@@ -53,6 +55,7 @@ class PreflightServer(LanguageServer):
         self.texts.encoding = self.workspace.position_encoding or types.PositionEncodingKind.Utf16
         commands = options.get("clientCommands")
         self.client_commands = frozenset(map(str, commands)) if isinstance(commands, list) else frozenset()
+        self.status.wanted = options.get("status") is True
         folders = [f.uri for f in params.workspace_folders or ()] or [params.root_uri or ""]
         folder = next((path for uri in folders if (path := to_path(uri)) is not None), None)
         self.session = Session(self, folder, Settings.read(options), trusted=options.get("workspaceTrusted") is True)

@@ -83,7 +83,7 @@ class Indexing:
                 self._session.index_changed()
 
     async def _make(self, workspace: Workspace, changed: Collection[str] | None) -> WorkspaceIndex | None:
-        progress = Progress(self._server, "Indexing launch files") if changed is None else None
+        progress = Progress(self._server, "Indexing launch files", "indexing") if changed is None else None
         loop = asyncio.get_running_loop()
         reported = 0.0
 
@@ -91,9 +91,8 @@ class Indexing:
             nonlocal reported
             if progress is not None and time.monotonic() - reported > _REPORT_EVERY:
                 reported = time.monotonic()
-                text, share = f"{done} of {total}: {os.path.basename(path)}", 100 * done // max(total, 1)
                 with contextlib.suppress(RuntimeError):  # the loop has ended
-                    loop.call_soon_threadsafe(progress.report, text, min(share, 100))
+                    loop.call_soon_threadsafe(progress.report, done, total, os.path.basename(path))
 
         def work() -> WorkspaceIndex | None:
             return build_index(

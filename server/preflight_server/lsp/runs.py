@@ -10,10 +10,10 @@ import contextlib
 import logging
 import threading
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing import sandbox
@@ -42,6 +42,8 @@ NodeKey = tuple[str, int]
 SWITCHED_OFF = "running nodes is switched off in the settings (rosPreflight.runNodes)"
 NOT_TRUSTED = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
 CANCELLED = "the runs were cancelled; save the file to start them again"
+NotRunSince = Literal["off", "untrusted", "cancelled", "sandbox"]
+_KINDS: Mapping[str, NotRunSince] = {SWITCHED_OFF: "off", NOT_TRUSTED: "untrusted", CANCELLED: "cancelled"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,13 +59,15 @@ class _Job:
     """One run of a batch. `cancel` is its own: what an edit makes obsolete is ended, and the others go on."""
 
     request: TraceRequest
+    fresh: bool = False
+    """Whether a run is wanted, whatever earlier ones told."""
     begun: threading.Event = field(default_factory=threading.Event, compare=False)
     cancel: threading.Event = field(default_factory=threading.Event, compare=False)
 
     def run(self, tracer: Tracer) -> Interface:
         """In a thread."""
         self.begun.set()
-        return tracer.trace(self.request, self.cancel)
+        return tracer.trace(self.request, self.cancel, fresh=self.fresh)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,11 +130,19 @@ class Runs:
         self._known: dict[Root, dict[NodeKey, Known]] = {}
         self._edition = 0
         """How often files changed: what a run told that began before may be out of date."""
+        self._fresh: dict[Root, set[NodeKey]] = {}
+        """Nodes that the user wants to be run anew."""
         self._batch: _Batch | None = None
         self._not_before = 0.0
         self._wanted = False
         self._loop: asyncio.Task[None] | None = None
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="runs")
+
+    @property
+    def not_run_since(self) -> NotRunSince | None:
+        """Which kind of thing keeps nodes from being run; None when they are."""
+        why = self.why_not_run
+        return _KINDS.get(why, "sandbox") if why is not None else None
 
     @property
     def why_not_run(self) -> str | None:
@@ -150,8 +162,7 @@ class Runs:
         self._trusted = trusted
         self._cancelled = False
         if not trusted:
-            self._known.clear()
-            self.commands.clear()
+            self.clear()
             self._stop()
 
     def set_workspace(self, workspace: Workspace) -> None:
@@ -166,6 +177,23 @@ class Runs:
         self.commands.forget()
         for nodes in self._known.values():
             nodes.update({key: replace(known, request=None) for key, known in nodes.items()})
+
+    def again(self, analysis: Analysis, names: Collection[str] | None = None) -> list[str]:
+        """Run nodes anew, all or those of these names, whatever is known of them. Returns which are."""
+        self._cancelled = False
+        keys = [key for key in node_keys(analysis.tree) if names is None or key[0] in names]
+        known = self._known.get(analysis.launch, {})
+        known.update({key: replace(known[key], request=None) for key in keys if key in known})
+        self._fresh.setdefault(analysis.launch, set()).update(keys)
+        self.wake()
+        return [name for name, _ in keys]
+
+    def clear(self) -> None:
+        """Take back all that runs told."""
+        self._cancelled = False
+        self._edition += 1
+        self._known.clear()
+        self.commands.clear()
 
     def hold(self, seconds: float) -> None:
         """Start no run before `seconds` have passed."""
@@ -189,6 +217,7 @@ class Runs:
             self._cancelled = True
         if self._batch is not None and self._batch.progress.token == token:
             self._cancelled = True
+            self._fresh.clear()
             self._batch.stop()
 
     def close(self) -> None:
@@ -239,7 +268,9 @@ class Runs:
             del known[key]
         missing = {k: r for k, r in requests.items() if k not in known or known[k].request != r}
         edition = self._edition
-        hits = await self._session.in_pool(lambda: {k: tracer.lookup(r) for k, r in missing.items()})
+        fresh = frozenset(self._fresh.get(analysis.launch, ()))
+        kept = {k: r for k, r in missing.items() if k not in fresh}
+        hits = await self._session.in_pool(lambda: {k: tracer.lookup(r) for k, r in kept.items()})
         found = {k: hit for k, hit in hits.items() if hit is not None}
         changed = any(k not in known or known[k].interface != hit for k, hit in found.items())
         current = edition == self._edition
@@ -256,11 +287,12 @@ class Runs:
 
     async def _run(self, tracer: Tracer, root: Root, requests: Mapping[NodeKey, TraceRequest]) -> None:
         loop = asyncio.get_running_loop()
-        progress = Progress(self._server, "Running nodes in the sandbox")
+        progress = Progress(self._server, "Running nodes in the sandbox", "tracing", len(requests))
         focus = self._session.focus
         # The nodes of the file that is being looked at come first.
         keys = sorted(requests, key=lambda key: requests[key].launch != focus)
-        jobs = [_Job(requests[key]) for key in keys]
+        fresh = self._fresh.get(root, set())
+        jobs = [_Job(requests[key], key in fresh) for key in keys]
         batch = self._batch = _Batch(root, dict(zip(keys, jobs, strict=True)), progress)
         known = self._known.setdefault(root, {})
         edition = self._edition
@@ -272,7 +304,8 @@ class Runs:
             key, job = keys[index], jobs[index]
             if interface.known or not job.cancel.is_set():
                 known[key] = Known(job.request if edition == self._edition else None, interface)
-            progress.report(f"{done} of {len(keys)}: {key[0]}", 100 * done // len(keys))
+            self._fresh.get(root, set()).discard(key)
+            progress.report(done, len(keys), key[0])
 
         def work() -> None:
             run_all(

@@ -10,7 +10,7 @@ import asyncio
 import contextlib
 import logging
 import threading
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
@@ -175,6 +175,11 @@ class Session:
         self.runs.set_trusted(trusted)
         self._touch(None, None, quiet=0)
 
+    def traces_cleared(self) -> None:
+        """What earlier runs told is to be forgotten."""
+        self.runs.clear()
+        self._touch(None, None, quiet=0)
+
     async def select(self, path: str, root: Root | None) -> str | None:
         """Show a file in the context of this root; None for the one that the index puts first. Returns why not."""
         if root is None:
@@ -257,6 +262,11 @@ class Session:
     def roots(self) -> list[Analysis]:
         """The analyses of the roots that reach open files, those that files are shown in first."""
         return [self._analyses[root] for root in self._wanted() if root in self._analyses]
+
+    @property
+    def findings(self) -> Mapping[str, Sequence[Finding]]:
+        """What the user is shown of each file."""
+        return self._findings
 
     @property
     def focus(self) -> str | None:

@@ -157,8 +157,12 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
             state.unknown(f"<{action.kind} {name}>", "its condition is not known", scope, span)
             return False
         try:
-            return values.to_bool(found.text) == (name == "if")
+            taken = values.to_bool(found.text) == (name == "if")
         except values.BadValueError as error:
             attributes.bad_value(name, found.text, str(error), TAGS[action.kind.lower()].attributes[name].choices)
             return False
+        condition = action.attribute(name)
+        if not taken and condition is not None:
+            state.note_not_taken(action, condition, found.text, scope.origin(action.head_span))
+        return taken
     return True

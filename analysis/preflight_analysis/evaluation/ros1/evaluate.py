@@ -83,6 +83,7 @@ def evaluate(
         tuple(state.visited),
         state.inputs,
         tuple(state.commands),
+        tuple(state.not_taken),
     )
 
 

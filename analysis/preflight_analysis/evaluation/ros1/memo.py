@@ -14,7 +14,17 @@ from dataclasses import dataclass, replace
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation.ros1.scope import Scope
-from preflight_analysis.evaluation.tree import Command, Include, LaunchNode, Param, Problem, Remap, Unknown, Use
+from preflight_analysis.evaluation.tree import (
+    Command,
+    Include,
+    LaunchNode,
+    NotTaken,
+    Param,
+    Problem,
+    Remap,
+    Unknown,
+    Use,
+)
 from preflight_analysis.launch.check_language import LanguageProblem, check_language
 from preflight_analysis.launch.model import LaunchFile
 
@@ -39,6 +49,7 @@ class Record:
     uses: tuple[Use, ...]
     problems: tuple[Problem, ...]
     unknowns: tuple[Unknown, ...]
+    not_taken: tuple[NotTaken, ...]
     declared: Mapping[str, Location]
     default_machine: str | None
 
@@ -133,4 +144,5 @@ def _moved(record: Record, chain: Origin, origins: Mapping[str, Origin | None]) 
         commands=tuple(replace(c, origin=move(c.origin)) for c in record.commands),
         uses=tuple(map(use, record.uses)),
         problems=tuple(replace(p, origin=move(p.origin)) for p in record.problems),
+        not_taken=tuple(n._replace(origin=move(n.origin)) for n in record.not_taken),
     )

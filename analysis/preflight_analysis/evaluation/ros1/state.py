@@ -83,6 +83,7 @@ class State(Collector):
             tuple(self.uses),
             tuple(self.problems),
             tuple(self.unknowns),
+            tuple(self.not_taken),
             inside.declared,
             default_machine,
         )
@@ -105,6 +106,7 @@ class State(Collector):
         self.commands += record.commands
         self.uses += record.uses
         self.unknowns += record.unknowns
+        self.not_taken += record.not_taken
         for problem in record.problems:
             self._add(problem)
         self.visited += [path for path in record.visited if path not in self.visited]

@@ -78,6 +78,7 @@ def evaluate_ros2(
         tuple(state.visited),
         state.inputs,
         tuple(state.commands),
+        tuple(state.not_taken),
     )
 
 
@@ -653,23 +654,25 @@ def applies(performer: Performer, action: Action) -> bool:
     for name in ("if", "unless"):
         attribute = action.attribute(name)
         if attribute is not None:
-            return _condition(performer, action, attribute) == (name == "if")
+            return _condition(performer, action, attribute, name == "if")
     return True
 
 
-def _condition(performer: Performer, action: Action, attribute: ActionAttribute) -> bool | None:
-    """The truth of a condition; None where it is not known or none."""
+def _condition(performer: Performer, action: Action, attribute: ActionAttribute, wanted: bool) -> bool:
+    """Whether a condition is what is wanted; it is not where it is not known or none."""
     result = performer.value(attribute.value)
     span = attribute.value.span
     if not result.known:
         at = Location(performer.place.file, span)
         performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
-        return None
-    word = result.text.strip().lower()
-    if word in ("true", "1"):
-        return True
-    if word in ("false", "0"):
         return False
+    word = result.text.strip().lower()
+    if word in ("true", "1", "false", "0"):
+        taken = (word in ("true", "1")) == wanted
+        if not taken:
+            origin = performer.place.origin(action.head_span)
+            performer.state.note_not_taken(action, attribute, result.text, origin)
+        return taken
     performer.state.problem(
         "bad-value",
         performer.place.origin(span),
@@ -679,7 +682,7 @@ def _condition(performer: Performer, action: Action, attribute: ActionAttribute)
         expected="true, false, 1 or 0",
         choices=("true", "false"),
     )
-    return None
+    return False
 
 
 def _flag(action: Action, name: str, *, default: bool = True) -> bool:

@@ -53,6 +53,7 @@ def register(server: PreflightServer) -> None:
     async def initialized(ls: PreflightServer, params: types.InitializedParams) -> None:
         ls.spawn(_register(ls))
         if ls.session is not None:
+            ls.status.tell()
             await ls.session.workspace()  # detect the environment while the user still reads
             ls.session.indexing.changed(None)
 

@@ -1,0 +1,59 @@
+"""What the server is busy with and what keeps it from running nodes, for a client that shows it all the time.
+
+A client that sets `"status": true` in the initialisation options gets two notifications of our own:
+
+- `rosPreflight/status`, `{"state": "idle" | "indexing" | "tracing", "done", "total", "notRun": null | {"kind": "off" |
+  "untrusted" | "cancelled" | "sandbox", "message"}}`, whenever one of it changes;
+- `rosPreflight/analysed`, `{}`, when there is something newer to be shown: a tree, a graph.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+State = Literal["indexing", "tracing"]
+STATUS = "rosPreflight/status"
+ANALYSED = "rosPreflight/analysed"
+
+
+class Status:
+    """Call it on the event loop. Nothing is sent to a client that did not ask for it (`wanted`)."""
+
+    def __init__(self, server: PreflightServer) -> None:
+        self.wanted = False
+        self._server = server
+        self._work: dict[str, tuple[State, int, int]] = {}
+        self._told: dict[str, Any] | None = None
+        server.after_analysis.append(self._analysed)
+
+    def working(self, token: str, state: State, done: int, total: int) -> None:
+        """A piece of work began or went on; `total` is 0 while that is not known."""
+        self._work[token] = (state, done, total)
+        self.tell()
+
+    def ended(self, token: str) -> None:
+        """A piece of work is over."""
+        if self._work.pop(token, None) is not None:
+            self.tell()
+
+    def tell(self) -> None:
+        """Send what there is to say if it is news."""
+        session = self._server.session
+        if not self.wanted or session is None:
+            return
+        # Runs of nodes are shown rather than the index, which is made beside them.
+        state, done, total = max(self._work.values(), key=lambda work: work[0] == "tracing", default=("idle", 0, 0))
+        kind = session.runs.not_run_since
+        not_run = {"kind": kind, "message": session.runs.why_not_run} if kind is not None else None
+        now = {"state": state, "done": done, "total": total, "notRun": not_run}
+        if now != self._told:
+            self._told = now
+            self._server.protocol.notify(STATUS, now)
+
+    def _analysed(self) -> None:
+        if self.wanted:
+            self.tell()
+            self._server.protocol.notify(ANALYSED, {})

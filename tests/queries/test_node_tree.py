@@ -1,0 +1,117 @@
+"""The tree of what a launch starts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from preflight_analysis.findings.contexts import RootFindings, by_file
+from preflight_analysis.queries.node_tree import Item, node_tree
+from preflight_analysis.workspace.workspace import Analysis
+from scene_desk import Stage, lay
+
+ROBOT = """
+    $0<launch>
+      <arg name="sim" default="false"/>
+      <param name="robot_name" value="r2"/>
+      <node pkg="p" type="t" name="base"><param name="rate" value="5"/><remap from="scan" to="/laser/scan"/></node>
+      <group ns="arm/left">
+        <include file="{folder}/camera.launch"><arg name="rate" value="9"/></include>
+      </group>
+      <group if="$(arg sim)"><node pkg="p" type="t" name="gazebo"/></group>
+      <include file="{folder}/camera.launch" unless="true"/>
+    </launch>
+    //- camera.launch
+    <launch>
+      <arg name="rate" default="1"/>
+      <node pkg="p" type="missing" name="camera"/>
+    </launch>
+    //- p/scripts/t
+    #!/bin/sh
+    """
+
+
+def outline(items: tuple[Item, ...], depth: int = 0) -> list[str]:
+    lines = []
+    for item in items:
+        lines.append(f"{'  ' * depth}{item.kind} {item.label} {item.detail}".rstrip())
+        lines += outline(item.children, depth + 1)
+    return lines
+
+
+def treed(stage: Stage, analysis: Analysis) -> tuple[Item, ...]:
+    files = frozenset(analysis.tree.files)
+    findings = by_file([RootFindings(analysis.root, files, analysis.findings)], frozenset())
+    return node_tree(analysis, findings).items
+
+
+def named(items: tuple[Item, ...], name: str) -> Item:
+    found = [i for i in items if i.name == name] or [named(i.children, name) for i in items if i.kind == "namespace"]
+    return found[0]
+
+
+def test_namespaces_nodes_includes_and_what_is_left_out(tmp_path: Path) -> None:
+    stage = lay(tmp_path, ROBOT)
+    analysis = stage.scene.analyses[0]
+    items = treed(stage, analysis)
+    assert outline(items) == [
+        "node base p/t",
+        "  param rate 5",
+        "  remap scan → /laser/scan",
+        "namespace arm/left/",
+        "  node camera p/missing",
+        "section Includes 1",
+        "  include camera.launch 1 node  rate:=9",
+        "section Shared parameters 1",
+        "  param /robot_name r2",
+        "section Not started 2",
+        "  not-taken group if $(arg sim) is false",
+        "    not-taken gazebo",
+        "  not-taken include {folder}/camera.launch unless true".replace("{folder}", str(tmp_path)),
+    ]
+    assert node_tree(analysis, {}).files == (str(tmp_path / "main.launch"), str(tmp_path / "camera.launch"))
+
+
+def test_a_node_has_its_place_its_file_and_what_is_wrong_with_it(tmp_path: Path) -> None:
+    stage = lay(tmp_path, ROBOT)
+    items = treed(stage, stage.scene.analyses[0])
+    base, camera = named(items, "/base"), named(items, "/arm/left/camera")
+    assert base.location is not None
+    assert stage.shown(base.location).startswith('main.launch:4 <node pkg="p" type="t" name="base"')
+    assert camera.location is not None
+    assert stage.shown(camera.location).startswith("camera.launch:3 <node")
+    assert camera.file == str(tmp_path / "camera.launch")
+    assert (base.worst, base.findings) == (None, 0)
+    assert (camera.worst, camera.findings) == ("error", 1)
+
+
+def test_a_file_included_twice_has_its_own_conditions_each_time(tmp_path: Path) -> None:
+    stage = lay(
+        tmp_path,
+        """
+        $0<launch>
+          <include file="{folder}/one.launch" ns="a"><arg name="on" value="true"/></include>
+          <include file="{folder}/one.launch" ns="b"><arg name="on" value="0"/></include>
+        </launch>
+        //- one.launch
+        <launch><arg name="on"/><node pkg="p" type="t" name="n" if="$(arg on)"/></launch>
+        //- p/scripts/t
+        #!/bin/sh
+        """,
+    )
+    assert outline(treed(stage, stage.scene.analyses[0])) == [
+        "namespace a/",
+        "  node n p/t",
+        "section Includes 2",
+        "  include one.launch 1 node  on:=true",
+        "  include one.launch 0 nodes  on:=0",
+        "section Not started 1",
+        "  not-taken n if $(arg on) is 0",
+    ]
+
+
+def test_what_a_node_was_seen_to_do_is_said_where_it_is_not_all(tmp_path: Path) -> None:
+    stage = lay(tmp_path, ROBOT + '//- interfaces\n    {"/base": {"publishers": {"odom": "nav_msgs/Odometry"}}}')
+    items = treed(stage, stage.scene.analyses[0])
+    assert named(items, "/base").note == ""
+    unknown = lay(tmp_path / "other", '$0<launch><node pkg="p" type="t" name="n" args="$(env NO_SUCH_ONE)"/></launch>')
+    assert node_tree(unknown.scene.analyses[0], {}).items[0].note != ""
