@@ -62,9 +62,13 @@ def test_what_is_written_out() -> None:
 
 
 def test_half_of_it() -> None:
-    """Each call that is whole counts, wherever the text breaks off."""
+    """Each call counts, wherever the text breaks off, with what it was given until then."""
     cut = WHOLE[: WHOLE.index('name="n"')]
-    assert [action.kind for action in _read(cut)] == ["arg", "push_ros_namespace"]
+    assert [action.kind for action in _read(cut)] == ["arg", "push_ros_namespace", "node"]
+    node = _read(cut)[-1]
+    assert [(a.name, a.value.text) for a in node.attributes] == [("pkg", "p"), ("exec", "x")]
+    held = "GroupAction(actions=[Node(package='p', executable='x')], forwarding=\nNode(package='q', executable="
+    assert [(a.kind, [c.kind for c in a.children]) for a in _read(held)] == [("group", ["node"]), ("node", [])]
 
 
 @settings(max_examples=150, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))

@@ -171,7 +171,7 @@ def test_names_that_a_node_uses(begin: str) -> None:
         else ("    param:\n    - name: rate\n      value: 1.0\n    - name: $0")
     )
     found = items(begin.format(written) + INTERFACES)
-    assert [(i.label, i.detail) for i in found.values()] == [("frame", "default: 'map'"), ("name", "no default")]
+    assert [(i.label, i.detail) for i in found.values()] == [("frame", "string, default map"), ("name", "no default")]
     written = "<remap from='$0'/>" if xml else "    remap:\n    - from: $0"
     assert [(i.label, i.detail) for i in items(begin.format(written) + INTERFACES).values()] == [
         ("chatter", "std_msgs/msg/String, publishes")

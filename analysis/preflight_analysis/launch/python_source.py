@@ -14,9 +14,10 @@ from preflight_analysis.documents.span import LineIndex, Span
 
 _CALL = re.compile(r"\b[A-Za-z_][\w.]*\s*\(")
 _MAX_CALLS = 5_000
+_MAX_HEADS = 20
 _TOKEN = re.compile(
     r"""(?P<string>(?:[rRbBuUfF]{1,2})?(?:\"\"\"(?:[^\\]|\\.)*?\"\"\"|'''(?:[^\\]|\\.)*?'''|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'))"""
-    r"""|(?P<comment>\#[^\n]*)|(?P<open>[(\[{])|(?P<close>[)\]}])""",
+    r"""|(?P<comment>\#[^\n]*)|(?P<open>[(\[{])|(?P<close>[)\]}])|(?P<comma>,)""",
     re.DOTALL,
 )
 
@@ -49,17 +50,23 @@ class PythonSource:
         brackets = _brackets(self.text)
         behind = count = 0
         for found in _CALL.finditer(self.text):
-            end = brackets.get(found.end() - 1)
-            if found.start() < behind or end is None or count > _MAX_CALLS:
+            end, commas = brackets.get(found.end() - 1, (None, ()))
+            if found.start() < behind or count > _MAX_CALLS:
                 continue
             count += 1
-            try:
-                node = ast.parse(self.text[found.start() : end + 1], mode="eval").body
-            except (SyntaxError, ValueError, RecursionError, MemoryError):
-                continue
-            behind = end
-            self._move(node, found.start())
-            yield node
+            node = _expression(self.text[found.start() : end + 1]) if end is not None else None
+            if node is not None and end is not None:
+                behind = end
+            else:
+                # Half typed: what it was given before that.
+                for comma in reversed(commas[-_MAX_HEADS:]):
+                    node = _expression(self.text[found.start() : comma] + ")")
+                    if node is not None:
+                        behind = comma
+                        break
+            if node is not None:
+                self._move(node, found.start())
+                yield node
 
     def _move(self, node: ast.AST, offset: int) -> None:
         """To its place in the text."""
@@ -156,13 +163,35 @@ def last_name(node: ast.expr) -> str:
     return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
 
 
-def _brackets(text: str) -> dict[int, int]:
-    """Each opening bracket with the one that closes it."""
-    found: dict[int, int] = {}
+def open_brackets(text: str) -> str:
+    """The brackets that are open at the end of a text, the outermost first."""
+    opened: list[str] = []
+    for token in _TOKEN.finditer(text):
+        if token["open"]:
+            opened.append(token["open"])
+        elif token["close"] and opened:
+            opened.pop()
+    return "".join(opened)
+
+
+def _expression(text: str) -> ast.expr | None:
+    try:
+        return ast.parse(text, mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+def _brackets(text: str) -> dict[int, tuple[int | None, list[int]]]:
+    """Each opening bracket with the one that closes it, if any, and the commas right inside."""
+    found: dict[int, tuple[int | None, list[int]]] = {}
     opened: list[int] = []
     for token in _TOKEN.finditer(text):
         if token["open"]:
             opened.append(token.start())
+            found[token.start()] = (None, [])
         elif token["close"] and opened:
-            found[opened.pop()] = token.start()
+            start = opened.pop()
+            found[start] = (token.start(), found[start][1])
+        elif token["comma"] and opened:
+            found[opened[-1]][1].append(token.start())
     return found

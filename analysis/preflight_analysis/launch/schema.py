@@ -19,6 +19,7 @@ Kind = Literal[
     "number",
     "package",
     "executable",
+    "component",
     "launch-file",
     "yaml-file",
     "file",
@@ -31,8 +32,9 @@ Kind = Literal[
     "remap-to",
 ]
 """What an attribute's value is. `prose`: a sentence for people; `condition`: true, false, 1 or 0; `flag`: true or
-false; `choice`: one of `choices`; `executable`: of the package in `pkg`; `argument`, `parameter`, `variable` (of the
-environment), `machine`: its name; `remap-from`, `remap-to`: the name of a topic, service or action."""
+false; `choice`: one of `choices`; `executable`, `component`: a program of the package in `pkg`, or a class of it
+for a container; `argument`, `parameter`, `variable` (of the environment), `machine`: its name; `remap-from`,
+`remap-to`: the name of a topic, service or action."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -137,7 +137,7 @@ TAGS_ROS2: Mapping[str, Tag] = {
     "composable_node": _action(
         "A node to load into the container.",
         Attribute("pkg", "The package that has the plugin.", "package", required=True),
-        Attribute("plugin", "The class of the node.", required=True),
+        Attribute("plugin", "The class of the node.", "component", required=True),
         Attribute("name", "The name of the node.", required=True),
         _NAMESPACE,
         children=("param", "remap", "extra_arg"),

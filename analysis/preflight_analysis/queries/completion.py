@@ -10,9 +10,10 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import is_yaml
+from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
 from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.queries.completion_items import Completion, Item
+from preflight_analysis.queries.completion_python import complete_python
 from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.completion_writing import Writing, XmlWriting, YamlWriting
 from preflight_analysis.queries.cursor import Place
@@ -41,6 +42,8 @@ def complete(
     """
     if is_param_file(analysis, launch_file.path):
         return complete_param_file(analysis, launch_file.document, offset, trigger)
+    if launch_file.path.endswith(PYTHON_SUFFIX):
+        return complete_python(analysis, launch_file, offset, files, executables, trigger)
     place = place_in(launch_file, offset)
     if place is None:
         return None

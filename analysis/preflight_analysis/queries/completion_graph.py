@@ -11,6 +11,7 @@ from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import NODE_KINDS
 from preflight_analysis.queries.completion_items import Item
 from preflight_analysis.queries.cursor import Place
+from preflight_analysis.queries.param_texts import default_text
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -52,7 +53,7 @@ def parameters(analysis: Analysis, file: str, place: Place, element: Element, be
             if own is None or use.builtin or use.access == "set" or own in seen or own in present:
                 continue
             seen.add(own)
-            yield Item("parameter", own, own, detail=default_of(use))
+            yield Item("parameter", own, own, detail=default_of(use, analysis.tree.generation))
 
 
 def own_name(use: ParamUse, generation: int) -> str | None:
@@ -63,8 +64,10 @@ def own_name(use: ParamUse, generation: int) -> str | None:
     return use.name[1:] if use.name.startswith("~") else None
 
 
-def default_of(use: ParamUse) -> str:
-    """What a parameter is where it is not set."""
+def default_of(use: ParamUse, generation: int) -> str:
+    """What a parameter is where it is not set; nodes of ROS 2 declare its type with that."""
+    if generation == 2:
+        return default_text(use).replace("`", "")
     return f"default: {use.default!r}" if use.has_default else "no default" if use.mandatory else ""
 
 

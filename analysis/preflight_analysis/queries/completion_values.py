@@ -47,6 +47,7 @@ _FUNCTIONS = {
 """roslaunch's own functions in expressions: the substitutions of the same names."""
 _OPERATORS = ("and", "or", "not", "in", "if", "else")
 
+_NOTHING = Element("", Span(0, 0), (), (), Span(0, 0), Span(0, 0))
 _TAKES_ARGUMENTS: frozenset[Kind] = frozenset(
     {"text", "condition", "flag", "integer", "number", "choice", "launch-file", "yaml-file", "file", "namespace"}
 )
@@ -269,7 +270,7 @@ def _plain(asked: Asked, before: str, trigger: str | None) -> Completion | None:
     word = _PLAIN_WORD.search(before)
     typed = word[0] if word is not None else ""
     one_word = typed == before and "$" not in asked.written
-    whole = list(_whole_values(asked, element, attribute)) if one_word or kind not in _TAKES_ARGUMENTS else []
+    whole = list(_of_attribute(asked, attribute)) if one_word or kind not in _TAKES_ARGUMENTS else []
     if kind not in _TAKES_ARGUMENTS:
         return Completion(asked.place.word, tuple(whole)) if "$" not in asked.written else None
     if trigger is not None and kind == "text":
@@ -288,10 +289,15 @@ def _path(asked: Asked, written: str, kind: Kind) -> Completion | None:
     return Completion(asked.word(typed, _PATH_END), tuple(items))
 
 
-def _whole_values(asked: Asked, element: Element, attribute: Attribute) -> Iterator[Item]:
-    source = _BY_KIND.get(attribute.kind)
-    if source is not None:
-        yield from source(asked, element)
+def whole_values(asked: Asked, kind: Kind) -> Iterator[Item]:
+    """The names of a kind that there are, for the element at the cursor."""
+    source, element = _BY_KIND.get(kind), asked.place.element
+    if source is not None and (element is not None or kind == "package"):
+        yield from source(asked, element or _NOTHING)
+
+
+def _of_attribute(asked: Asked, attribute: Attribute) -> Iterator[Item]:
+    yield from whole_values(asked, attribute.kind)
     for choice in attribute.choices:
         yield Item("value", choice, choice, detail="default" if choice == attribute.default else "")
 
@@ -329,6 +335,12 @@ def _executables(asked: Asked, element: Element) -> Iterator[Item]:
     return (Item("executable", each, each, detail=name or "") for each in asked.executables.names(name or ""))
 
 
+def _components(asked: Asked, element: Element) -> Iterator[Item]:
+    package = element.get("pkg")
+    name = resolved(asked.analysis, asked.file, package.value.text) if package is not None else None
+    return (Item("executable", each, each, detail=name or "") for each in asked.executables.components(name or ""))
+
+
 def _passed_arguments(asked: Asked, element: Element) -> Iterator[Item]:
     """The arguments of the included file, those that are not passed yet; nothing where one is being declared."""
     include = asked.place.parent
@@ -358,6 +370,7 @@ def _graph(
 _BY_KIND: Mapping[Kind, Callable[[Asked, Element], Iterable[Item]]] = {
     "package": lambda asked, element: _packages(asked),
     "executable": _executables,
+    "component": _components,
     "argument": _passed_arguments,
     "variable": lambda asked, element: _variables(asked),
     "machine": _machines,

@@ -21,6 +21,7 @@ from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
@@ -234,21 +235,27 @@ class Session:
         index = self.indexing.index
         return View(document, document.path, analyses[0], analyses, index, findings, converter)
 
-    async def latest(self, uri: str) -> tuple[LaunchFile, Analysis] | None:
+    async def latest(self, uri: str, *, python: bool = False) -> tuple[LaunchFile, Analysis] | None:
         """The file as it is now, and the newest analysis that there is, which may be one of an earlier text: for what
         cannot wait while somebody types. None if it is no open launch file or parameter file of one, or was never
-        analysed."""
+        analysed. Those who ask for `python` get the text of such a file, without what can be read from it."""
         document = self._server.texts.get(uri)
         path = document.path if document is not None and document.path in self._focus else None
-        if document is None or path is None or is_python_launch_file(document):
+        if document is None or path is None or (is_python_launch_file(document) and not python):
             return None
         if next(self._of(path), None) is None:
             await self.settled()
         analysis = next(self._of(path), None)
-        launch_file = await self.in_pool(lambda: self._sources.launch_file(path))
+        launch_file = await self.in_pool(lambda: self._newest(path))
         if analysis is None or isinstance(launch_file, Unreadable) or launch_file.document.text != document.text:
             return None
         return launch_file, analysis
+
+    def _newest(self, path: str) -> LaunchFile | Unreadable:
+        if not path.endswith(PYTHON_SUFFIX):
+            return self._sources.launch_file(path)
+        text = self._sources.text(path)
+        return text if isinstance(text, Unreadable) else LaunchFile(path, 2, None, text, partial=True)
 
     async def settled(self) -> None:
         """Wait until what was typed so far is analysed, in the context in which it is shown."""

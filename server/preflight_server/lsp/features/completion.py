@@ -58,7 +58,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list(TRIGGERS)))
     async def completion(ls: PreflightServer, params: types.CompletionParams) -> types.CompletionList | None:
-        latest = await ls.session.latest(params.text_document.uri) if ls.session else None
+        latest = await ls.session.latest(params.text_document.uri, python=True) if ls.session else None
         if ls.session is None or latest is None:
             return None
         (launch_file, analysis), workspace = latest, await ls.session.workspace()

@@ -1,0 +1,179 @@
+"""A Python launch file that is being typed, as tree-sitter reads it: also where Python's own parser takes nothing.
+
+What expressions come to is given as texts of ROS 2's launch language (`$(find-pkg-share demo)/launch`), in which the
+questions of the other formats are asked.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cached_property
+
+import tree_sitter_python
+from tree_sitter import Language, Node, Parser, Query, QueryCursor
+
+from preflight_analysis.documents.span import Span
+
+_LANGUAGE = Language(tree_sitter_python.language())
+_ASSIGNED = Query(_LANGUAGE, "(assignment left: (identifier) @name right: (_) @value)")
+_CALLS = Query(_LANGUAGE, "(call function: [(identifier) (attribute)] arguments: (argument_list)) @call")
+_MAX_DEPTH = 20
+_SUBSTITUTIONS = {
+    "get_package_share_directory": "find-pkg-share",
+    "get_package_share_path": "find-pkg-share",
+    "FindPackageShare": "find-pkg-share",
+    "get_package_prefix": "find-pkg-prefix",
+    "FindPackagePrefix": "find-pkg-prefix",
+    "FindPackage": "find-pkg-prefix",
+    "LaunchConfiguration": "var",
+    "EnvironmentVariable": "env",
+}
+_SAME = frozenset({"str", "Path", "TextSubstitution", "realpath", "abspath", "normpath", "ParameterFile"})
+"""Calls that come to what they are given."""
+_PREFIX = re.compile(r"[A-Za-z]*")
+_HERE = "$(dirname)"
+
+
+class PythonTree:
+    """The tree of a text. Nodes speak of bytes, everything else of code points."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._data = text.encode(errors="surrogatepass")
+        self._ascii = len(self._data) == len(text)
+        self.root = Parser(_LANGUAGE).parse(self._data).root_node
+
+    def span(self, node: Node) -> Span:
+        """Where a node stands; of a text what is between its quotes."""
+        start, end = self._offset(node.start_byte), self._offset(node.end_byte)
+        if node.type == "string" and len(node.children) > 1:
+            first, last = node.children[0], node.children[-1]
+            return Span(self._offset(first.end_byte), self._offset(last.start_byte))
+        return Span(start, end)
+
+    def string_at(self, offset: int) -> Node | None:
+        """The text that begins at `offset`."""
+        at = offset if self._ascii else len(self.text[:offset].encode(errors="surrogatepass"))
+        node = self.root.descendant_for_byte_range(at, at + 1)
+        while node is not None and node.type != "string":
+            node = node.parent
+        return node if node is not None and node.start_byte == at else None
+
+    def calls(self, name: str) -> Iterator[Node]:
+        """All calls of that name."""
+        for call in QueryCursor(_CALLS).captures(self.root).get("call", ()):
+            if called(call) == name:
+                yield call
+
+    @cached_property
+    def _assigned(self) -> dict[str, Node]:
+        """What names stand for that are assigned in one place only."""
+        found: dict[str, list[Node]] = {}
+        for _, captured in QueryCursor(_ASSIGNED).matches(self.root):
+            found.setdefault(written(captured["name"][0]), []).append(captured["value"][0])
+        return {name: values[0] for name, values in found.items() if len(values) == 1}
+
+    def resolved(self, node: Node) -> Node:
+        """What a name stands for; anything else is itself."""
+        for _ in range(_MAX_DEPTH):
+            known = self._assigned.get(written(node)) if node.type == "identifier" else None
+            if known is None:
+                break
+            node = known
+        return node
+
+    def launch_text(self, node: Node, depth: int = 0) -> str | None:
+        """What an expression comes to, with substitutions; None where that is not written out."""
+        node = self.resolved(node)
+        if depth > _MAX_DEPTH:
+            return None
+        match node.type:
+            case "string":
+                return _plain(node)
+            case "concatenated_string" | "list" | "tuple":
+                return self._joined(node.named_children, "", depth)
+            case "parenthesized_expression":
+                return self.launch_text(node.named_children[0], depth + 1) if node.named_children else None
+            case "binary_operator":
+                operator = node.child_by_field_name("operator")
+                between = {"+": "", "/": "/"}.get(operator.type if operator is not None else "")
+                ends = (node.child_by_field_name("left"), node.child_by_field_name("right"))
+                found = [end for end in ends if end is not None]
+                return self._joined(found, between, depth) if between is not None and len(found) == len(ends) else None
+            case "call":
+                return self._called_text(node, depth)
+        return None
+
+    def path_before(self, node: Node, among: list[Node], between: str) -> str | None:
+        """What stands in front of one of several pieces of a path."""
+        before = [each for each in among if each.start_byte < node.start_byte]
+        text = self._joined(before, between, 0)
+        return None if text is None else text + between if before else ""
+
+    def _joined(self, nodes: list[Node], between: str, depth: int) -> str | None:
+        texts = [self.launch_text(each, depth + 1) for each in nodes if each.type != "comment"]
+        known = [text for text in texts if text is not None]
+        return between.join(known) if len(known) == len(texts) else None
+
+    def _called_text(self, call: Node, depth: int) -> str | None:
+        name, given = called(call), arguments(call)
+        values = list(given.values())
+        if name == "ThisLaunchFileDir":
+            return _HERE
+        if name == "dirname" and values:
+            return _HERE if "__file__" in written(values[0]) else None
+        if name == "join":
+            return self._joined(values, "/", depth)
+        if not values:
+            return None
+        if name == "PathJoinSubstitution":
+            inner = self.resolved(values[0])
+            return self._joined(inner.named_children, "/", depth) if inner.type in ("list", "tuple") else None
+        first = self.launch_text(values[0], depth + 1)
+        if first is None or name in _SAME or name.endswith("LaunchDescriptionSource"):
+            return first
+        command = _SUBSTITUTIONS.get(name)
+        return f"$({command} {first})" if command is not None else None
+
+    def _offset(self, byte: int) -> int:
+        return byte if self._ascii else len(self._data[:byte].decode(errors="surrogatepass"))
+
+
+def written(node: Node) -> str:
+    """The text of a node."""
+    return (node.text or b"").decode(errors="replace")
+
+
+def called(call: Node) -> str:
+    """`Node` of a call of `launch_ros.actions.Node`."""
+    function = call.child_by_field_name("function")
+    if function is not None and function.type == "attribute":
+        function = function.child_by_field_name("attribute")
+    return written(function) if function is not None else ""
+
+
+def arguments(call: Node) -> dict[str, Node]:
+    """What a call is given, by keyword or by position (`0`, `1`, ...). The first counts where one is given twice."""
+    found: dict[str, Node] = {}
+    given = call.child_by_field_name("arguments")
+    position = 0
+    for each in given.named_children if given is not None else ():
+        if each.type == "keyword_argument":
+            name, value = each.child_by_field_name("name"), each.child_by_field_name("value")
+            if name is not None and value is not None:
+                found.setdefault(written(name), value)
+        elif each.type not in ("comment", "ERROR"):
+            found[str(position)] = each
+            position += 1
+    return found
+
+
+def _plain(string: Node) -> str | None:
+    """A text without anything in it that is computed."""
+    prefix = _PREFIX.match(written(string))
+    pieces = [each for each in string.named_children if each.type not in ("string_start", "string_end")]
+    if any(each.type != "string_content" for each in pieces) or (prefix and "b" in prefix[0].lower()):
+        return None
+    text = "".join(written(each) for each in pieces)
+    return None if "\\" in text or "$(" in text else text

@@ -1,0 +1,288 @@
+"""Editing Python launch files through the real server: what is ours in them, half typed or whole."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, capabilities, editing, position
+from lsprotocol import types
+
+pytestmark = pytest.mark.ros
+
+MANIFEST = """<package format="3"><name>robot</name><version>0.0.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>MIT</license>
+<exec_depend>rclpy</exec_depend><export><build_type>ament_python</build_type></export></package>
+"""
+SETUP = """from setuptools import setup
+setup(
+    name="robot",
+    packages=["robot"],
+    data_files=[("share/robot", ["package.xml", "params.yaml"]),
+                ("share/robot/launch", ["launch/main.launch.py", "launch/inner.launch.py", "launch/outer.launch.xml"])],
+    entry_points={"console_scripts": ["talker = robot.talker:main", "listener = robot.listener:main"]},
+)
+"""
+TALKER = """import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.declare_parameter("rate", 10.0)
+        self.declare_parameter("frame", "map")
+        self.declare_parameter("limits.low", 1)
+        self.publisher = self.create_publisher(String, "chatter", 10)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Talker())
+"""
+LISTENER = TALKER.replace("Talker", "Listener").replace('"talker"', '"listener"')
+LISTENER = LISTENER.replace('publisher(String, "chatter", ', 'subscription(String, "words", print, ')
+HEAD = """import os
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import ComposableNodeContainer, Node
+from launch_ros.descriptions import ComposableNode
+from launch_ros.substitutions import FindPackageShare
+
+
+"""
+INNER = (
+    HEAD
+    + """def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('speed', default_value='1.0', description='In m/s'),
+        DeclareLaunchArgument('model'),
+        Node(package='robot', executable='listener', name='listener',
+             parameters=[{'frame': LaunchConfiguration('speed', default='2')}],
+             condition=IfCondition(LaunchConfiguration(variable_name='model'))),
+    ])
+"""
+)
+MAIN = (
+    HEAD
+    + """def generate_launch_description():
+    share = get_package_share_directory('robot')
+    return LaunchDescription([
+        DeclareLaunchArgument('speed', default_value='5.0'),
+        IncludeLaunchDescription(
+            PythonLaunchDescriptionSource(
+                PathJoinSubstitution([FindPackageShare('robot'), 'launch', 'inner.launch.py'])),
+            launch_arguments={'speed': LaunchConfiguration('speed'), 'model': 'true'}.items(),
+        ),
+        Node(package='robot', executable='talker', name='talker',
+             parameters=[os.path.join(share, 'params.yaml')], remappings=[('chatter', 'words')]),
+    ])
+"""
+)
+OUTER = """<launch>
+  <include file="$(find-pkg-share robot)/launch/inner.launch.py">
+    <arg name="speed" value="3.0"/>
+    <arg name="model" value="true"/>
+  </include>
+</launch>
+"""
+PARAMS = """talker:
+  ros__parameters:
+    rate: 5.0
+"""
+
+
+@pytest.fixture
+def package(desk: Desk) -> Path:
+    folder = desk.home / "ros2_ws/src/robot"
+    (folder / "robot").mkdir(parents=True)
+    (folder / "launch").mkdir()
+    for name, text in {
+        "package.xml": MANIFEST,
+        "setup.py": SETUP,
+        "robot/__init__.py": "",
+        "robot/talker.py": TALKER,
+        "robot/listener.py": LISTENER,
+        "launch/main.launch.py": MAIN,
+        "launch/inner.launch.py": INNER,
+        "launch/outer.launch.xml": OUTER,
+        "params.yaml": PARAMS,
+    }.items():
+        (folder / name).write_text(text)
+    return folder
+
+
+async def completed(editor: Editor, path: Path, body: str, trigger: str | None = None) -> list[str]:
+    """What is offered at the `|` of a function's body: label and detail."""
+    text = HEAD + "def generate_launch_description():\n" + body
+    at = text.index("|")
+    text = text[:at] + text[at + 1 :]
+    if path in editor.texts:
+        editor.change(path, text)
+    else:
+        editor.open(path, text, language="python")
+    await editor.hover(path, types.Position(0, 0))  # what is typed was analysed when it is answered
+    found = await editor.completion(path, position(text, at, editor.encoding), trigger)
+    return [f"{item.label} {item.detail or ''}".strip() for item in found]
+
+
+WHOLE = [
+    ("    return Node(package='|')\n", "robot"),
+    ("    return get_package_share_directory('|')\n", "robot"),
+    ("    return FindPackageShare('ro|')\n", "robot"),
+    ("    return Node(package='robot', executable='|')\n", "talker robot"),
+    ("    return Node(executable='|', package='robot')\n", "talker robot"),
+    ("    name = 'robot'\n    return Node(package=name, executable='|')\n", "talker robot"),
+    (
+        "    a = DeclareLaunchArgument('wanted', default_value='5', description='For you')\n"
+        "    return Node(namespace=LaunchConfiguration('|'))\n",
+        "wanted = 5",
+    ),
+    (
+        "    return Node(package='robot', executable='talker', parameters=[{'rate': 1, '|': 1}])\n",
+        "frame string, default map",
+    ),
+    (
+        "    return Node(package='robot', executable='talker', parameters=[{'limits': {'|': 1}}])\n",
+        "low integer, default 1",
+    ),
+    (
+        "    return Node(package='robot', executable='talker', remappings=[('|', 'words')])\n",
+        "chatter std_msgs/msg/String, publishes",
+    ),
+    (
+        "    return IncludeLaunchDescription(PythonLaunchDescriptionSource(os.path.join(\n"
+        "        get_package_share_directory('robot'), 'launch', 'inner.launch.py')),\n"
+        "        launch_arguments={'model': 'a', '|': 'b'}.items())\n",
+        "speed default: 1.0",
+    ),
+    (
+        "    return IncludeLaunchDescription(PythonLaunchDescriptionSource(\n"
+        "        [FindPackageShare('robot'), '/launch/|']))\n",
+        "inner.launch.py",
+    ),
+    ("    return os.path.join(get_package_share_directory('robot'), '|')\n", "launch/"),
+    ("    return PathJoinSubstitution([FindPackageShare('robot'), 'launch', '|'])\n", "outer.launch.xml"),
+]
+HALF = [
+    ("    return LaunchDescription([\n        Node(package='|\n", "robot"),
+    ("    return LaunchDescription([\n        Node(package='|'\n", "robot"),
+    (
+        "    return LaunchDescription([\n        Node(package='robot', executable='|\n"
+        "        Node(package='x', executable='y'),\n    ])\n",
+        "talker robot",
+    ),
+    ("    return LaunchDescription([Node(package='robot', executable=\"ta|, name='x')])\n", "talker robot"),
+    (
+        "    return LaunchDescription([\n        Node(package='robot', executable='talker',\n"
+        "             parameters=[{'|\n        Node(package='x', executable='y'),\n    ])\n",
+        "frame string, default map",
+    ),
+    (
+        "    return LaunchDescription([\n        Node(package='robot', executable='talker',\n"
+        "             parameters=[{'rate': 1.0, '|'}])])\n",
+        "frame string, default map",
+    ),
+    (
+        "    return LaunchDescription([Node(package='robot', executable='talker', remappings=[('|')])])\n",
+        "chatter std_msgs/msg/String, publishes",
+    ),
+    (
+        "    return LaunchDescription([\n        DeclareLaunchArgument('wanted'),\n"
+        "        Node(package='robot', executable=LaunchConfiguration('|\n    ])\n",
+        "wanted required",
+    ),
+    (
+        "    return LaunchDescription([IncludeLaunchDescription(PythonLaunchDescriptionSource(\n"
+        "        PathJoinSubstitution([FindPackageShare('robot'), 'launch', 'inner.launch.py'])),\n"
+        "        launch_arguments={'|\n    ])\n",
+        "speed default: 1.0",
+    ),
+    ("    return os.path.join(get_package_share_directory('robot'), 'la|\n", "launch/"),
+]
+NOT_OURS = [
+    "    print('|')\n",
+    "    return Node(|)\n",
+    "    return Node(package='robot', name='|')\n",
+    "    # Node(package='|')\n",
+    '    """Node(package=\'|\')"""\n',
+    "    return Node(package=f'|')\n",
+    "    x = {'a': '|'}\n",
+    "    'package'|\n",
+]
+
+
+async def test_completion(desk: Desk, package: Path) -> None:
+    path = package / "launch/typed.launch.py"
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(path, MAIN, language="python")
+        for body, wanted in (*WHOLE, *HALF):
+            found = await completed(editor, path, body)
+            assert any(each.startswith(wanted) for each in found), (body, found)
+        for body in NOT_OURS:
+            assert await completed(editor, path, body) == [], body
+        assert await completed(editor, path, "    return Node(package='robot', executable='ta(|')\n", "(") == []
+        assert "launch/" in await completed(
+            editor, path, "    return get_package_share_directory('robot') + '/|'\n", "/"
+        )
+        # What is passed or set already is not offered once more.
+        found = await completed(
+            editor, path, "    return Node(package='robot', executable='talker', parameters=[{'rate': 1, '|': 1}])\n"
+        )
+        assert not [each for each in found if each.startswith("rate")]
+        editor.change(path, HEAD + "x = Node(package='robot', executable='')\n")
+        (item,) = [
+            i for i in await editor.completion(path, editor.at(path, "executable='')", 12)) if i.label == "talker"
+        ]
+        assert editor.accept(path, item) == "x = Node(package='robot', executable='talker')"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-32"])
+async def test_completion_behind_other_letters(desk: Desk, package: Path, encoding: str) -> None:
+    path = package / "launch/typed.launch.py"
+    async with editing(desk, folder=package.parents[1], client=capabilities(encoding=encoding)) as editor:
+        body = "    # Größe 🤖 — so\n    return ['🤖', Node(package='robot', executable='t|')]\n"
+        assert "talker robot" in await completed(editor, path, body)
+        text = editor.texts[path]
+        (item,) = [
+            i for i in await editor.completion(path, editor.at(path, "executable='t'", 13)) if i.label == "talker"
+        ]
+        assert editor.accept(path, item) == text.splitlines()[-1].replace("'t'", "'talker'")
+
+
+async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, package: Path) -> None:
+    """At each place of a text that ends anywhere: an answer or none, and no error."""
+    path = package / "launch/typed.launch.py"
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(path, MAIN, language="python")
+        for end in range(len(HEAD), len(MAIN) + 1, 29):
+            editor.change(path, MAIN[:end])
+            await ask_everything(editor, path, position(MAIN[:end], end, editor.encoding))
+        editor.change(path, MAIN)
+        for at in range(len(HEAD), len(MAIN), 23):
+            await ask_everything(editor, path, position(MAIN, at, editor.encoding))
+
+
+async def ask_everything(editor: Editor, path: Path, where: types.Position) -> None:
+    await asyncio.gather(
+        editor.hover(path, where),
+        editor.definition(path, where),
+        editor.references(path, where),
+        editor.completion(path, where),
+        editor.signature(path, where),
+        editor.symbols(path),
+        editor.folds(path),
+        editor.links(path),
+        editor.hints(path),
+        editor.tokens(path),
+        editor.lenses(path),
+        editor.actions(path, types.Range(where, where)),
+    )
