@@ -209,3 +209,47 @@ def test_a_path_of_one_user() -> None:
           </node>
         </launch>
     """)
+
+
+def test_a_wildcard_after_the_name_and_a_value_after_both() -> None:
+    """As real rclpy has it: `tests/evaluation/test_params_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a">
+            <param from="/wild_last.yaml"/>
+          </node>
+          <node pkg="p" exec="b" name="b">
+            <param from="/wild_first.yaml"/>
+            <param name="rate" value="10"/>
+                         ^^^^ warning[PRM006] '/b' of the file before it counts more than '/**'
+          </node>
+          <node pkg="p" exec="b" name="b" namespace="own">
+            <param from="/wild_first.yaml"/>
+            <param name="rate" value="10"/>
+          </node>
+          <node_container pkg="p" exec="c" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::D" name="d" namespace="">
+              <param from="/composable.yaml"/>
+            </composable_node>
+          </node_container>
+        </launch>
+        //- /wild_last.yaml
+        /a:
+          ros__parameters: {rate: 1}
+                            ^^^^ warning[PRM006] to '1' here, which does not count: '/**' stands below it
+        /**:
+          ros__parameters: {rate: 2}
+        //- /composable.yaml
+        /d:
+          ros__parameters: {rate: 1}
+        /**:
+          ros__parameters: {rate: 2}
+        //- /wild_first.yaml
+        /**:
+          ros__parameters: {rate: 1}
+        /b:
+          ros__parameters: {rate: 2}
+        /own/b:
+          ros__parameters: {rate: 3}
+    """)

@@ -8,7 +8,7 @@ from itertools import takewhile
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import CommandValue, Param
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related, Severity
 from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -80,24 +80,68 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
-    """A node's sources apply in the order in which they are written: a file after a `<param>` overrides it."""
+    """What files say is there to be overridden by later sources, and what is for every node by what is for one. Told is
+    a `<param>` that does not count, and what loses against this usual order."""
     tags = Tags(context.launch_files)
+    told: set[tuple[Location, Location]] = set()
     for node in context.tree.nodes:
+        if not any(param.overrides for param in node.params):
+            continue
+        by_place = _settings(node)
         for param in node.params:
+            counts = by_place[_place(param)]
             for old in param.overrides:
-                tag = tags.at(old.origin[-1])
-                if tag is None or not _is_own(tag) or (type(old.value), old.value) == (type(param.value), param.value):
+                lost = by_place[_place(old)]
+                if (type(old.value), old.value) == (type(param.value), param.value):
                     continue
-                winner, loser = param.name_location or param.origin[-1], old.name_location or old.origin[-1]
-                by = "it is set again below"
-                if winner.file not in context.launch_files:
-                    by = "the parameter file that is given after it sets it again"
+                tag = tags.at(old.origin[-1])
+                why = _why_lost(lost, counts, own=tag is not None and _is_own(tag))
+                at = lost.place, counts.place
+                if why is None or at in told:
+                    continue
+                told.add(at)
                 yield rule.finding(
-                    f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {by}, to "
-                    f"{_shown(param.value)}",
-                    loser,
-                    related=(Related("the one that counts", winner), *include_chain(old.origin)),
+                    f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {why}, "
+                    f"to {_shown(param.value)}",
+                    lost.place,
+                    related=(Related("the one that counts", counts.place), *include_chain(old.origin)),
                 )
+
+
+@dataclass(frozen=True, slots=True)
+class _Ros2Setting:
+    """A value that a node of ROS 2 gets: of its `index`th source, below that key."""
+
+    index: int
+    path: str | None
+    key: str
+    place: Location
+
+
+def _settings(node: LaunchNode) -> dict[tuple[str, Location], _Ros2Setting]:
+    return {
+        _place(param): _Ros2Setting(index, source.path, key, _place(param)[1])
+        for index, source in enumerate(node.param_sources)
+        for key, param in zip(source.keys, source.params, strict=True)
+    }
+
+
+def _place(param: Param) -> tuple[str, Location]:
+    return param.name, param.name_location or param.origin[-1]
+
+
+def _why_lost(lost: _Ros2Setting, counts: _Ros2Setting, *, own: bool) -> str | None:
+    """Why one value does not count beside another; None where that is what such settings are for."""
+    if counts.index > lost.index:
+        if not own:
+            return None
+        return "the parameter file that is given after it sets it again" if counts.path else "it is set again below"
+    if counts.index == lost.index:
+        if counts.key == lost.key or "*" in lost.key or lost.path is None:
+            return None
+        return f"'{counts.key}' stands below it in the file, fits the node as well and sets it"
+    by = f"'{counts.key}' of the file before it" if counts.path else f"the value for '{counts.key}' before it"
+    return f"{by} counts more than '{lost.key}', which was met still earlier, and sets it"
 
 
 def _is_own(tag: Tag) -> bool:
@@ -184,10 +228,15 @@ RULE = Rule(
     "missed: twice in one tag or file, before an include or a file that sets it again, in a `<rosparam>` of a node "
     "that has a `<param>` of the name, or as a key that stands twice in one YAML dictionary. A parameter file that is "
     "overridden is what such files are for; of it nothing is said, nor of included files, nor of tags under a "
-    "condition. In ROS 2 it is a `<param>` of a node before another one or a file of it that sets the same.",
+    "condition. In ROS 2 it is a `<param>` of a node before another one or a file of it that sets the same, and "
+    "a value for the node's own name that a wildcard after it in the file replaces.",
     why="Whoever reads or changes the value that does not count sees no effect. Of several settings the last one "
     "counts, and neither launcher says anything; but in a `<node>` of ROS 1 each `<param>` comes after each "
-    '`<rosparam>`, and a `<param name="~...">` around the node after those too.',
+    '`<rosparam>`, and a `<param name="~...">` around the node after those too. In ROS 2 the client library gathers '
+    "all files by their keys first. Of two keys that fit a node, say `/**` and `/camera`, that one counts which is met "
+    "later for the first time: in one file the lower one, be it the wildcard. `<param>`s are for `/**`, unless the "
+    "node has both a `name` and a `namespace`; so a `<param>` does not count after a file with a `/**` and then the "
+    "node's own name, which sets the same.",
     example='<param name="use_sim_time" value="true"/>\n<!-- sets use_sim_time to false -->\n'
     '<include file="$(find robot)/launch/robot.launch"/>',
     instead='<include file="$(find robot)/launch/robot.launch"/>\n<param name="use_sim_time" value="true"/>',

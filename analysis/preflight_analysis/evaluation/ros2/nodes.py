@@ -11,6 +11,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Scope
+from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.params import (
     Sources,
     allows_substitutions,
@@ -90,7 +91,10 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
         return
     namespace = known(ns, "namespace") if ns is not None else "/"
     full = _full(namespace, name if name is not None else _guessed_name(exec_name))
-    sources = _sources(performer, action, full if name is not None else "", must_exist=False)
+    # launch has a key of its own for the values of a node only where both parts of its name are given.
+    own = name is not None and ns is not None
+    to = Sources(full if name is not None else _full(namespace, "?"), full if own else EVERY)
+    _collect(performer, action, to, must_exist=False)
     remaps = _remaps(performer, action, full)
     arguments = _words(performer, action, "args")
     resolved = state.executables.find(package, exec_name) if package else Executable(_plain_executable(exec_name))
@@ -117,8 +121,8 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
             launch_prefix=_text(performer, action, "launch-prefix", "") or None,
             unknowns=tuple(unknowns),
             named=name is not None,
-            params=sources.effective(),
-            param_sources=tuple(sources.found),
+            params=to.effective(),
+            param_sources=tuple(to.found),
             deferred=deferred,
         )
     )
@@ -146,7 +150,8 @@ def evaluate_composable(
         namespace = ns.text if ns is not None else "/"
         plugin_name = performer.value(plugin)
         full = _full(namespace, name.text if name is not None else plugin_name.text.rpartition("::")[2])
-        sources = _sources(performer, action, full if name is not None else "", must_exist=True)
+        to = Sources(full if name is not None else _full(namespace, "?"), composable=True)
+        _collect(performer, action, to, must_exist=True)
         state.nodes.append(
             LaunchNode(
                 full,
@@ -163,8 +168,8 @@ def evaluate_composable(
                 named=name is not None,
                 container=container,
                 plugin=plugin_name.text,
-                params=sources.effective(),
-                param_sources=tuple(sources.found),
+                params=to.effective(),
+                param_sources=tuple(to.found),
                 deferred=deferred,
             )
         )
@@ -220,15 +225,15 @@ def _text(performer: Performer, action: Action, name: str, default: str) -> str:
     return performer.value(value).text
 
 
-def _sources(performer: Performer, action: Action, node: str, *, must_exist: bool) -> Sources:
+def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: bool) -> None:
     """Pushed parameters first, then those of the node, in the order in which launch passes them."""
-    sources = Sources(node)
+    node = to.owner
     for pushed in performer.context.scope.params or ():
-        _add(sources, pushed_source(performer, pushed, node, must_exist=True))
+        to.add(pushed_source(performer, pushed, to))
     for child in action.children:
         origin = performer.place.origin(child.head_span)
         if child.kind == "param_dict":
-            _add(sources, ParamSource(None, tuple(dict_params(performer, child, node)), origin))
+            to.add(ParamSource(None, tuple(dict_params(performer, child, node)), origin))
         if child.kind != "param":
             continue
         file = child.value("from")
@@ -240,18 +245,9 @@ def _sources(performer: Performer, action: Action, node: str, *, must_exist: boo
                 location = Location(performer.place.file, file.span)
                 performer.state.uses.append(Use("file", location, result.text, path, Location(path, Span(0, 0))))
                 substitute = allows_substitutions(performer, child)
-                _add(
-                    sources,
-                    file_source(performer, path, at, node, substitute=substitute, must_exist=must_exist),
-                )
+                to.add(file_source(performer, path, at, to, substitute=substitute, must_exist=must_exist))
         elif child.value("name") is not None:
-            _add(sources, ParamSource(None, tuple(tag_params(performer, child, node)), origin))
-    return sources
-
-
-def _add(sources: Sources, source: ParamSource | None) -> None:
-    if source is not None:
-        sources.found.append(source)
+            to.add(ParamSource(None, tuple(tag_params(performer, child, node)), origin))
 
 
 def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:

@@ -18,6 +18,8 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import parse_yaml, span_of
 
 MARK = "ros__parameters"
+EVERY = "/**"
+"""The key of what is for every node."""
 _MAX_DEPTH = 40
 _MAX_KEYS = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
@@ -36,15 +38,21 @@ class FileParam(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """The parameters for the nodes that `pattern` (`/robot/camera`, `/**`, `/*/camera`) fits. `spans` are its keys."""
+    """The parameters for the nodes that `pattern` (`/robot/camera`, `/**`, `/*/camera`) fits. `spans` are its keys, and
+    `key` is what they come to as written: to rcl `robot/camera` is another one than `/robot/camera`."""
 
     pattern: str
     spans: tuple[Span, ...]
     params: tuple[FileParam, ...]
+    key: str = ""
 
     def fits(self, node: str) -> bool:
         """Whether the node of this full name gets them."""
         return _compiled(self.pattern).fullmatch(node) is not None
+
+    def reaches(self, node: str, *, composable: bool) -> bool:
+        """Likewise, but launch_ros reads the file of a composable node itself, and knows no wildcard but `/**`."""
+        return self.pattern in (EVERY, node) if composable else self.fits(node)
 
     @property
     def exact(self) -> bool:
@@ -89,7 +97,7 @@ class _Reader:
             if name == MARK:
                 if isinstance(value, yaml.MappingNode):
                     params = tuple(self._params(value, "", depth))
-                    self.sections.append(Section(_pattern(keys), spans or (span,), params))
+                    self.sections.append(Section(_pattern(keys), spans or (span,), params, _key(keys)))
             elif isinstance(value, yaml.MappingNode):
                 self.nodes(value, (*keys, name), (*spans, span), depth + 1)
             else:
@@ -119,6 +127,11 @@ def plain(node: yaml.Node) -> Any:
         return yaml.SafeLoader("").construct_object(node, deep=True)
     except (yaml.YAMLError, ValueError, RecursionError):
         return str(getattr(node, "value", ""))
+
+
+def _key(keys: tuple[str, ...]) -> str:
+    """The key that rcl makes of these, one level after the other."""
+    return "/".join(keys).replace("//", "/")
 
 
 def _pattern(keys: tuple[str, ...]) -> str:

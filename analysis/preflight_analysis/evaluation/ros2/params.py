@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,7 +14,7 @@ from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
-from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import EVERY, read_param_file
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_valid
 from preflight_analysis.evaluation.tree import Param, ParamSource
@@ -25,21 +24,42 @@ from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
 
 @dataclass(slots=True)
 class Sources:
-    """The sources of one node in the order in which they apply, and what could not be known of them."""
+    """The sources of one node in the order in which launch passes them. `node` is its full name, with `?` for its own
+    name where the launch file gives it none. `key` is that below which launch passes values of the launch file."""
 
     node: str
+    key: str = EVERY
+    composable: bool = False
     found: list[ParamSource] = field(default_factory=list)
-    missing: list[str] = field(default_factory=list)
+
+    @property
+    def owner(self) -> str:
+        """The node's name, where it has one."""
+        return "" if self.node.endswith("/?") else self.node
+
+    def add(self, source: ParamSource | None) -> None:
+        """One more source, if there is anything to it."""
+        if source is not None:
+            self.found.append(source if source.keys else source._replace(keys=(self.key,) * len(source.params)))
 
     def effective(self) -> tuple[Param, ...]:
-        """Each parameter from the source that counts; what that one overrides stands in it."""
-        params: dict[str, Param] = {}
+        """Each parameter with the value that counts; the others stand in it, the one that would count next last.
+
+        rcl gathers all sources by their keys as written: a later source replaces a value below the same key, but what
+        stands below another key that fits the node counts by the order in which the *keys* first occur. So a value for
+        `/**` that comes later loses to one for the node's own name, if `/**` occurred before that name did. For a
+        composable node launch_ros gathers them itself, one after the other.
+        """
+        below: dict[str, dict[str, list[Param]]] = {}
         for source in self.found:
-            for param in source.params:
-                old = params.pop(param.name, None)
-                before = () if old is None else (*old.overrides, old._replace(overrides=()))
-                params[param.name] = param._replace(overrides=before)
-        return tuple(params.values())
+            for key, param in zip(source.keys, source.params, strict=True):
+                values = below.setdefault("" if self.composable else key, {})
+                values.setdefault(param.name, []).append(param)
+        params: dict[str, list[Param]] = {}
+        for values in below.values():
+            for name, settings in values.items():
+                params[name] = params.pop(name, []) + settings
+        return tuple(settings[-1]._replace(overrides=tuple(settings[:-1])) for settings in params.values())
 
 
 def tag_params(performer: Performer, action: Action, node: str, prefix: str = "") -> list[Param]:
@@ -114,16 +134,16 @@ def _again(text: str, value: Value) -> Value:
     return parse_value_ros2(SpannedText(text, value.span, (*(value.span.start,) * len(text), value.span.end)))
 
 
-def pushed_source(performer: Performer, param: PushedParam, node: str, *, must_exist: bool) -> ParamSource | None:
+def pushed_source(performer: Performer, param: PushedParam, to: Sources) -> ParamSource | None:
     """What `<set_parameter>` or `<set_parameters_from_file>` give to a node."""
     if param.name is not None:
-        return ParamSource(None, (Param(param.name, param.value, param.origin, node),), param.origin)
+        return ParamSource(None, (Param(param.name, param.value, param.origin, to.owner),), param.origin, (EVERY,))
     path = os.path.join(performer.state.cwd, str(param.value))
-    return file_source(performer, path, param.origin, node, must_exist=must_exist)
+    return file_source(performer, path, param.origin, to, must_exist=True)
 
 
 def file_source(
-    performer: Performer, path: str, origin: Origin, node: str, *, substitute: bool = False, must_exist: bool
+    performer: Performer, path: str, origin: Origin, to: Sources, *, substitute: bool = False, must_exist: bool
 ) -> ParamSource | None:
     """What a parameter file gives to a node; None if it cannot be read, which is noted.
 
@@ -148,24 +168,20 @@ def file_source(
     if file.problem is not None:
         message, span = file.problem
         state.problem("bad-yaml", (*origin, Location(path, span)), fatal=must_exist, message=message, path=path)
-    return ParamSource(path, tuple(_of_file(file, path, node, origin, exact=not substitute)), origin)
+    reaching = [s for s in file.sections if s.reaches(to.node, composable=to.composable)]
+    if to.composable:
+        reaching.sort(key=lambda section: section.exact)
+    params, keys = [], []
+    for section in reaching:
+        for param in section.params:
+            place = Location(path, Span(0, 0) if substitute else param.name_span)
+            params.append(Param(param.name, param.value, (*origin, place), to.owner, place))
+            keys.append(section.key)
+    return ParamSource(path, tuple(params), origin, tuple(keys))
 
 
 def _flat(text: str, span: Span) -> tuple[int, ...]:
     return (*(span.start,) * len(text), span.end)
-
-
-def _of_file(file: ParamFile, path: str, node: str, origin: Origin, *, exact: bool) -> Iterable[Param]:
-    for section in ordered(file.sections):
-        if section.fits(node):
-            for param in section.params:
-                place = Location(path, param.name_span if exact else Span(0, 0))
-                yield Param(param.name, param.value, (*origin, place), node, place)
-
-
-def ordered(sections: Sequence[Section]) -> list[Section]:
-    """Sections that name one node come after those with wildcards."""
-    return sorted(sections, key=lambda section: section.exact)
 
 
 def pushed_value(performer: Performer, value: Value) -> Any:
