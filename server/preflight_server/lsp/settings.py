@@ -13,8 +13,8 @@ SCHEMA: Mapping[str, Mapping[str, Any]] = {
     "runNodes": {
         "type": "boolean",
         "default": True,
-        "description": "Run the nodes and the commands of parameters (xacro) of launch files in the sandbox, to see what "
-        "they publish, subscribe to, read and print, once the workspace is trusted.",
+        "description": "Run the nodes and the commands of parameters (xacro) of launch files in the sandbox, to see "
+        "what they publish, subscribe to, read and print, once the workspace is trusted.",
     },
     "inlayHints": {
         "type": "boolean",
@@ -26,8 +26,8 @@ SCHEMA: Mapping[str, Mapping[str, Any]] = {
         "type": ["array", "null"],
         "items": {"type": "string"},
         "default": None,
-        "markdownDescription": "Look for ROS packages in these folders, in this order, and nowhere else. Left out, they "
-        "are found as ROS finds them: in the workspace, on `ROS_PACKAGE_PATH` and in the installed distributions.",
+        "markdownDescription": "Look for ROS packages in these folders, in this order, and nowhere else. Left out, "
+        "they are found as ROS finds them: in the workspace, on `ROS_PACKAGE_PATH` and in the installed distributions.",
     },
 }
 """What `Settings.read` reads, in the words of VS Code: `contribution.py` writes it into the extension's manifest."""
