@@ -91,6 +91,11 @@ def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[Acti
     return tuple(found.values())
 
 
+def topic_ends(role: Role, name: str) -> tuple[tuple[Role, str], ...]:
+    """The ends of the five topics of an action's client or server: roles and names."""
+    return tuple((_side(role, topic), f"{name}/{topic}") for topic in TOPICS)
+
+
 def _side(role: Role, topic: str) -> Role:
     return "publisher" if (topic in _FROM_CLIENT) == (role == "action_client") else "subscriber"
 

@@ -1,0 +1,301 @@
+"""The running system beside the expected one.
+
+What is not known is not held against the system: of a node of which nothing is known only its presence is judged, an
+end that is not sure to be made may be missing, and an end is extra only where all ends of its node are known.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from preflight_analysis.graph.actions import actions_of
+from preflight_analysis.live.model import (
+    Comparison,
+    Expected,
+    ExpectedEnd,
+    ExpectedNode,
+    Issue,
+    LiveEnd,
+    LiveNode,
+    Observation,
+    State,
+    is_builtin,
+)
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.tracing.interface import Endpoint, Role
+
+_ANONYMOUS = re.compile(r"([^/]+?)_ANON\d+")
+_ANONYMOUS_TAIL = r"_\w+_\d+_\d+"
+"""What roslaunch and launch_ros put behind an anonymous name: host, process and a number."""
+_INFRASTRUCTURE = {
+    1: re.compile(r"/rosout\Z|.*/ros_preflight_watch"),
+    # What a listener to transforms makes for itself, `ros2 launch` itself, and hidden ones: `ros2` commands, ours.
+    2: re.compile(r".*/(?:transform_listener_impl_\w+|launch_ros_\d+|_[^/]*)\Z"),
+}
+_TOOLS = re.compile(
+    r"(?:.*/)?(?:rviz2?(?:_\w+)?|rqt\w*|rosbag2?_\w+|(?:record|play)_\d+|roswtf_\w+"
+    r"|ros(?:topic|service|node|param|run|msg)_\d+_\d+|plotjuggler\w*|foxglove\w*)\Z"
+)
+"""What people start beside a robot to look at it."""
+_COMPARED_QOS = ("reliability", "durability")
+_GROUPS: Mapping[str, str] = {
+    "publisher": "topics",
+    "subscriber": "topics",
+    "service": "services",
+    "client": "services",
+    "action_server": "actions",
+    "action_client": "actions",
+}
+_SEEN_ROLES = {1: frozenset(_GROUPS) - {"client"}, 2: frozenset(_GROUPS)}
+"""A master does not know who calls a service."""
+_WORSE: tuple[State, ...] = ("unsure", "extra", "present", "missing", "dead", "wrong-type")
+
+
+@dataclass
+class _States:
+    """The states of nodes and of what they meet at; the worst of what is said of one counts."""
+
+    nodes: dict[str, State] = field(default_factory=dict)
+    topics: dict[str, State] = field(default_factory=dict)
+    services: dict[str, State] = field(default_factory=dict)
+    actions: dict[str, State] = field(default_factory=dict)
+
+    def say(self, role: str, name: str, state: State) -> None:
+        states: dict[str, State] = getattr(self, _GROUPS[role])
+        states[name] = max(states.get(name, state), state, key=_WORSE.index)
+
+
+_LiveEnds = dict[tuple[Role, str], list[LiveEnd]]
+
+
+def compare(expected: Expected, live: Observation) -> Comparison:
+    """What of `live` is missing, extra or of the wrong type."""
+    states = _States()
+    issues: list[Issue] = []
+    matched, tokens = _matched(expected, live)
+    nodes = [_with_tokens(node, tokens) for node in expected.nodes]
+    ends: dict[str, _LiveEnds] = defaultdict(lambda: defaultdict(list))
+    for end in live.ends:
+        ends[end.node][end.role, end.name].append(end)
+
+    owned: dict[str, list[ExpectedNode]] = defaultdict(list)
+    for node in nodes:
+        running = live.nodes.get(node.name)
+        issue = _of_node(node, running, matched)
+        if issue is not None:
+            issues.append(issue)
+        state = _state(issue, running)
+        states.nodes[node.name] = state
+        if state in ("missing", "dead", "unsure"):
+            for expected_end in node.ends:
+                states.say(expected_end.role, expected_end.name, state if expected_end.certain else "unsure")
+        if state == "present":
+            if node.by is not None:
+                owned[node.by].append(node)
+                owned[node.name].append(replace(node, ends=tuple(_of_loader(node.ends)), complete=False, by=None))
+            else:
+                owned[node.name].append(node)
+    for owner, of_owner in owned.items():
+        if states.nodes.get(owner) == "present":
+            issues += _of_ends(owner, of_owner, ends[owner], expected.generation, states)
+    issues += _wrong_topics(nodes, live, states) if expected.generation == 1 else ()
+    issues += _extra_nodes(expected, live, set(matched.values()), states)
+    return Comparison(tuple(issues), states.nodes, states.topics, states.services, states.actions)
+
+
+# Which node is which
+
+
+def _matched(expected: Expected, live: Observation) -> tuple[dict[str, str], dict[str, str]]:
+    """Expected names to those that run, and what the anonymous parts of names are in this run."""
+    found = {node.name: node.name for node in expected.nodes if node.name in live.nodes}
+    tokens: dict[str, str] = {}
+    for node in expected.nodes:
+        if node.name in found or not _ANONYMOUS.search(node.name):
+            continue
+        places = list(_ANONYMOUS.finditer(node.name))
+        pattern, at = "", 0
+        for place in places:
+            known = tokens.get(place[0])
+            wanted = re.escape(known) if known is not None else re.escape(place[1]) + _ANONYMOUS_TAIL
+            pattern += re.escape(node.name[at : place.start()]) + f"({wanted})"
+            at = place.end()
+        pattern += re.escape(node.name[at:]) + r"\Z"
+        taken = set(found.values())
+        for name in sorted(live.nodes, key=lambda each: (live.nodes[each].dead is not None, each)):
+            match = re.match(pattern, name)
+            if match and name not in taken:
+                found[node.name] = name
+                tokens.update((place[0], match[number]) for number, place in enumerate(places, 1))
+                break
+    return found, tokens
+
+
+def _with_tokens(node: ExpectedNode, tokens: Mapping[str, str]) -> ExpectedNode:
+    """The node and its ends with the anonymous parts of their names as they are in this run."""
+    if not tokens:
+        return node
+
+    def actual(name: str) -> str:
+        return _ANONYMOUS.sub(lambda match: tokens.get(match[0], match[0]), name)
+
+    ends = tuple(
+        replace(end, name=actual(end.name), parts=tuple((role, actual(name)) for role, name in end.parts))
+        for end in node.ends
+    )
+    return replace(node, name=actual(node.name), ends=ends, by=actual(node.by) if node.by is not None else None)
+
+
+# Nodes
+
+
+def _of_node(node: ExpectedNode, running: LiveNode | None, matched: Mapping[str, str]) -> Issue | None:
+    if running is None:
+        if node.ends_itself or "$(" in node.name:
+            return None
+        return Issue("missing", "node", node.name, counts=node.certain, place=node.place)
+    if running.dead is not None:
+        if node.ends_itself:
+            return None
+        return Issue("dead", "node", node.name, actual=running.dead, place=node.place)
+    if running.count > 1:
+        return Issue("twice", "node", node.name, actual=str(running.count), place=node.place)
+    return None
+
+
+def _state(issue: Issue | None, running: LiveNode | None) -> State:
+    if running is None:
+        return "missing" if issue is not None and issue.counts else "unsure"
+    if running.dead is not None:
+        return "dead" if issue is not None else "unsure"
+    return "present"
+
+
+def _extra_nodes(expected: Expected, live: Observation, known: set[str], states: _States) -> Iterator[Issue]:
+    loose = [node.name for node in expected.nodes if not node.certain]
+    for name, node in sorted(live.nodes.items()):
+        if name in known or _INFRASTRUCTURE[live.generation].match(name):
+            continue
+        counts = expected.complete and not loose and node.dead is None and not _TOOLS.match(name)
+        if node.dead is None:
+            states.nodes[name] = "extra"
+            yield Issue("extra", "node", name, counts=counts)
+        else:
+            states.nodes[name] = "dead"
+            yield Issue("dead", "node", name, actual=node.dead, counts=False)
+
+
+# Ends
+
+
+def _of_loader(ends: Iterable[ExpectedEnd]) -> Iterator[ExpectedEnd]:
+    """Of a nodelet's ends those that the process which loads it makes itself."""
+    return (end for end in ends if end.name.endswith(("/bond", "/load_nodelet")))
+
+
+def _of_ends(
+    owner: str, nodes: Sequence[ExpectedNode], ends: _LiveEnds, generation: int, states: _States
+) -> Iterator[Issue]:
+    """The ends of a node that runs, and of what it runs for others."""
+    left = {key: list(found) for key, found in ends.items() if not is_builtin(generation, *key)}
+    wanted: list[tuple[ExpectedNode, ExpectedEnd]] = []
+    for node in nodes:
+        of_owner = node.ends if node.by is None else [e for e in node.ends if e not in tuple(_of_loader(node.ends))]
+        wanted += ((node, end) for end in of_owner if end.role in _SEEN_ROLES[generation])
+    for _, end in wanted:
+        for key in end.parts or ((end.role, end.name),):
+            left.pop(key, None)
+    complete = all(node.complete for node in nodes)
+    extra = list(_extra_ends(left, generation))
+    missing: list[Issue] = []
+    for node, end in wanted:
+        there = [ends.get(key, []) for key in end.parts or ((end.role, end.name),)]
+        if not all(there):
+            states.say(end.role, end.name, "missing" if end.certain else "unsure")
+            missing.append(
+                Issue("missing", end.role, node.name, end.name, expected=end.type, similar=_similar(end, extra),
+                      counts=end.certain, place=end.place, source=end.source)
+            )  # fmt: skip
+            continue
+        issue = _different(node.name, end, there[0], generation)
+        states.say(end.role, end.name, "wrong-type" if issue is not None and issue.kind == "wrong-type" else "present")
+        if issue is not None:
+            yield issue
+    yield from missing
+    for found in extra:
+        states.say(found.role, found.name, "extra")
+        if complete:
+            place = nodes[0].place
+            yield Issue("extra", found.role, owner, found.name, actual=found.type, place=place)
+
+
+def _similar(end: ExpectedEnd, extra: Sequence[LiveEnd]) -> str | None:
+    """The end that the node has instead, if one is like it."""
+    alike = [e.name for e in extra if e.role == end.role and (end.type in (None, "*", e.type) or e.type is None)]
+    return nearest(end.name, alike) or (alike[0] if len(alike) == 1 else None)
+
+
+def _extra_ends(left: _LiveEnds, generation: int) -> Iterator[LiveEnd]:
+    """What is there and was not expected; an action of ROS 1 as such."""
+    ends = [end for found in left.values() for end in found]
+    if generation == 1:
+        endpoints = [Endpoint(end.role, end.name, end.type) for end in ends]
+        of_actions: set[tuple[str, str]] = set()
+        for action in actions_of(endpoints):
+            of_actions.update((topic.role, topic.name) for topic in action.parts)
+            yield LiveEnd(action.endpoint.role, ends[0].node, action.endpoint.name, action.endpoint.type)
+        ends = [end for end in ends if (end.role, end.name) not in of_actions]
+    yield from sorted(ends, key=lambda end: (end.name, end.role))
+
+
+def _different(node: str, end: ExpectedEnd, there: Sequence[LiveEnd], generation: int) -> Issue | None:
+    """The type and QoS of an end that is there. The types of topics of ROS 1 are compared by topic."""
+    types = {each.type for each in there if each.type is not None}
+    wanted = end.type
+    if wanted is not None and end.parts:
+        wanted += "Goal"
+    by_topic = generation == 1 and end.role in ("publisher", "subscriber")
+    if wanted not in (None, "*") and types and not by_topic and _plain(wanted) not in map(_plain, types):
+        actual = " | ".join(sorted(types))
+        actual = actual.removesuffix("Goal") if end.parts else actual
+        return Issue("wrong-type", end.role, node, end.name, end.type, actual, place=end.place, source=end.source)
+    for policy in _COMPARED_QOS:
+        asked = end.qos.get(policy)
+        found = {each.qos[policy] for each in there if policy in each.qos}
+        if asked is not None and found and asked not in found:
+            actual = f"{policy} {' | '.join(sorted(map(str, found)))}"
+            return Issue("wrong-qos", end.role, node, end.name, f"{policy} {asked}", actual, place=end.place,
+                         source=end.source)  # fmt: skip
+    return None
+
+
+def _plain(name: str | None) -> str:
+    """`std_msgs/msg/String` may be written without what it is of."""
+    parts = (name or "").split("/")
+    return f"{parts[0]}/{parts[-1]}"
+
+
+def _wrong_topics(nodes: Iterable[ExpectedNode], live: Observation, states: _States) -> Iterator[Issue]:
+    """A master has one type for each topic, that of whom it heard of last: not all ends need to have it."""
+    actual = {end.name: end.type for end in live.ends if end.role in ("publisher", "subscriber")}
+    there = {(end.node, end.role, end.name) for end in live.ends}
+    wanted: dict[str, list[tuple[ExpectedNode, ExpectedEnd]]] = defaultdict(list)
+    for node in nodes:
+        for end in node.ends:
+            owner = node.by or node.name
+            if end.role in ("publisher", "subscriber") and (owner, end.role, end.name) in there:
+                wanted[end.name].append((node, end))
+    for topic, found in wanted.items():
+        types = {end.type for _, end in found} - {None}
+        kind = actual.get(topic)
+        if kind is None or not types or types & {kind, "*"}:
+            continue
+        states.say("publisher", topic, "wrong-type")
+        node, end = min((each for each in found if each[1].type), key=lambda each: each[1].role != "publisher")
+        wanted_types = " | ".join(sorted(map(str, types)))
+        yield Issue(
+            "wrong-type", end.role, node.name, topic, wanted_types, kind, place=end.place, source=end.source
+        )  # fmt: skip

@@ -1,0 +1,95 @@
+"""Graph to what the running system should show."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.graph.actions import topic_ends
+from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.live.model import Expected, ExpectedEnd, ExpectedNode, Place
+from preflight_analysis.rules.places import connection_location, node_location
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.nodelets import nodelet_of
+from preflight_analysis.tracing.request import split_args
+
+_NO_NODES = ("test", "process")
+_HIDDEN = "/_action/"
+"""In what an action of ROS 2 is made of, where a remap moved a part of it: the helper does not show these."""
+_NAME_SERVICE = "/describe_parameters"
+
+
+def expected_of(graph: Graph, documents: Mapping[str, Document]) -> Expected:
+    """What is to be expected of a running system. `documents` has the texts that places are counted in."""
+    ends: dict[int, list[Connection]] = defaultdict(list)
+    for channels in (graph.topics, graph.services, graph.actions):
+        for channel in channels.values():
+            for connection in (*channel.offers, *channel.wants):
+                ends[id(connection.node)].append(connection)
+    nodes = [
+        _node(node, interface, ends[id(node)], graph.tree.generation, documents)
+        for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True)
+        if node.kind not in _NO_NODES
+    ]
+    return Expected(graph.tree.generation, tuple(nodes), graph.tree.complete)
+
+
+def _node(
+    node: LaunchNode,
+    interface: Interface,
+    connections: Iterable[Connection],
+    generation: int,
+    documents: Mapping[str, Document],
+) -> ExpectedNode:
+    connections = list(connections)
+    name, certain = node.name, "$(" not in node.name
+    if not node.named:
+        found = _own_names(connections)
+        name, certain = (found[0], True) if len(found) == 1 else (name, False)
+    loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if generation == 1 else None
+    manager = names.resolve(loaded.manager, node.name) if loaded is not None and loaded.manager is not None else None
+    ended = interface.outcome.status == "exited" and not interface.outcome.exit_code
+    return ExpectedNode(
+        name,
+        tuple(
+            _end(connection, generation, documents)
+            for connection in connections
+            if connection.action is None and not connection.endpoint.builtin and _HIDDEN not in connection.name
+        ),
+        interface.complete and certain,
+        _place(node_location(node), documents),
+        certain,
+        ended,
+        manager,
+    )
+
+
+def _own_names(connections: Iterable[Connection]) -> list[str]:
+    """What a node calls itself that the launch file gives no name, by the services that each node has."""
+    found = {c.name.removesuffix(_NAME_SERVICE) for c in connections if c.name.endswith(_NAME_SERVICE)}
+    return sorted(found)
+
+
+def _end(connection: Connection, generation: int, documents: Mapping[str, Document]) -> ExpectedEnd:
+    end = connection.endpoint
+    is_action = end.role in ("action_client", "action_server")
+    return ExpectedEnd(
+        end.role,
+        connection.name,
+        end.type,
+        end.qos,
+        not end.uncertain,
+        topic_ends(end.role, connection.name) if is_action and generation == 1 else (),
+        _place(connection_location(connection), documents),
+        Place(end.source_file, end.source_line) if end.source_file and end.source_line else None,
+    )
+
+
+def _place(location: Location, documents: Mapping[str, Document]) -> Place:
+    document = documents.get(location.file)
+    line, column = document.lines.position(location.span.start) if document is not None else (0, 0)
+    return Place(location.file, line + 1, column + 1)

@@ -1,0 +1,123 @@
+"""The running system of a ROS 2 domain. Who is there is only known to who takes part: a process of the user's own
+interpreter, with rclpy, tells it (`ros2_helper.py`). It is our code in the user's environment, and started only when
+the user asks to watch."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import threading
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast, get_args
+
+from preflight_analysis.environment.ament import python_folders
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation
+from preflight_analysis.tracing.interface import Role
+
+_HELPER = Path(__file__).with_name("ros2_helper.py")
+_START_SECONDS = 60.0
+"""Seconds until the helper has told the first graph."""
+_ROLES = frozenset(get_args(Role))
+
+
+class Ros2Observer:
+    """Observes the domain that the environment's variables name (ROS_DOMAIN_ID), as soon as it is first asked."""
+
+    def __init__(self, environment: Environment) -> None:
+        self._environment = environment
+        self._process: subprocess.Popen[str] | None = None
+        self._news = threading.Condition()
+        self._latest: Observation | None = None
+        self._error: str | None = None
+
+    @property
+    def place(self) -> str:
+        """What is observed, for people."""
+        return f"ROS 2 domain {self._environment.variables.get('ROS_DOMAIN_ID') or 0}"
+
+    def close(self) -> None:
+        """End the helper."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.wait()
+
+    def observe(self) -> Observation:
+        """The system as it was last told. Raises `CannotObserveError`."""
+        if self._process is None:
+            self._start()
+        with self._news:
+            self._news.wait_for(lambda: self._latest is not None or self._error is not None, _START_SECONDS)
+            if self._error is not None:
+                raise CannotObserveError(self._error, final=True)
+            if self._latest is None:
+                raise CannotObserveError(f"rclpy tells nothing of {self.place}")
+            return self._latest
+
+    def _start(self) -> None:
+        python = self._environment.ros2_python
+        if python is None:
+            raise CannotObserveError(
+                "rclpy was not found, which a running ROS 2 system is asked with: source its set-up script, such as "
+                "`source /opt/ros/jazzy/setup.bash`",
+                final=True,
+            )
+        try:
+            self._process = subprocess.Popen(
+                [python, str(_HELPER)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                env=_variables(self._environment),
+                cwd="/",
+                text=True,
+                errors="replace",
+            )
+        except OSError as error:
+            raise CannotObserveError(f"{python} cannot be started: {error.strerror}", final=True) from None
+        threading.Thread(target=self._read, args=(self._process,), name="observe", daemon=True).start()
+
+    def _read(self, process: subprocess.Popen[str]) -> None:
+        assert process.stdout is not None
+        for line in process.stdout:
+            try:
+                told = json.loads(line)
+                error = told.get("error")
+                observation = None if error else _observation(told)
+            except (ValueError, TypeError, KeyError, AttributeError):
+                continue  # a library that prints
+            with self._news:
+                self._latest, self._error = observation, f"rclpy does not work: {error}" if error else None
+                self._news.notify_all()
+        with self._news:
+            self._error = self._error or f"the process that asks rclpy ended with {process.wait()}"
+            self._news.notify_all()
+
+
+def _observation(told: Mapping[str, Any]) -> Observation:
+    counts = Counter(str(name) for name in told["nodes"])
+    ends = [
+        LiveEnd(cast(Role, role), str(node), str(name), str(kind), {str(k): v for k, v in qos.items()})
+        for role, node, name, kind, qos in told["ends"]
+        if role in _ROLES
+    ]
+    return Observation(2, {name: LiveNode(name, count=count) for name, count in counts.items()}, tuple(ends))
+
+
+def _variables(environment: Environment) -> dict[str, str]:
+    """The user's own, with what sourcing the distribution would add where it is not sourced."""
+    given = dict(environment.variables)
+    prefixes = environment.ament_prefixes
+    for name, folders in (
+        ("PYTHONPATH", [folder for prefix in prefixes for folder in python_folders(prefix)]),
+        ("LD_LIBRARY_PATH", [os.path.join(prefix, "lib") for prefix in prefixes]),
+        ("AMENT_PREFIX_PATH", list(prefixes)),
+    ):
+        here = [entry for entry in given.get(name, "").split(os.pathsep) if entry]
+        if joined := os.pathsep.join(dict.fromkeys((*here, *folders))):
+            given[name] = joined
+    return given

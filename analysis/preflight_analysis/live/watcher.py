@@ -1,0 +1,115 @@
+"""Looks at a running system again and again, and says what is new."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.live.compare import compare
+from preflight_analysis.live.model import CannotObserveError, Comparison, Expected, Issue, Observation
+from preflight_analysis.live.observe_ros1 import Ros1Observer
+from preflight_analysis.live.observe_ros2 import Ros2Observer
+
+
+class Observer(Protocol):
+    """Shows a running system."""
+
+    @property
+    def place(self) -> str:
+        """What is observed, for people."""
+
+    def observe(self) -> Observation:
+        """The system as it is now. Raises `CannotObserveError`."""
+
+    def close(self) -> None:
+        """Leave nothing running."""
+
+
+@dataclass(frozen=True, slots=True)
+class Waiting:
+    """The system cannot be asked; it is waited for unless `final`."""
+
+    reason: str
+    final: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Attached:
+    """The system answers, for the first time or after it could not be asked; `again`: another run of it."""
+
+    place: str
+    again: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """How the system compares. Of the comparison's issues those are left that have lasted."""
+
+    comparison: Comparison
+
+
+Event = Waiting | Attached | State
+
+
+def observer(generation: int, environment: Environment) -> Observer:
+    """What shows the system that the environment's variables lead to."""
+    if generation == 2:
+        return Ros2Observer(environment)
+    return Ros1Observer(environment.variables.get("ROS_MASTER_URI"))
+
+
+class Watcher:
+    """`expected` is asked at each look: it may change. An issue is told once it has lasted `settle` seconds, as nodes
+    take a moment to start, and those that are started again are away for one. `allow_extra`: what is extra does not
+    count."""
+
+    def __init__(
+        self,
+        observer: Observer,
+        expected: Callable[[], Expected],
+        *,
+        settle: float = 0.0,
+        allow_extra: bool = False,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._observer = observer
+        self._expected = expected
+        self._settle = settle
+        self._allow_extra = allow_extra
+        self._clock = clock
+        self._since: dict[Issue, float] = {}
+        self._told: Event | None = None
+        self._run: str | None = None
+        self._was_there = False
+
+    def look(self) -> list[Event]:
+        """What is new since the last look."""
+        try:
+            live = self._observer.observe()
+        except CannotObserveError as error:
+            self._since.clear()
+            return self._new(Waiting(str(error), error.final))
+        events: list[Event] = []
+        # roslaunch gives the run its id a moment after the master has started.
+        restarted = self._was_there and self._run not in (None, live.run)
+        if not self._was_there or isinstance(self._told, Waiting) or restarted:
+            events.append(Attached(self._observer.place, restarted))
+            self._told = None
+        self._was_there, self._run = True, live.run
+        found = compare(self._expected(), live)
+        if self._allow_extra:
+            issues = (replace(i, counts=False) if i.kind == "extra" else i for i in found.issues)
+            found = replace(found, issues=tuple(issues))
+        now = self._clock()
+        self._since = {issue: self._since.get(issue, now) for issue in found.issues}
+        lasting = tuple(issue for issue in found.issues if now - self._since[issue] >= self._settle)
+        return [*events, *self._new(State(replace(found, issues=lasting)))]
+
+    def _new(self, event: Event) -> list[Event]:
+        if event == self._told:
+            return []
+        self._told = event
+        return [event]

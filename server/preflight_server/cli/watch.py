@@ -1,0 +1,127 @@
+"""`ros-preflight watch`: the running system beside what the launch file should have started."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from dataclasses import dataclass, field
+
+from preflight_analysis.live.expected import expected_of
+from preflight_analysis.live.model import Expected, Issue
+from preflight_analysis.live.report import event_json, line, summary
+from preflight_analysis.live.watcher import Attached, Event, Observer, State, Waiting, Watcher, observer
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CLEAN, FAILED, FOUND, CannotDoError
+from preflight_server.cli.output import print_json, print_text, say
+from preflight_server.cli.project import open_project, run_nodes, say_errors
+
+HELP = "compare a running system with what the launch file should have started"
+DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID), compares its
+nodes, topics, services and actions with those that the launch file should have started, and says what is missing, extra
+or of the wrong type, until it is interrupted; with --once until the system is as expected. What is expected is what
+`graph` shows: the nodes are run in a sandbox to see what they do; --no-run executes nothing."""
+_POLL_SECONDS = 0.5
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_running(parser, ("text", "json"))
+    options.add_file(parser)
+    parser.add_argument(
+        "--once",
+        action="store_true",
+        help="wait until the system is as expected, or for --timeout, say what is different and exit: 0 nothing, "
+        "1 something, 2 there was no system to attach to",
+    )
+    parser.add_argument(
+        "--timeout", type=float, default=30.0, metavar="S", help="seconds to wait with --once (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--settle",
+        type=float,
+        default=2.0,
+        metavar="S",
+        help="without --once, a difference is told once it has lasted so many seconds (default: %(default)s)",
+    )
+    parser.add_argument("--allow-extra", action="store_true", help="nodes and ends beyond the expected do not count")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Watch until interrupted, or once."""
+    project = open_project(args)
+    analysis = run_nodes(project, args)
+    if analysis.graph is None:
+        raise CannotDoError("there is no graph")
+    say_errors(analysis)
+    expected = expected_of(analysis.graph, analysis.documents)
+    watched = observer(analysis.tree.generation, analysis.environment)
+    try:
+        return (_once if args.once else _follow)(watched, expected, args)
+    finally:
+        watched.close()
+
+
+def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> int:
+    watcher = Watcher(watched, lambda: expected, allow_extra=args.allow_extra)
+    give_up = time.monotonic() + args.timeout
+    last: Event | None = None
+    while True:
+        last = next(reversed(watcher.look()), last)
+        if isinstance(last, State) and last.comparison.same:
+            break
+        if time.monotonic() >= give_up or (isinstance(last, Waiting) and last.final):
+            break
+        time.sleep(_POLL_SECONDS)
+    assert last is not None
+    if args.format == "json":
+        print_json(event_json(last), indent=None)
+    if not isinstance(last, State):
+        raise CannotDoError(last.reason if isinstance(last, Waiting) else f"{watched.place} tells nothing")
+    found = last.comparison
+    if args.format == "text":
+        print_text("".join(f"{line(issue, os.getcwd())}\n" for issue in found.issues) + f"{summary(found)}\n")
+    return CLEAN if found.same else FOUND
+
+
+def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> int:
+    watcher = Watcher(watched, lambda: expected, settle=args.settle, allow_extra=args.allow_extra)
+    text = _Text()
+    while True:
+        for event in watcher.look():
+            if args.format == "json":
+                print_json(event_json(event), indent=None)
+            else:
+                text.tell(event)
+            sys.stdout.flush()
+            if isinstance(event, Waiting) and event.final:
+                say(f"ros-preflight: {event.reason}")
+                return FAILED
+        time.sleep(_POLL_SECONDS)
+
+
+@dataclass
+class _Text:
+    """The events for people: each difference when it comes and when it goes."""
+
+    shown: dict[Issue, None] = field(default_factory=dict)
+    same: bool | None = None
+
+    def tell(self, event: Event) -> None:
+        """Print what is new."""
+        stamp = time.strftime("%H:%M:%S")
+        if isinstance(event, Waiting):
+            print_text(f"{stamp} waiting: {event.reason}\n")
+        elif isinstance(event, Attached):
+            self.shown, self.same = {}, None
+            print_text(f"{stamp} {'attached to a new run of' if event.again else 'attached to'} {event.place}\n")
+        else:
+            issues = dict.fromkeys(event.comparison.issues)
+            lines = [f"{stamp} - {line(issue, os.getcwd())}\n" for issue in self.shown if issue not in issues]
+            lines += [f"{stamp} + {line(issue, os.getcwd())}\n" for issue in issues if issue not in self.shown]
+            if event.comparison.same != self.same or lines:
+                lines.append(f"{stamp} {summary(event.comparison)}\n")
+            self.shown, self.same = issues, event.comparison.same
+            print_text("".join(lines))

@@ -1,0 +1,148 @@
+"""`watch` beside what real roslaunch started, with a master of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from live_desk import Ros1System, Watching, preflight
+
+pytestmark = pytest.mark.ros
+
+TALKER = "rospy.Publisher('chatter', String, queue_size=1)\nrospy.Service('~reset', Trigger, print)"
+LISTENER = "rospy.Subscriber('chatter', String, print)"
+LAUNCH = """
+<node pkg="pkg" type="talker.py" name="talker" ns="robot"/>
+<node pkg="pkg" type="listener.py" name="$(anon listener)">
+  <remap from="chatter" to="/robot/chatter"/>
+</node>
+"""
+
+
+@pytest.fixture
+def system(tmp_path: Path) -> Iterator[Ros1System]:
+    system = Ros1System(tmp_path)
+    system.node("talker.py", TALKER)
+    system.node("listener.py", LISTENER)
+    yield system
+    system.close()
+
+
+@pytest.fixture
+def watching(system: Ros1System) -> Iterator[Callable[..., Watching]]:
+    started = []
+
+    def start(*args: str | Path) -> Watching:
+        started.append(Watching(system.environment, *args))
+        return started[-1]
+
+    yield start
+    for each in started:
+        each.close()
+
+
+def test_what_was_launched_is_as_expected(system: Ros1System) -> None:
+    file = system.launch_file(LAUNCH)
+    system.launch(file)
+    done = preflight(system.environment, "watch", file, "--once", "--timeout", "60")
+    assert (done.code, done.out, done.err) == (0, "no differences, 2 nodes as expected\n", "")
+
+
+def test_each_kind_of_difference_is_told_with_its_line(system: Ros1System, watching: Callable[..., Watching]) -> None:
+    node = system.node
+    node("other_talker.py", "rospy.Publisher('chatter', Int32, queue_size=1)\nrospy.Service('~reset', Empty, print)")
+    system.launch(
+        system.launch_file(
+            '<node pkg="pkg" type="other_talker.py" name="talker"/>\n'
+            '<node pkg="pkg" type="listener.py" name="listener"><remap from="chatter" to="chater"/></node>\n'
+            '<node pkg="pkg" type="listener.py" name="more"/>'
+        )
+    )
+    file = system.launch_file(
+        '<node pkg="pkg" type="talker.py" name="talker"/>\n'
+        '<node pkg="pkg" type="listener.py" name="listener"/>\n'
+        '<node pkg="pkg" type="listener.py" name="gone"/>',
+        "expected.launch",
+    )
+    watching(file, "--settle", "0").until_told(
+        "/talker publishes /chatter with the type std_msgs/Int32; std_msgs/String was expected",
+        "/talker offers the service /talker/reset with the type std_srvs/Empty; std_srvs/Trigger was expected",
+        "/listener does not subscribe to /chatter (std_msgs/String); it subscribes to /chater",
+        "/listener subscribes to /chater (std_msgs/String), which was not expected",
+        "/gone is not running",
+        "/more runs and is not in the launch file",
+    )
+    there = preflight(system.environment, "watch", file, "--once", "--timeout", "0")
+    assert there.code == 1
+    lines = [line.partition(" (made at ")[0] for line in there.out.splitlines()]
+    assert sorted(lines) == sorted(
+        [
+            f"{file}:2: wrong-type: /talker publishes /chatter with the type std_msgs/Int32; "
+            "std_msgs/String was expected",
+            f"{file}:2: wrong-type: /talker offers the service /talker/reset with the type std_srvs/Empty; "
+            "std_srvs/Trigger was expected",
+            f"{file}:3: missing: /listener does not subscribe to /chatter (std_msgs/String); it subscribes to /chater",
+            f"{file}:3: extra: /listener subscribes to /chater (std_msgs/String), which was not expected",
+            f"{file}:4: missing: /gone is not running",
+            "extra: /more runs and is not in the launch file",
+            "6 differences, 2 nodes as expected",
+        ]
+    )
+    (talker,) = (line for line in there.out.splitlines() if "/talker publishes" in line)
+    assert talker.endswith(f" (made at {system.package / 'talker.py'}:6)")
+    done = preflight(system.environment, "watch", file, "--once", "--timeout", "0", "--allow-extra")
+    assert (done.code, "extra (info): /more runs" in done.out, "4 differences" in done.out) == (1, True, True)
+
+
+def test_the_stream_tells_of_a_start_a_death_an_extra_node_and_a_new_master(
+    system: Ros1System, watching: Callable[..., Watching]
+) -> None:
+    file = system.launch_file(LAUNCH)
+    watch = watching(file, "--settle", "0")
+    waiting = watch.until(lambda event: event["event"] == "waiting")
+    assert waiting == {
+        "schema": "ros-preflight/watch/1",
+        "event": "waiting",
+        "reason": f"the master at http://127.0.0.1:{system.port}/ does not answer: connection refused",
+    }
+    launch = system.launch(file)
+    watch.until(lambda event: event["event"] == "attached")
+    same = watch.until_told()
+    assert (same["same"], same["issues"], same["topics"]) == (True, [], {"/robot/chatter": "present"})
+    assert same["services"] == {"/robot/talker/reset": "present"}
+    assert set(same["nodes"].values()) == {"present"}
+
+    os.kill(system.pid("/robot/talker"), signal.SIGKILL)
+    dead = watch.until_told("/robot/talker is registered and does not answer: connection refused")
+    (issue,) = dead["issues"]
+    assert (issue["kind"], issue["place"]) == ("dead", {"file": str(file), "line": 3, "column": 1})
+    assert (dead["nodes"]["/robot/talker"], dead["topics"]) == ("dead", {"/robot/chatter": "dead"})
+
+    extra = system.start(system.package / "talker.py", "__name:=other")
+    watch.until_told(
+        "/robot/talker is registered and does not answer: connection refused",
+        "/other runs and is not in the launch file",
+    )
+    extra.send_signal(signal.SIGINT)
+    watch.until_told("/robot/talker is registered and does not answer: connection refused")
+
+    system.stop(launch)
+    watch.until(lambda event: event["event"] == "waiting")
+    system.launch(file)
+    assert watch.until(lambda event: event["event"] != "waiting")["event"] == "restarted"
+    assert watch.until_told()["same"]
+    watch.process.send_signal(signal.SIGINT)
+    assert watch.process.wait(60) == 2
+
+
+def test_a_master_that_is_not_there_is_told(system: Ros1System) -> None:
+    file = system.launch_file(LAUNCH)
+    done = preflight(system.environment, "watch", file, "--once", "--timeout", "0", "--no-run", "--format", "json")
+    assert (done.code, json.loads(done.out)["event"]) == (2, "waiting")
+    assert "does not answer: connection refused" in done.err
+    done = preflight({**system.environment, "ROS_MASTER_URI": "robot:11311"}, "watch", file, "--once", "--no-run")
+    assert (done.code, done.out) == (2, "")

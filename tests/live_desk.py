@@ -1,0 +1,219 @@
+"""Real systems that run beside a test: roslaunch with a master of its own, nodes of rclpy in a domain of their own."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import queue
+import random
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+import xmlrpc.client
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from tracing_desk import SYSTEM_PYTHON
+
+LIMIT_SECONDS = 60
+COMMAND = Path(sys.executable).with_name("ros-preflight")
+
+
+def until(condition: Callable[[], Any]) -> None:
+    give_up = time.monotonic() + LIMIT_SECONDS
+    while not condition():
+        assert time.monotonic() < give_up
+        time.sleep(0.02)
+
+
+def private_port() -> int:
+    """A port that is free, and that no outgoing connection takes: those have higher numbers."""
+    while True:
+        port = random.randrange(12000, 32000)
+        with socket.socket() as tried, suppress(OSError):
+            tried.bind(("127.0.0.1", port))
+            return port
+
+
+@contextmanager
+def private_domain() -> Iterator[int]:
+    """A domain of ROS 2 that no other test has."""
+    numbers = random.sample(range(10, 100), 90)
+    for number in numbers:
+        with Path("/tmp", f"ros-preflight-domain-{number}.lock").open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                continue
+            yield number
+            return
+    raise AssertionError("there is no free domain")
+
+
+@dataclass
+class Ros1System:
+    """A workspace with the package `pkg`, and a master of its own."""
+
+    home: Path
+    port: int = field(default_factory=private_port)
+    running: list[subprocess.Popen[bytes]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.package = self.home / "workspace/src/pkg"
+        self.package.mkdir(parents=True)
+        (self.package / "package.xml").write_text('<package format="2"><name>pkg</name></package>')
+
+    @property
+    def environment(self) -> dict[str, str]:
+        return {
+            "PATH": "/usr/bin:/bin",
+            "HOME": str(self.home),
+            "XDG_CACHE_HOME": str(self.home / "cache"),
+            "ROS_HOME": str(self.home / "ros"),
+            "ROS_LOG_DIR": str(self.home / "log"),
+            "ROS_IP": "127.0.0.1",
+            "ROS_PACKAGE_PATH": str(self.package.parent),
+            "ROS_MASTER_URI": f"http://127.0.0.1:{self.port}/",
+        }
+
+    def node(self, name: str, body: str) -> Path:
+        """An executable of the package that makes what `body` says."""
+        path = self.package / name
+        path.write_text(
+            "#!/usr/bin/python3\nimport rospy\nfrom std_msgs.msg import Int32, String\n"
+            f"from std_srvs.srv import Empty, Trigger\nrospy.init_node('unnamed')\n{body}\nrospy.spin()\n"
+        )
+        path.chmod(0o755)
+        return path
+
+    def launch_file(self, content: str, name: str = "a.launch") -> Path:
+        path = self.package / name
+        path.write_text(f"<launch>\n{content}\n</launch>\n")
+        return path
+
+    def launch(self, file: Path) -> subprocess.Popen[bytes]:
+        """Start the real roslaunch, which starts the master."""
+        return self.start("/usr/bin/roslaunch", "-p", str(self.port), str(file))
+
+    def start(self, program: str | Path, *args: str) -> subprocess.Popen[bytes]:
+        """Start a program of Python."""
+        process = subprocess.Popen(
+            [SYSTEM_PYTHON, str(program), *args],
+            env=self.environment,
+            cwd=self.home,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        self.running.append(process)
+        return process
+
+    def stop(self, launch: subprocess.Popen[bytes]) -> None:
+        """Have roslaunch end what it started."""
+        launch.send_signal(signal.SIGINT)
+        launch.wait(LIMIT_SECONDS)
+
+    def pid(self, name: str) -> int:
+        """The process of the node that registered under this name."""
+        with xmlrpc.client.ServerProxy(f"http://127.0.0.1:{self.port}/") as master:
+            address: Any = master.lookupNode("/test", name)
+            with xmlrpc.client.ServerProxy(address[2]) as node:
+                answer: Any = node.getPid("/test")
+        return int(answer[2])
+
+    def close(self) -> None:
+        """End all that was started."""
+        for process in self.running:
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        for process in self.running:
+            try:
+                process.wait(LIMIT_SECONDS)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        for found in Path("/proc").glob("[0-9]*/environ"):
+            with suppress(OSError):
+                if f"ROS_HOME={self.home / 'ros'}".encode() in found.read_bytes().split(b"\0"):
+                    os.kill(int(found.parent.name), signal.SIGKILL)
+
+
+class Watching:
+    """A `ros-preflight watch --format json` that goes on, and what it says."""
+
+    def __init__(self, environment: dict[str, str], *args: str | Path) -> None:
+        self._lines: queue.Queue[dict[str, Any] | None] = queue.Queue()
+        self.seen: list[dict[str, Any]] = []
+        self.process = subprocess.Popen(
+            [str(COMMAND), "watch", *map(str, args), "--format", "json"],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self._lines.put(json.loads(line))
+        self._lines.put(None)
+
+    def until(self, wanted: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
+        """The next event that is wanted."""
+        give_up = time.monotonic() + LIMIT_SECONDS
+        while True:
+            try:
+                event = self._lines.get(timeout=max(0.0, give_up - time.monotonic()))
+            except queue.Empty:
+                raise AssertionError(f"not told within {LIMIT_SECONDS} s; last: {self.seen[-3:]}") from None
+            assert event is not None, self.process.stderr and self.process.stderr.read()
+            self.seen.append(event)
+            if wanted(event):
+                return event
+
+    def until_told(self, *messages: str) -> dict[str, Any]:
+        """The next state in which these are exactly the differences that count."""
+        return self.until(lambda event: event["event"] == "state" and differences(event) == sorted(messages))
+
+    def close(self) -> None:
+        """Interrupt it, as a user does."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        self.process.communicate(timeout=LIMIT_SECONDS)
+
+
+def differences(state: dict[str, Any]) -> list[str]:
+    """What counts."""
+    return sorted(issue["message"] for issue in state["issues"] if issue["counts"])
+
+
+@dataclass(frozen=True)
+class Done:
+    code: int
+    out: str
+    err: str
+
+
+def preflight(environment: dict[str, str], *args: str | Path, cwd: Path | None = None) -> Done:
+    """The command as installed."""
+    done = subprocess.run(
+        [str(COMMAND), *map(str, args)],
+        env=environment,
+        cwd=cwd,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=180,
+        check=False,
+    )
+    assert "Traceback" not in done.stderr, done.stderr
+    return Done(done.returncode, done.stdout, done.stderr)
