@@ -49,6 +49,8 @@ class Performer:
             span = value.problem_span or value.span
             self.state.problem("bad-substitution", self.place.origin(span), text=value.text, message=value.problem)
             return Resolved(value.text, False)
+        if len(value.parts) == 1 and isinstance(value.parts[0], Literal):
+            return Resolved(value.parts[0].text)  # most values, and at each keystroke
         result = self.parts(value.parts)
         if not value.is_literal:
             text = result.text if result.known else None
@@ -57,8 +59,6 @@ class Performer:
 
     def parts(self, parts: Parts) -> Resolved:
         """The pieces put together."""
-        if len(parts) == 1 and isinstance(parts[0], Literal):
-            return Resolved(parts[0].text)
         texts, known = [], True
         for part in parts:
             if isinstance(part, Literal):
