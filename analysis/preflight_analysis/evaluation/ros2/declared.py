@@ -21,30 +21,28 @@ Included = Callable[[str, Action], LaunchFile | None]
 
 @dataclass(slots=True)
 class Declared:
-    """An `<arg>` of the file or of one below it. `passed` are the names that the includes on the way pass, `include` is
-    the `file` of the one that leads to it, None for an argument of the file itself."""
+    """An `<arg>` of the file or of one below it that has no default and is under no condition. `passed` are the names
+    that the includes on the way pass, `include` is the `file` of the one that leads to it, None for an argument of the
+    file itself."""
 
     name: str
     file: str
     span: Span
-    required: bool
-    conditional: bool
     include: Location | None
     passed: list[str] = field(default_factory=list)
 
 
-def declared_arguments(launch_file: LaunchFile, included: Included) -> list[Declared]:
-    """The arguments in the order in which they are met, each name once."""
+def required_arguments(launch_file: LaunchFile, included: Included) -> list[Declared]:
+    """The arguments in the order in which they are met, each name once: one that has a default where it is met first
+    is not required."""
     reader = _Reader(included)
     if launch_file.root is not None:
         reader.read(launch_file.path, launch_file.root.children, None)
-    return [_resolved(found, includes) for found, includes in reader.found]
-
-
-def _resolved(found: Declared, includes: list[Action] | None) -> Declared:
-    for include in includes or ():
-        found.passed += passed_names(include)
-    return found
+    ways = {id(includes): includes for _, includes in reader.found if includes}
+    passed = {way: [name for include in includes for name in passed_names(include)] for way, includes in ways.items()}
+    for declared, includes in reader.found:
+        declared.passed = passed.get(id(includes), [])
+    return [declared for declared, _ in reader.found]
 
 
 def passed_names(include: Action) -> list[str]:
@@ -86,11 +84,10 @@ class _Reader:
         if value is None or value.text in self._names:
             return
         self._names.add(value.text)
-        conditional = conditional or action.attribute("if") is not None or action.attribute("unless") is not None
-        required = action.attribute("default") is None
+        if conditional or any(action.attribute(name) is not None for name in ("default", "if", "unless")):
+            return
         include = self._files[-1][1] if self._files else None
-        declared = Declared(value.text, file, action.head_span, required, conditional, include)
-        self.found.append((declared, includes))
+        self.found.append((Declared(value.text, file, action.head_span, include), includes))
 
     def _sub(self, file: str, action: Action) -> list[tuple[str, tuple[Action, ...]]]:
         if action.kind == "group":

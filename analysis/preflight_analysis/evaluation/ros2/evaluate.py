@@ -15,7 +15,7 @@ from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap, PythonRun
-from preflight_analysis.evaluation.ros2.declared import Declared, declared_arguments
+from preflight_analysis.evaluation.ros2.declared import Declared, required_arguments
 from preflight_analysis.evaluation.ros2.nodes import (
     evaluate_composable,
     evaluate_executable,
@@ -386,9 +386,7 @@ class _Walk:
         names = list(passed)
         if launch_file.partial:
             return
-        for declared in declared_arguments(launch_file, self._included_without_context):
-            if not declared.required or declared.conditional:
-                continue
+        for declared in required_arguments(launch_file, self._included_without_context):
             names += declared.passed
             if declared.name in names:
                 continue
