@@ -26,9 +26,14 @@ class PythonDesk:
 
     folder: Path
 
+    @property
+    def package(self) -> Path:
+        """The folder of the package."""
+        return self.folder / "src" / "p"
+
     def write(self, name: str, text: str) -> Path:
         """A file of the package."""
-        path = self.folder / "src" / "p" / name
+        path = self.package / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(textwrap.dedent(text))
         return path

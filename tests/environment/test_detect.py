@@ -113,6 +113,22 @@ def test_packages_of_ros_2(tmp_path: Path) -> None:
     assert environment.packages["mine"].share == str(opt / "share/mine")
 
 
+def test_a_workspace_of_ros_2_does_not_see_the_packages_of_ros_1(tmp_path: Path) -> None:
+    install_debian(tmp_path)
+    install_ros(tmp_path / "opt" / "ros" / "noetic")
+    ament(tmp_path / "opt" / "ros" / "humble", "rviz2")
+    source = tmp_path / "ws" / "src"
+    manifest = "<package><name>{}</name><export><build_type>{}</build_type></export></package>"
+    for name, build_type in (("mine", "ament_python"), ("vendored", "cmake")):
+        (package(source / name) / "package.xml").write_text(manifest.format(name, build_type))
+    packages = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path)).packages
+    assert sorted(packages) == ["mine", "rviz2", "vendored"]
+    for name, build_type in (("old", "catkin"), ("other", "ament_cmake")):
+        (package(source / name) / "package.xml").write_text(manifest.format(name, build_type))
+    packages = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path)).packages
+    assert {"rospy", "catkin"} <= set(packages), "launch files of ROS 1 are beside them"
+
+
 def test_workspace_comes_before_what_is_installed_and_after_what_is_sourced(tmp_path: Path) -> None:
     install_debian(tmp_path)
     overlay = package(tmp_path / "overlay" / "p")

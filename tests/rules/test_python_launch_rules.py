@@ -35,11 +35,11 @@ class Answers:
         return self.answer if parse_request(line) is not None else None
 
 
-def _launched(folder: Path, answer: Any) -> Analysis:
+def _launched(folder: Path, answer: Any, packages: Path | None = None, *, text: str = TEXT) -> Analysis:
     path = folder / "a.launch.py"
-    path.write_text(TEXT)
+    path.write_text(text)
     (folder / "helper.py").write_text("def made(n):\n    return {}[n]\n")
-    environment = detect_environment(None, {"PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(folder),))
+    environment = detect_environment(None, {"PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(packages or folder),))
     result = (
         answer if isinstance(answer, CommandResult) or answer is None else CommandResult("done", json.dumps(answer))
     )
@@ -65,7 +65,33 @@ def test_an_exception_is_shown_on_the_line_of_the_launch_file(tmp_path: Path) ->
 def test_a_module_that_is_missing_here_need_not_be_missing_there(tmp_path: Path) -> None:
     error = _error(tmp_path, "ModuleNotFoundError", "No module named 'x'", module="x")
     (finding,) = _launched(tmp_path, error).findings
-    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH032", "warning", False)
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH032", "info", False)
+    assert "no ROS is installed here" in finding.message
+
+
+def test_with_ros_a_missing_module_has_to_be_installed(tmp_path: Path) -> None:
+    manifest = "<package><name>{}</name><exec_depend>nav2_common</exec_depend></package>"
+    for name in ("rclpy", "robot"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(manifest.format(name))
+    folder = tmp_path / "robot"
+    for module, advice in (("nav2_common", "rosdep install"), ("x", "name that in the package.xml")):
+        said = f"No module named '{module}'"
+        (finding,) = _launched(folder, _error(folder, "ModuleNotFoundError", said, module=module), tmp_path).findings
+        assert (finding.rule, finding.severity) == ("LCH032", "warning")
+        assert advice in finding.message
+    said = "cannot import name 'Newer' from 'launch.actions'"
+    (finding,) = _launched(folder, _error(folder, "ImportError", said, module="launch.actions"), tmp_path).findings
+    assert "a newer launch" in finding.message
+
+
+def test_a_variable_of_the_environment_that_is_not_set(tmp_path: Path) -> None:
+    text = "import os\nMODEL = os.environ['MODEL']\nOTHER = {}['MODEL']\n"
+    for line, rule, severity in ((2, "LCH012", "warning"), (3, "LCH032", "error")):
+        frames = [[str(tmp_path / "a.launch.py"), line, "<module>"]]
+        error = {"error": {"type": "KeyError", "message": "'MODEL'", "frames": frames}}
+        (finding,) = _launched(tmp_path, error, text=text).findings
+        assert (finding.rule, finding.severity, finding.stops_launch) == (rule, severity, True)
 
 
 def test_a_run_that_ends_badly(tmp_path: Path) -> None:

@@ -41,6 +41,20 @@ def test_what_launch_does_not_know_stops_it() -> None:
     """)
 
 
+def test_what_is_made_to_be_included_may_use_what_is_configured_there() -> None:
+    check("""
+        //- /part.launch.xml
+        <launch>
+          <arg name="robot"/>
+          ^^^^^^^^^^^^^^^^^^^ info[ARG003] argument 'robot' has no default
+          <node pkg="p" exec="x" name="a" namespace="$(var site)"/>
+                                                     ^^^^^^^^^^^ info[ARG001] another launch file that includes this one
+          <node pkg="p" exec="x" name="b" namespace="$(var robto)"/>
+                                                     ^^^^^^^^^^^^ error[ARG001] did you mean 'robot'?
+        </launch>
+    """)
+
+
 def test_yaml_in_the_middle_of_typing() -> None:
     check("""
         //- /robot.launch.yaml
@@ -174,6 +188,21 @@ def test_values_above_the_mark() -> None:
           rate: 30
           ^^^^ error[PRM012] 'rate' does not stand below 'ros__parameters'
           name: front
+    """)
+
+
+def test_a_component_takes_a_file_without_the_mark() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node_container pkg="p" exec="x" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::A" name="a"><param from="/a.yaml"/></composable_node>
+          </node_container>
+        </launch>
+        //- /a.yaml
+        rate: 30
+        //- interfaces
+        {"/a": {"params": {"~rate": 1}}}
     """)
 
 

@@ -115,7 +115,7 @@ def test_what_is_not_there_is_told(desk: PythonDesk) -> None:
     assert [f.rule for f in analysis.findings] == ["PKG001"]
     path = _described(desk, "Node(package='p', executable='x', name='n')", before="import no_such_module\n")
     analysis = desk.launch(path)
-    assert [(f.rule, f.severity) for f in analysis.findings if f.rule == "LCH032"] == [("LCH032", "warning")]
+    assert [(f.rule, f.severity) for f in analysis.findings if f.rule == "LCH032"] == [("LCH032", "info")]
     assert [node.name for node in analysis.tree.nodes] == ["/n"], "what is written is read all the same"
     assert not analysis.tree.complete
 
@@ -376,3 +376,39 @@ def test_what_another_version_of_ours_told_is_not_kept(desk: PythonDesk, monkeyp
     monkeypatch.setattr(launch_files, "_edition", lambda: "another")
     desk.launch(path)
     assert len(runs) == 1
+
+
+def test_what_a_newer_launch_has(desk: PythonDesk) -> None:
+    desk.write("a/b", "")
+    path = _described(
+        desk,
+        "ForLoop('2', function=lambda i: [Node(package='p', executable='x', name=f'loop{i}')])",
+        "ForEach(\"{name: 'a'};{name: 'b'}\", function=lambda name: [Node(package='p', executable='x', name=name)])",
+        "Node(package='p', executable='x', name='n', parameters=[PathSubstitution(FindPackageShare('p')) / 'a' / 'b'])",
+    )
+    tree = desk.launch(path).tree
+    assert [node.name for node in tree.nodes] == ["/loop0", "/loop1", "/a", "/b", "/n"]
+    assert [source.path for source in tree.nodes[-1].param_sources] == [str(desk.package / "a" / "b")]
+
+
+def test_a_file_for_launch_test_is_a_launch_file(desk: PythonDesk) -> None:
+    path = desk.write(
+        "test/test_launch.py",
+        HEAD
+        + """
+import launch_testing
+import unittest
+
+def generate_test_description(ready_fn):
+    node = Node(package='p', executable='x', name='n')
+    keep = launch_testing.util.KeepAliveProc()
+    return LaunchDescription([node, keep, launch_testing.actions.ReadyToTest()]), locals()
+
+@launch_testing.post_shutdown_test()
+class Ends(unittest.TestCase):
+    pass
+""",
+    )
+    analysis = desk.launch(path)
+    assert [node.name for node in analysis.tree.nodes] == ["/n"]
+    assert [finding.message for finding in analysis.findings if finding.rule == "LCH032"] == []

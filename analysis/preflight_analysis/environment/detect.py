@@ -22,6 +22,8 @@ BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated",
 SETTINGS_FILE = ".ros-preflight.yaml"
 
 _ROS1_DISTROS = ("kinetic", "lunar", "melodic", "noetic")
+_OF_ROS1 = (None, "catkin")
+"""The build types of packages for ROS 1; one with `cmake` is for both."""
 _PYTHON_LIBRARY = re.compile(r"^(.*)/lib/python(3(?:\.\d+)?|2\.7)/(?:dist|site)-packages/?$")
 _DEBIAN_MARKS = ("rospy", "roslib", "roslaunch", "roscpp", "std_msgs", "genmsg")
 
@@ -102,6 +104,8 @@ def detect_environment(
     prefixes = ament_prefixes(variables, colcon or workspace, root) if package_path is None else []
     packages = {**installed_packages(prefixes), **found.packages}
     ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
+    if ros2 and package_path is None:
+        packages = _without_installed_ros1(packages, _own(workspace, found.packages.values()), prefixes)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     ros2_python = rclpy_interpreter(given, prefixes, root)
@@ -215,9 +219,33 @@ def _is_ros2(
     by what is installed."""
     if variables.get("ROS_VERSION") in ("1", "2"):
         return variables["ROS_VERSION"] == "2"
-    own = [p for p in packages if workspace is not None and p.share.startswith(workspace.rstrip("/") + "/")]
+    own = _own(workspace, packages)
     ament = sum(package.generation == 2 for package in own)
-    return ament * 2 > len(own) if own else bool(prefixes) and not variables.get("ROS_PACKAGE_PATH")
+    return (
+        ament > sum(package.build_type in _OF_ROS1 for package in own)
+        if own
+        else bool(prefixes) and not variables.get("ROS_PACKAGE_PATH")
+    )
+
+
+def _own(workspace: str | None, packages: Iterable[Package]) -> list[Package]:
+    return [p for p in packages if workspace is not None and p.share.startswith(workspace.rstrip("/") + "/")]
+
+
+def _without_installed_ros1(
+    packages: Mapping[str, Package], own: Sequence[Package], prefixes: Sequence[str]
+) -> dict[str, Package]:
+    """Where all packages of a workspace are for ROS 2, an installed ROS 1 is none of theirs: `ros2 launch` sees nothing
+    of its rviz or joint_state_publisher."""
+    if not own or any(package.build_type in _OF_ROS1 for package in own):
+        return dict(packages)
+    own_names = {package.name for package in own}
+    kept = tuple(f"{prefix}/" for prefix in prefixes)
+    return {
+        name: package
+        for name, package in packages.items()
+        if name in own_names or package.generation == 2 or package.share.startswith(kept)
+    }
 
 
 def _with_parents(folder: str) -> Iterator[str]:

@@ -11,6 +11,7 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    part_of_another = _is_part_of_another(context)
     for problem in problems_of(rule, context):
         name, place = str(problem.data["name"]), problem.location
         message = f"argument '{name}' is not declared"
@@ -24,7 +25,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         near = nearest(name, problem.data["declared"])
         fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
+        if near is None and part_of_another:
+            message += ": another launch file that includes this one has to set it"
+            yield problem_finding(rule, problem, message, severity="info", confidence="possible", fixes=fixes)
+            continue
         yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
+
+
+def _is_part_of_another(context: Context) -> bool:
+    """Whether what is launched here is made to be included: it needs arguments, and in ROS 2 all that is configured
+    where it is included is known in it, declared or not."""
+    needed = any(problem.kind == "root-arg-required" for problem in context.tree.problems)
+    return context.tree.generation == 2 and needed
 
 
 RULE = Rule(

@@ -7,7 +7,8 @@ RULE = Rule(
     id="LCH012",
     name="environment-variable-unset",
     severity="warning",
-    what="Reports `$(env NAME)` of a variable that is not set in the environment in which the analysis looks.",
+    what="Reports `$(env NAME)`, and `os.environ['NAME']` in a Python launch file, of a variable that is not set in "
+    "the environment in which the analysis looks.",
     why="`roslaunch` stops where the variable is not set. It may be set on the robot, hence a warning.",
     example='<arg name="robot" default="$(env ROBOT)"/>',
     instead='<arg name="robot" default="$(optenv ROBOT turtle)"/>',

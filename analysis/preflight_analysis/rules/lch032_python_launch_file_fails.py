@@ -1,10 +1,16 @@
 """LCH032: a Python launch file raises an exception."""
 
+import re
 from collections.abc import Iterator
 
+from preflight_analysis.environment.shares import package_around
+from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
+from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.problems import include_chain, problems_of
 from preflight_analysis.rules.rule import Context, Rule
+
+_LAUNCH = re.compile(r"launch(_\w+)?\Z")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -14,8 +20,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         related: tuple[Related, ...] = ()
         if problem.kind == "python-import":
             # Which modules there are is a matter of the environment, which may be another one when it is launched.
-            severity, confidence = "warning", "likely"
-            message = f"the launch file cannot be run here: {problem.data['message']}"
+            there = has_ros(context)
+            severity, confidence = ("warning", "likely") if there else ("info", "possible")
+            message = _import(context, problem, has_ros=there)
         else:
             error, said = problem.data["error"], problem.data["message"]
             message = f"{error}: {said}" if error else f"the launch file cannot be run: {said}"
@@ -29,6 +36,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=(*related, *include_chain(problem.origin)),
             stops_launch=problem.fatal,
         )
+
+
+def _import(context: Context, problem: Problem, *, has_ros: bool) -> str:
+    """What is missing, and what to do about it; the rest of the file counts as far as its text tells."""
+    said = str(problem.data["message"])
+    message = f"the launch file cannot be run here, so it counts as far as its text tells: {said}"
+    module = str(problem.data["module"]).partition(".")[0]
+    if not said.startswith("No module named"):
+        known = _LAUNCH.match(module)
+        return f"{message}; a newer {module} than the one that is known here may have it" if known else message
+    if module in context.environment.packages:
+        return f"{message}; package '{module}' is in the workspace and is not built"
+    if not has_ros:
+        return f"{message}; no ROS is installed here, which most modules of launch files come with"
+    owner = package_around(context.environment, problem.location.file)
+    names = {module, f"python3-{module}", f"python3-{module.replace('_', '-')}"}
+    if owner is None or names.isdisjoint(owner.dependencies):
+        return f"{message}; install what it is part of, and name that in the package.xml of the package"
+    return f"{message}; package.xml names it: install it with `rosdep install --from-paths src --ignore-src`"
 
 
 RULE = Rule(

@@ -7,13 +7,11 @@ from functools import cache, partial
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
-
-_CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
-"""Packages of which each installation of ROS 2 has at least one."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -50,7 +48,7 @@ def _finding(
     renamed, near = meant
     fixes = rename(context, location, name, near) if near else ()
     # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
-    expected = near is None and not _has_ros(context)
+    expected = near is None and not has_ros(context)
     note = "; no ROS is installed here, so the packages of ROS itself are not known" if expected else ""
     hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     return rule.finding(
@@ -62,13 +60,6 @@ def _finding(
         fixes=fixes,
         stops_launch=stops,
     )
-
-
-def _has_ros(context: Context) -> bool:
-    """Whether ROS itself is installed, and not only a workspace there."""
-    if context.tree.generation == 1:
-        return context.environment.python is not None
-    return not _CORE.isdisjoint(context.environment.packages)
 
 
 def _in_folder_of_that_name(context: Context, name: str) -> Package | None:

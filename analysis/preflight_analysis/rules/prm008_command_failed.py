@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -60,8 +61,8 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         message = f"there is no program '{program}' on the PATH of this environment"
         package = _DEBIAN.get(name)
         if package:
-            message += f"; install it: apt install ros-{context.environment.distro or 'noetic'}-{package}"
-        if context.environment.python is None:  # without ROS its programs are missing by nature
+            message += f"; install it: apt install ros-{_distribution(context)}-{package}"
+        if not has_ros(context):  # without ROS its programs are missing by nature
             severity, confidence = "info", "possible"
     elif os.path.isfile(program):
         message = f"'{shown(program, context)}' is not executable; chmod +x {program}"
@@ -83,6 +84,11 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         fixes=rename(context, location, name, near) if near else (),
         stops_launch=stops,
     )
+
+
+def _distribution(context: Context) -> str:
+    """Its name as packages have it; of ROS 2 there are many in use."""
+    return context.environment.distro or ("noetic" if context.tree.generation == 1 else "$ROS_DISTRO")
 
 
 def _will_build(context: Context, program: str) -> str | None:

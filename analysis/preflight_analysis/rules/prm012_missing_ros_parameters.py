@@ -17,8 +17,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             document = context.documents.get(path) if path is not None else None
             if path is None or path in seen or not isinstance(document, Document):
                 continue
+            file = read_param_file(document.text)
+            if node.kind == "composable" and not file.sections:
+                continue  # launch_ros reads it and gives it to the container as it stands
             seen.add(path)
-            for name, span in read_param_file(document.text).unmarked[:1]:
+            for name, span in file.unmarked[:1]:
                 message = (
                     f"'{name}' does not stand below '{MARK}', which has to follow the node's name: the file is refused"
                 )
@@ -31,7 +34,7 @@ RULE = Rule(
     name="missing-ros-parameters",
     severity="error",
     what="Reports a value in a parameter file that stands below a node's name without `ros__parameters` between (ROS "
-    "2). The first one of a file is reported.",
+    "2). The first one of a file is reported. A file for a component may do without: `launch_ros` reads it itself.",
     why="The client libraries refuse the whole file, and the node does not start.",
     example="camera:\n  rate: 30",
     instead="camera:\n  ros__parameters:\n    rate: 30",

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.tree import Problem
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.rule import Check, Context, Rule
 
@@ -26,6 +26,7 @@ def problem_finding(
     message: str,
     *,
     severity: Severity | None = None,
+    confidence: Confidence = "certain",
     related: Iterable[Related] = (),
     fixes: Iterable[Fix] = (),
 ) -> Finding:
@@ -34,6 +35,7 @@ def problem_finding(
         message,
         problem.location,
         severity=severity,
+        confidence=confidence,
         related=(*related, *include_chain(problem.origin)),
         fixes=fixes,
         stops_launch=problem.fatal,

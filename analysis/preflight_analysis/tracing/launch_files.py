@@ -31,7 +31,8 @@ _START = (
 
 def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes.Recipe:
     """The recipe of a request (`evaluation.ros2.python_runs.parse_request`)."""
-    python = environment.python or sys.executable
+    # What the file imports is what the user's ROS 2 has, and that is for its interpreter.
+    python = environment.ros2_python or environment.python or sys.executable
     job = {
         **request,
         "packages": {name: package.share for name, package in environment.packages.items()},

@@ -82,6 +82,13 @@ def read_param_file(text: str) -> ParamFile:
     return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked))
 
 
+@lru_cache(maxsize=64)
+def read_flat_file(text: str) -> tuple[FileParam, ...]:
+    """The parameters of a file without any `ros__parameters`, which `launch_ros` gives to a component as they stand."""
+    node = parse_yaml("", text).node
+    return tuple(_Reader().params(node)) if isinstance(node, yaml.MappingNode) else ()
+
+
 class _Reader:
     def __init__(self) -> None:
         self.sections: list[Section] = []
@@ -106,6 +113,10 @@ class _Reader:
     def _is_enough(self, depth: int) -> bool:
         self._keys += 1
         return depth > _MAX_DEPTH or self._keys > _MAX_KEYS
+
+    def params(self, node: yaml.MappingNode) -> Iterator[FileParam]:
+        """All that stands below `node`."""
+        return self._params(node, "", 0)
 
     def _params(self, node: yaml.MappingNode, prefix: str, depth: int) -> Iterator[FileParam]:
         for key, value in node.value:

@@ -14,7 +14,7 @@ from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
-from preflight_analysis.evaluation.ros2.param_files import EVERY, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import EVERY, Section, read_flat_file, read_param_file
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_valid
 from preflight_analysis.evaluation.tree import Param, ParamSource
@@ -171,6 +171,8 @@ def file_source(
     reaching = [s for s in file.sections if s.reaches(to.node, composable=to.composable)]
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
+        if not file.sections:
+            reaching = [Section(EVERY, (), read_flat_file(text), EVERY)]
     params, keys = [], []
     for section in reaching:
         for param in section.params:

@@ -13,7 +13,8 @@ import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import digest
@@ -30,6 +31,7 @@ from preflight_analysis.launch.python_source import PythonSource
 MARK = "\0launch file "
 """What no command line begins with."""
 _PACKAGE = re.compile(r"package '([^']*)' not found")
+_ENVIRON = re.compile(r"environ\s*\[\s*['\"]([^'\"]+)['\"]\s*\]")
 _PACKAGE_ERROR = "PackageNotFoundError"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
 
@@ -44,6 +46,13 @@ class Answer:
     changed: Mapping[str, str] | None = None
     removed: tuple[str, ...] = ()
     variables: Mapping[str, str] | None = None
+
+
+class _Told(NamedTuple):
+    """What an answer says, and its text."""
+
+    values: Mapping[str, Any]
+    output: str
 
 
 def request(run: PythonRun) -> str:
@@ -71,15 +80,15 @@ def recorded(
         at = Location(launch_file.path, document.problems[0].span)
         state.note_unknown(launch_file.path, "it cannot be run as it is", at)
         return launch_file, None
-    source = PythonSource(document.text, document.lines)
+    source = _source(document.text)
     run = PythonRun(launch_file.path, document.text, _variables(context), (), source)
     place = Place(launch_file.path, chain, run)
     whole = Span(0, 0)
     told = _ask(state, place, run, place.origin(whole), sure=True)
     if told is None or launch_file.root is None:
         return launch_file, None
-    children = actions_of(told.get("actions"), source, whole)
-    context.scope.environment.update(_texts(told.get("env")) or {})
+    children = _actions(told.output, source, whole)
+    context.scope.environment.update(_texts(told.values.get("env")) or {})
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
@@ -107,12 +116,12 @@ def called(
     if told is None:
         return None
     if what == "perform":
-        text = told.get("text")
+        text = told.values.get("text")
         return Answer(place, text=text) if isinstance(text, str) else None
-    changed, removed = _texts(told.get("set")), told.get("unset")
+    changed, removed = _texts(told.values.get("set")), told.values.get("unset")
     gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
-    actions = actions_of(told.get("actions"), run.source, at)
-    return Answer(replace(place, run=run), actions, None, changed, gone, _texts(told.get("env")))
+    actions = _actions(told.output, run.source, at)
+    return Answer(replace(place, run=run), actions, None, changed, gone, _texts(told.values.get("env")))
 
 
 @per_file
@@ -146,7 +155,7 @@ def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
     return found, complete
 
 
-def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure: bool) -> dict[str, Any] | None:
+def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure: bool) -> _Told | None:
     """The answer to a run, None if there is none or it has failed. `sure`: all that the run was given is known, so
     that its failure is one of the file."""
     line = request(run)
@@ -164,10 +173,7 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         state.problem("python-exception", origin, error="", message=result.reason, frames=())
         state.note_unknown(what, result.reason, origin[-1])
         return None
-    try:
-        told = json.loads(result.output)
-    except (ValueError, RecursionError):
-        told = None
+    told = _read(result.output)
     if not isinstance(told, dict):
         state.note_unknown(what, "its run gave no answer that can be read", origin[-1])
         return None
@@ -179,7 +185,30 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
     if isinstance(error, dict):
         _raised(state, place, run, error, origin, sure=sure)
         return None
-    return told
+    return _Told(told, result.output)
+
+
+@lru_cache(maxsize=64)
+def _source(text: str) -> PythonSource:
+    return PythonSource(text, LineIndex(text))
+
+
+# A file whose functions ask for more runs, one after another, is evaluated again after each of them.
+
+
+@lru_cache(maxsize=256)
+def _read(output: str) -> Any:
+    """What an answer says, which nobody changes; None if it cannot be read."""
+    try:
+        return json.loads(output)
+    except (ValueError, RecursionError):
+        return None
+
+
+@lru_cache(maxsize=256)
+def _actions(output: str, source: PythonSource, around: Span) -> tuple[Action, ...]:
+    """The actions of an answer."""
+    return actions_of(_read(output).get("actions"), source, around)
 
 
 def _raised(
@@ -200,8 +229,11 @@ def _raised(
     if here:
         origin = place.origin(run.source.line_span(here[-1]))
     package = _PACKAGE.search(message) if name == _PACKAGE_ERROR else None
+    variable = _variable(run, here[-1], message) if name == "KeyError" and here else None
     if package is not None:
         state.problem("package-not-found", origin, name=package[1])
+    elif variable is not None:
+        state.problem("env-unset", origin, name=variable)
     elif name in _IMPORT_ERRORS:
         module = str(error.get("module", ""))
         state.problem("python-import", origin, fatal=False, module=module, message=message)
@@ -209,6 +241,12 @@ def _raised(
         behind = [(file, line) for file, line in own if file.startswith("/")]
         places = tuple(_frame(state, run, file, line) for file, line in behind)
         state.problem("python-exception", origin, error=name, message=message, frames=places)
+
+
+def _variable(run: PythonRun, line: int, message: str) -> str | None:
+    """The environment variable that `os.environ['NAME']` on the line misses."""
+    span = run.source.line_span(line)
+    return next((n for n in _ENVIRON.findall(run.text[span.start : span.end]) if f"'{n}'" == message), None)
 
 
 def _frame(state: Collector, run: PythonRun, file: str, line: int) -> Location:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections.abc
+import importlib
 import os
 from typing import Any, Iterable, Optional
 
@@ -418,6 +419,37 @@ class OpaqueFunction(Action):
 
     def execute(self, context: LaunchContext) -> Any:
         return self.__function(context, *self.__args, **self.__kwargs)
+
+    def preflight_tell(self, t: Any) -> None:
+        t.opaque()
+
+
+class ForLoop(Action):
+    """Calls its function with 0, 1, ... up to a length. Of a launch newer than 3.7, as `ForEach`."""
+
+    def __init__(self, length: Any, *, function: Any, **left_over_kwargs: Any) -> None:
+        super().__init__(**{k: v for k, v in left_over_kwargs.items() if k == "condition"})
+        self.__length, self.__function = normalize_to_list_of_substitutions(length), function
+
+    def execute(self, context: LaunchContext) -> Any:
+        length = int(perform_substitutions(context, self.__length))
+        return [entity for i in range(length) for entity in self.__function(i) or ()]
+
+    def preflight_tell(self, t: Any) -> None:
+        t.opaque()
+
+
+class ForEach(Action):
+    """Calls its function with each of the sets of values of a text: `{name: 'a', id: 1};{name: 'b', id: 2}`."""
+
+    def __init__(self, input_values: Any, *, function: Any, **left_over_kwargs: Any) -> None:
+        super().__init__(**{k: v for k, v in left_over_kwargs.items() if k == "condition"})
+        self.__values, self.__function = normalize_to_list_of_substitutions(input_values), function
+
+    def execute(self, context: LaunchContext) -> Any:
+        yaml = importlib.import_module("yaml")  # only an interpreter with ROS must have it
+        sets = [yaml.safe_load(each) for each in perform_substitutions(context, self.__values).strip("; ").split(";")]
+        return [entity for each in sets if each for entity in self.__function(**each) or ()]
 
     def preflight_tell(self, t: Any) -> None:
         t.opaque()

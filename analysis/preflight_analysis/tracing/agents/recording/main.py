@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import inspect
 import json
 import os
 import stat
@@ -54,7 +55,7 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     sys.modules["python_launch_file"] = module
     code = compile(job["text"], job["file"], "exec", dont_inherit=True)
     exec(code, vars(module))  # noqa: S102 - what this is for; inside the sandbox
-    description = module.generate_launch_description()
+    description = _description(module)
     if not isinstance(description, LaunchDescription):
         kind = type(description).__name__
         raise TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
@@ -63,6 +64,16 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     for call in job["calls"]:
         result = _call(call)
     return result
+
+
+def _description(module: types.ModuleType) -> Any:
+    """What the file describes; one for `launch_test` has another function, which gives values for the tests besides."""
+    of_tests = getattr(module, "generate_test_description", None)
+    if of_tests is None or hasattr(module, "generate_launch_description"):
+        return module.generate_launch_description()
+    takes_ready = "ready_fn" in inspect.signature(of_tests).parameters
+    found = of_tests(ready_fn=lambda: None) if takes_ready else of_tests()
+    return found[0] if isinstance(found, tuple) and found else found
 
 
 def _call(call: dict[str, Any]) -> dict[str, Any]:

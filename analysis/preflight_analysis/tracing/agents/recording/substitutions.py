@@ -132,8 +132,18 @@ class PathJoinSubstitution(Worded):
     def substitutions(self) -> list[Parts]:
         return list(self.words)
 
+    def __truediv__(self, more: Any) -> PathJoinSubstitution:
+        return PathJoinSubstitution([*self.words, more])
+
     def perform(self, context: LaunchContext) -> str:
         return os.path.join(*(self._text(context, i) for i in range(len(self.words))))
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """`PathSubstitution(share) / "launch"`, of a launch newer than 3.7."""
+
+    def __init__(self, path: Any) -> None:
+        super().__init__([path])
 
 
 class Command(Worded):
