@@ -1,0 +1,181 @@
+"""`watch` beside real nodes of rclpy, in a domain of their own."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from live_desk import LIMIT_SECONDS, Watching, preflight, private_domain
+from ros2_desk import Ros2Desk, node_of, ros2_prefix
+
+TALKER = node_of(
+    """
+    self.create_publisher(String, 'chatter', 10)
+    self.create_service(Trigger, '~/reset', print)
+    """,
+    "from std_srvs.srv import Trigger",
+)
+LISTENER = node_of("self.create_subscription(String, 'chatter', print, 10)")
+OTHER = node_of("self.create_publisher(Int32, 'chatter', qos_profile_sensor_data)", "from std_msgs.msg import Int32",
+                "from rclpy.qos import qos_profile_sensor_data")  # fmt: skip
+CALLER = node_of("self.create_client(Trigger, 'talker/reset')", "from std_srvs.srv import Trigger")
+LAUNCH = """<launch>
+<node pkg='pkg' exec='talker' name='talker' namespace='robot'/>
+<node pkg='pkg' exec='listener'><remap from='chatter' to='/robot/chatter'/></node>
+</launch>"""
+
+
+class System:
+    """Nodes of the package `pkg` in a domain of their own."""
+
+    def __init__(self, folder: Path, domain: int) -> None:
+        self.desk = Ros2Desk(folder, talker=TALKER, listener=LISTENER, other=OTHER, caller=CALLER)
+        self.file = self.desk.write("launch/a.launch.xml", LAUNCH)
+        self.environment = {
+            **self.desk.variables,
+            "XDG_CACHE_HOME": str(folder / "cache"),
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_LOG_DIR": str(folder / "log"),
+        }
+        self.running: list[subprocess.Popen[bytes]] = []
+
+    def start(self, module: str, *rules: str) -> subprocess.Popen[bytes]:
+        """Start a node with these remaps."""
+        remaps = [word for rule in rules for word in ("-r", rule)]
+        process = subprocess.Popen(
+            [ros2_prefix() / "bin/python3", "-c", f"from pkg.{module} import main; main()", "--ros-args", *remaps],
+            env=self.environment,
+            cwd=self.desk.package,
+            stdin=subprocess.DEVNULL,
+        )
+        self.running.append(process)
+        return process
+
+    def close(self) -> None:
+        for process in self.running:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def system(tmp_path: Path) -> Iterator[System]:
+    with private_domain() as domain:
+        system = System(tmp_path, domain)
+        yield system
+        system.close()
+
+
+@pytest.fixture
+def watch(system: System) -> Iterator[Watching]:
+    watching = Watching(system.environment, system.file, "--settle", "0")
+    yield watching
+    watching.close()
+
+
+def launched(system: System) -> subprocess.Popen[bytes]:
+    """What `ros2 launch` would start; the one that may be killed."""
+    system.start("listener", "chatter:=/robot/chatter")
+    return system.start("talker", "__node:=talker", "__ns:=/robot")
+
+
+def helpers(domain: str) -> list[str]:
+    """The processes that look at this domain for us."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            environment = (process / "environ").read_bytes().split(b"\0")
+            command = (process / "cmdline").read_text(errors="replace")
+        except OSError:
+            continue
+        if f"ROS_DOMAIN_ID={domain}".encode() in environment and "ros2_helper" in command:
+            found.append(process.name)
+    return found
+
+
+def test_the_stream_tells_of_a_start_a_death_and_extra_nodes(system: System, watch: Watching) -> None:
+    attached = watch.until(lambda event: event["event"] != "waiting")
+    assert attached == {
+        "schema": "ros-preflight/watch/1",
+        "event": "attached",
+        "to": f"ROS 2 domain {system.environment['ROS_DOMAIN_ID']}",
+    }
+    watch.until_told("/robot/talker is not running", "/own is not running")
+    talker = launched(system)
+    same = watch.until_told()
+    assert (same["nodes"], same["topics"], same["services"]) == (
+        {"/robot/talker": "present", "/own": "present"},
+        {"/robot/chatter": "present"},
+        {"/robot/talker/reset": "present"},
+    )
+
+    talker.kill()
+    gone = watch.until_told("/robot/talker is not running")
+    (issue,) = gone["issues"]
+    assert issue["place"] == {"file": str(system.file), "line": 2, "column": 1}
+    assert gone["topics"] == {"/robot/chatter": "missing"}
+
+    system.start("talker", "__node:=talker", "__ns:=/robot")
+    watch.until_told()
+    extra = system.start("talker", "__node:=more")
+    watch.until_told("/more runs and is not in the launch file")
+    extra.send_signal(signal.SIGINT)
+    watch.until_told()
+
+    (helper,) = helpers(system.environment["ROS_DOMAIN_ID"])
+    os.kill(int(helper), signal.SIGKILL)
+    assert watch.process.wait(LIMIT_SECONDS) == 2
+    assert helpers(system.environment["ROS_DOMAIN_ID"]) == []
+
+
+def test_a_wrong_type_and_a_misspelt_topic_are_told(system: System, watch: Watching) -> None:
+    system.start("listener", "chatter:=/robot/chater")
+    system.start("other", "__node:=talker", "__ns:=/robot")
+    found = (
+        "/own does not subscribe to /robot/chatter (std_msgs/msg/String); it subscribes to /robot/chater",
+        "/own subscribes to /robot/chater (std_msgs/msg/String), which was not expected",
+        "/robot/talker does not offer the service /robot/talker/reset (std_srvs/srv/Trigger)",
+        "/robot/talker publishes /robot/chatter with the type std_msgs/msg/Int32; std_msgs/msg/String was expected",
+    )
+    watch.until_told(*found)
+    system.start("other", "__node:=talker", "__ns:=/robot")
+    watch.until_told(*found, "/robot/talker runs 2 times")
+
+
+def test_clients_are_seen(system: System, watch: Watching) -> None:
+    system.start("caller", "__node:=own")
+    watch.until_told(
+        "/own does not subscribe to /robot/chatter (std_msgs/msg/String)",
+        "/own calls the service /talker/reset (std_srvs/srv/Trigger), which was not expected",
+        "/robot/talker is not running",
+    )
+
+
+def test_once_waits_until_the_system_is_as_expected(system: System) -> None:
+    launched(system)
+    done = preflight(system.environment, "watch", system.file, "--once", "--timeout", "60")
+    assert (done.code, done.out, done.err) == (0, "no differences, 2 nodes as expected\n", "")
+    assert helpers(system.environment["ROS_DOMAIN_ID"]) == []
+
+
+def test_quality_of_service_is_compared(system: System, watch: Watching) -> None:
+    body = (system.desk.package / "pkg/other.py").read_text().replace("Int32", "String")
+    system.desk.write("pkg/other.py", body)
+    system.start("other", "__node:=talker", "__ns:=/robot")
+    event: dict[str, Any] = watch.until(
+        lambda event: event["event"] == "state" and any(i["kind"] == "wrong-qos" for i in event["issues"])
+    )
+    (issue,) = (i for i in event["issues"] if i["kind"] == "wrong-qos")
+    assert (issue["expected"], issue["actual"]) == ("reliability reliable", "reliability best_effort")
+
+
+def test_without_rclpy_that_is_told(system: System, tmp_path: Path) -> None:
+    environment = {**system.environment, "PATH": "/usr/bin:/bin"}
+    done = preflight(environment, "watch", system.file, "--once", "--timeout", "60", "--no-run")
+    assert (done.code, done.out) == (2, "")
+    assert "rclpy was not found" in done.err
