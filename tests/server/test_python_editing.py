@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Awaitable, Callable
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 from editor_desk import Desk
@@ -11,6 +13,7 @@ from lsp_desk import Editor, capabilities, editing, position
 from lsprotocol import types
 
 pytestmark = pytest.mark.ros
+T = TypeVar("T")
 
 MANIFEST = """<package format="3"><name>robot</name><version>0.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>MIT</license>
@@ -286,3 +289,93 @@ async def ask_everything(editor: Editor, path: Path, where: types.Position) -> N
         editor.lenses(path),
         editor.actions(path, types.Range(where, where)),
     )
+
+
+def line(text: str, needle: str) -> int:
+    """The line of the first place of a text, counted from 1."""
+    return text[: text.index(needle)].count("\n") + 1
+
+
+async def answered(ask: Callable[[], Awaitable[T]], wanted: Callable[[T], bool]) -> T:
+    """The first answer that is so: what it is made of is found out in the background."""
+    deadline = asyncio.get_running_loop().time() + 60
+    while not wanted(found := await ask()):
+        assert asyncio.get_running_loop().time() < deadline, found
+    return found
+
+
+async def indexed(editor: Editor, path: Path) -> None:
+    """Wait until both includers of the file are known."""
+    await answered(
+        lambda: editor.lenses(path),
+        lambda found: "2 includers" in [lens.command.title for lens in found if lens.command],
+    )
+
+
+async def test_arguments_across_formats(desk: Desk, package: Path) -> None:
+    """From the declaration to each use, and to what the includers of two formats pass."""
+    main, inner, outer = (
+        package / "launch" / f"{n}" for n in ("main.launch.py", "inner.launch.py", "outer.launch.xml")
+    )
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(inner, language="python")
+        declared = editor.at(inner, "'speed', default", 2)
+        await indexed(editor, inner)
+        found = await editor.references(inner, declared)
+        assert sorted((Path(r.uri).name, r.range.start.line + 1) for r in found) == [
+            ("inner.launch.py", line(INNER, "DeclareLaunchArgument('speed'")),
+            ("inner.launch.py", line(INNER, "LaunchConfiguration('speed'")),
+            ("main.launch.py", line(MAIN, "{'speed':")),
+            ("outer.launch.xml", line(OUTER, '"speed"')),
+        ]
+        placeholder = await editor.prepare_rename(inner, editor.at(inner, "variable_name='model'", 16))
+        assert placeholder is not None
+        assert editor.covered(inner, placeholder.range) == "model"
+        editor.apply(await editor.rename(inner, declared, "velocity"))
+        assert editor.texts[inner] == INNER.replace("'speed'", "'velocity'")
+        assert editor.texts[main] == MAIN.replace("{'speed':", "{'velocity':")
+        assert editor.texts[outer] == OUTER.replace('"speed"', '"velocity"')
+
+
+async def test_an_argument_renamed_where_xml_passes_it(desk: Desk, package: Path) -> None:
+    main, inner, outer = (
+        package / "launch" / f"{n}" for n in ("main.launch.py", "inner.launch.py", "outer.launch.xml")
+    )
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(inner, language="python")
+        await indexed(editor, inner)
+        editor.open(outer)
+        editor.apply(await editor.rename(outer, editor.at(outer, "model", 1), "kind"))
+        assert "DeclareLaunchArgument('kind')" in editor.texts[inner]
+        assert "LaunchConfiguration(variable_name='kind')" in editor.texts[inner]
+        assert "'kind': 'true'" in editor.texts[main]
+
+
+async def test_what_else_is_shown(desk: Desk, package: Path) -> None:
+    main = package / "launch/main.launch.py"
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(main, language="python")
+        links = [(editor.covered(main, each.range), Path(each.target or "").name) for each in await editor.links(main)]
+        assert links == [(name, name) for name in ("inner.launch.py", "params.yaml")]
+        symbols = await editor.symbols(main)
+        assert [(s.name, s.detail) for s in symbols if s.name == "talker"] == [("talker", "robot/talker")]
+        assert len(symbols) == 2, "the include, and the node"
+        assert await editor.symbols(main) == symbols
+        lenses = await editor.lenses(main)
+        assert {editor.covered(main, lens.range) for lens in lenses} == {"generate_launch_description"}
+        assert await editor.folds(main) == []
+        assert await editor.tokens(main) == []
+        assert await editor.signature(main, editor.at(main, "'speed'", 2)) is None
+        half = MAIN.replace("name='talker',", "name='tal")
+        editor.change(main, half)
+        assert [s.detail for s in await editor.symbols(main) if s.detail] == ["robot/talker"]
+
+
+async def test_values_of_a_file_that_was_run(desk: Desk, package: Path) -> None:
+    inner = package / "launch/inner.launch.py"
+    async with editing(desk, trusted=True, folder=package.parents[1]) as editor:
+        text = INNER.replace("name='listener'", "name=LaunchConfiguration('model')")
+        editor.open(inner, text, language="python")
+        found = await answered(lambda: editor.hints(inner), lambda found: "= true" in [hint.label for hint in found])
+        lines = [hint.position.line + 1 for hint in found if hint.label == "= true"]
+        assert lines == [line(text, "name=LaunchConfiguration"), line(text, "condition=")]

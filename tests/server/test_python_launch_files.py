@@ -75,7 +75,7 @@ async def test_beside_the_python_language_server(desk: Desk, outer: Path) -> Non
         editor.open(path, text, language="python")
         found = await editor.having(path, "LCH032", seconds=60)
         assert "node_executable" in editor.covered(path, found.range)
-        assert await editor.symbols(path) == []
+        assert [symbol.name for symbol in await editor.symbols(path)] == ["camera", "node"]
         assert await editor.tokens(path) == []
         assert not await editor.folds(path)
         editor.change(path, text.replace("node_executable", "executable"))

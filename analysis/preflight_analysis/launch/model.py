@@ -118,7 +118,7 @@ NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "li
 class LaunchFile:
     """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are
     the tags of further ones, which no launcher accepts. `partial`: it is a program that was not run, and nothing may
-    be concluded from what it has not."""
+    be concluded from what it has not; `named` are the substitutions that are written in it, wherever that is."""
 
     path: str
     generation: int
@@ -126,6 +126,7 @@ class LaunchFile:
     document: Document
     extra_roots: tuple[Span, ...] = ()
     partial: bool = False
+    named: tuple[Substitution, ...] | None = None
 
 
 def action_at(launch_file: LaunchFile, offset: int) -> Action | None:

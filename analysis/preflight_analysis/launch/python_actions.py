@@ -140,7 +140,10 @@ class _Reader:
         inside = span
         if call is not None and span is not around and call.args and not call.keywords and len(call.args) == 1:
             inside = self._source.span(call.args[0])
-        words = tuple(tuple(self._parts(word, inside, depth + 1)) for word in piece["w"])
+        spans = [inside] * len(piece["w"])
+        if call is not None and span is not around and len(call.args) + len(call.keywords) == len(spans):
+            spans = [self._source.span(each) for each in (*call.args, *(k.value for k in call.keywords))]
+        words = tuple(tuple(self._parts(word, at, depth + 1)) for word, at in zip(piece["w"], spans, strict=True))
         arguments = " ".join("".join(part.text for part in word) for word in words)
         text = f"$({command} {arguments})" if words else f"$({command})"
         return Substitution(command, span, arguments, inside, text, span, words)

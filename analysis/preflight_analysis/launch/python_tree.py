@@ -18,6 +18,7 @@ from preflight_analysis.documents.span import Span
 _LANGUAGE = Language(tree_sitter_python.language())
 _ASSIGNED = Query(_LANGUAGE, "(assignment left: (identifier) @name right: (_) @value)")
 _CALLS = Query(_LANGUAGE, "(call function: [(identifier) (attribute)] arguments: (argument_list)) @call")
+_STRINGS = Query(_LANGUAGE, "(string) @string")
 _MAX_DEPTH = 20
 _SUBSTITUTIONS = {
     "get_package_share_directory": "find-pkg-share",
@@ -59,6 +60,10 @@ class PythonTree:
         while node is not None and node.type != "string":
             node = node.parent
         return node if node is not None and node.start_byte == at else None
+
+    def strings(self) -> list[Node]:
+        """All texts."""
+        return QueryCursor(_STRINGS).captures(self.root).get("string", [])
 
     def calls(self, name: str) -> Iterator[Node]:
         """All calls of that name."""

@@ -7,13 +7,14 @@ nothing is concluded from what is not there. What a run tells takes the place of
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import LineIndex, Span
-from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_source import PythonSource, last_name
 
@@ -30,6 +31,17 @@ _SUBSTITUTIONS = {
     "Command": "command",
     "FindExecutable": "find-exec",
     "get_package_share_directory": "find-pkg-share",
+}
+_TAKES_NAME = {
+    "LaunchConfiguration": ("var", ("variable_name",)),
+    "LaunchConfigurationEquals": ("var", ("launch_configuration_name",)),
+    "LaunchConfigurationNotEquals": ("var", ("launch_configuration_name",)),
+    "EnvironmentVariable": ("env", ("name",)),
+    "FindPackageShare": ("find-pkg-share", ("package",)),
+    "FindPackagePrefix": ("find-pkg-prefix", ("package",)),
+    "get_package_share_directory": ("find-pkg-share", ("package_name",)),
+    "get_package_share_path": ("find-pkg-share", ("package_name",)),
+    "get_package_prefix": ("find-pkg-prefix", ("package_name",)),
 }
 _ACTIONS = {
     "DeclareLaunchArgument": ("arg", {"name": "name", "default_value": "default", "description": "description"}),
@@ -63,7 +75,39 @@ def read_ros2_python(source: Text) -> LaunchFile:
     reader = _Reader(python)
     children = actions_of(reader.actions(), python, whole)
     root = Action("launch", Span(0, 0), (), children, (), Value("", whole, (Literal("", whole),)), Span(0, 0), whole)
-    return LaunchFile(source.path, 2, root, document, partial=True)
+    return LaunchFile(source.path, 2, root, document, partial=True, named=tuple(_named(python)))
+
+
+def _named(source: PythonSource) -> Iterator[Substitution]:
+    """The names of arguments, packages and variables, wherever they are written."""
+    for piece in source.pieces:
+        for node in ast.walk(piece):
+            found = _name_in(node)
+            if found is not None:
+                command, name, at = found
+                span = source.span(at)
+                yield Substitution(command, span, name, span, f"$({command} {name})", span, ((Literal(name, span),),))
+
+
+def _name_in(node: ast.AST) -> tuple[str, str, ast.expr] | None:
+    """What kind of name a call or a subscript takes, and that name and its place if it is written out."""
+    name: ast.expr | None = None
+    command: str | None = None
+    if isinstance(node, ast.Call):
+        called = last_name(node.func)
+        command, keywords = _TAKES_NAME.get(called, (None, ()))
+        if called == "get" and isinstance(node.func, ast.Attribute) and _is_configurations(node.func.value):
+            command = "var"
+        name = next((k.value for k in node.keywords if k.arg in keywords), node.args[0] if node.args else None)
+    elif isinstance(node, ast.Subscript) and _is_configurations(node.value):
+        command, name = "var", node.slice
+    if command is None or not isinstance(name, ast.Constant) or not isinstance(name.value, str):
+        return None
+    return command, name.value, name
+
+
+def _is_configurations(node: ast.expr) -> bool:
+    return last_name(node) == "launch_configurations"
 
 
 class _Reader:

@@ -69,6 +69,8 @@ _USES = {
     "LaunchConfigurationNotEquals": "launch_configuration_name",
 }
 _CONFIGURATIONS = "launch_configurations"
+_FILES = ("launch-file", "yaml-file", "file")
+_FILE = re.compile(r"\w\.\w+\Z")
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -101,6 +103,17 @@ def place_at_python(text: str, offset: int) -> PythonPlace | None:
     is_key = opened[-1:] == "{" and not head[:start].rstrip().endswith(":")
     tail = (": 0" if is_key else "") + "".join(_CLOSING[each] for each in reversed(opened))
     return _place(PythonTree(f"{head}{quote}{tail}\n"), start, word)
+
+
+def written_paths(text: str) -> Iterator[tuple[Span, str]]:
+    """The last pieces of paths to files, each with the whole path as launch files have it."""
+    tree = PythonTree(text)
+    for string in tree.strings():
+        span = tree.span(string)
+        name = text[span.start : span.end]
+        found = _Reader(tree, span).place(string) if _FILE.search(name) and string.parent is not None else None
+        if found is not None and found.kind in _FILES:
+            yield span, found.before + name
 
 
 def _string_at(text: str, offset: int) -> tuple[int, Span, bool] | None:

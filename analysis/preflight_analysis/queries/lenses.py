@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.queries.scene import Scene
 from preflight_analysis.workspace.index import Root
 
+_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
+
 
 @dataclass(frozen=True, slots=True)
 class Lenses:
-    """Of the launch file whose `<launch>` tag is `head`. `own` of the `nodes` that the shown root starts come from the
-    file and from what it includes."""
+    """Of the launch file whose `<launch>` tag, or function in Python, is `head`. `own` of the `nodes` that the shown
+    root starts come from the file and from what it includes."""
 
     head: Span
     includers: tuple[Location, ...]
@@ -30,4 +33,7 @@ def lenses(scene: Scene) -> Lenses | None:
     places = dict.fromkeys(inclusion.place for inclusion in scene.current.includers(scene.path))
     nodes = analysis.tree.nodes
     own = sum(any(step.file == scene.path for step in node.origin) for node in nodes)
-    return Lenses(launch_file.root.head_span, tuple(places), own, len(nodes), analysis.launch)
+    head = launch_file.root.head_span
+    if launch_file.partial and (found := _FUNCTION.search(launch_file.document.text)) is not None:
+        head = Span(*found.span(1))
+    return Lenses(head, tuple(places), own, len(nodes), analysis.launch)

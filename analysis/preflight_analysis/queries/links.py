@@ -10,7 +10,9 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import LaunchFile, Value
+from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.queries.arguments import argument_values, resolved
+from preflight_analysis.queries.cursor_python import written_paths
 from preflight_analysis.workspace.workspace import Analysis
 
 _NAMED_FILES = ("include", "file")
@@ -27,8 +29,12 @@ class Link:
 
 
 def links(analysis: Analysis, file: str, exists: Callable[[str], bool] = os.path.isfile) -> tuple[Link, ...]:
-    """The files that the evaluation read by name, and what looks like a path in any other value and names a file."""
+    """The files that the evaluation read by name, and what looks like a path in any other value and names a file. In
+    Python, where a path is put together in many ways, it is the last piece of it that leads there."""
     exists = functools.cache(exists)
+    if file.endswith(PYTHON_SUFFIX):
+        document = analysis.documents.get(file)
+        return tuple(_of_python(analysis, file, document.text, exists)) if document is not None else ()
     found: dict[Span, Link] = {}
     for use in analysis.tree.uses:
         if use.kind not in _NAMED_FILES or use.location.file != file or use.target is None:
@@ -44,6 +50,14 @@ def links(analysis: Analysis, file: str, exists: Callable[[str], bool] = os.path
                 if path is not None and os.path.isabs(path) and exists(path):
                     found[span] = Link(span, os.path.normpath(path))
     return tuple(sorted(found.values(), key=lambda link: link.span))
+
+
+def _of_python(analysis: Analysis, file: str, text: str, exists: Callable[[str], bool]) -> Iterator[Link]:
+    args = argument_values(analysis, file)
+    for span, written in written_paths(text):
+        path = resolved(analysis, file, written, args)
+        if path is not None and os.path.isabs(path) and exists(path):
+            yield Link(span, os.path.normpath(path))
 
 
 def _values(launch_file: LaunchFile) -> Iterator[Value]:

@@ -11,6 +11,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.launch.model import NODE_KINDS, Action
+from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.launch.references import NOT_ARGUMENTS
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.node_names import mentions_of, remap_ends, tags_of
@@ -72,10 +73,16 @@ def rename(scene: Scene, offset: int, new: str) -> tuple[Edit, ...]:
         places = _node_places(scene, subject, found.name)
         _check_node(scene, subject, new)
     for place in places:
-        if scene.text(place) != found.name:
+        if scene.text(place) != found.name or not _is_text(scene, place):
             where = _shown(scene, place)
             raise RenameRefusedError(f"'{found.name}' cannot be replaced at {where}: the text there is not as expected")
     return tuple(Edit(place, new) for place in sorted(places, key=lambda place: (place.file, place.span)))
+
+
+def _is_text(scene: Scene, place: Location) -> bool:
+    """Whether it is what a name of ROS's stands for there, and not in Python a variable of that name."""
+    document = scene.document(place.file) if place.file.endswith(PYTHON_SUFFIX) else None
+    return document is None or document.text[place.span.start - 1 : place.span.start] in ("'", '"', "/")
 
 
 def _argument_places(scene: Scene, subject: Subject, name: str) -> frozenset[Location]:
@@ -132,6 +139,9 @@ def _node_places(scene: Scene, subject: Subject, name: str) -> frozenset[Locatio
         raise RenameRefusedError("The node has no name yet")
     trees = scene.all_trees
     own = tuple(_tags_named(scene, subject))
+    runs = [c for tree in scene.trees for c in tree.commands if c.launch_file and scene.path.endswith(PYTHON_SUFFIX)]
+    if any(run.result is None or run.result.status != "done" for run in runs):
+        raise RenameRefusedError("Where a Python launch file names its nodes is not known as long as it is not run")
     if not own:
         raise RenameRefusedError("This is the name of a test, not that of its node")
     places = {place for place in tags_of(scene, own) if scene.text(place) == name}

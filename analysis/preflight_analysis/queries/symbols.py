@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
+from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile, Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,15 +48,22 @@ _NAMED_BY = {
 }
 
 
+_OF_PYTHON = NODE_KINDS | {"include"}
+
+
 def symbols(launch_file: LaunchFile) -> tuple[Symbol, ...]:
-    """The outline of the file; empty when it has no `<launch>`. Tags that the launcher does not know are left out."""
+    """The outline of the file; empty when it has no `<launch>`. Tags that the launcher does not know are left out. Of a
+    Python file only what is ROS's: nodes and includes."""
     root = launch_file.root
+    if root is not None and launch_file.partial:
+        ours = (replace(action, children=()) for action in root.walk() if action.kind in _OF_PYTHON)
+        return tuple(sorted(map(_symbol, ours), key=lambda symbol: symbol.span))
     return tuple(_symbol(child) for child in root.children if child.kind in _NAMED_BY) if root else ()
 
 
 def _symbol(action: Action) -> Symbol:
     children = tuple(_symbol(child) for child in action.children if child.kind in _NAMED_BY)
-    named = next((a for n in _NAMED_BY[action.kind] if (a := action.attribute(n)) and a.value.text.strip()), None)
+    named = next((a for n in _NAMED_BY[action.kind] if (a := action.attribute(n)) and _is_known(a.value)), None)
     selection = named.value.span if named else action.kind_span
     if not (action.span.start <= selection.start and selection.end <= action.span.end):
         selection = action.span
@@ -68,6 +75,11 @@ def _symbol(action: Action) -> Symbol:
         selection,
         children,
     )
+
+
+def _is_known(value: Value) -> bool:
+    """Whether there is a name, and not only something that a program computes."""
+    return bool(value.text.strip()) and not any(part.command == "python" for part in value.substitutions)
 
 
 def _detail(action: Action) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Substitution, Value
 from preflight_analysis.launch.references import NAMES, Named, arg_references, first_word
 from preflight_analysis.launch.substitutions_ros2 import nested
 
@@ -80,8 +80,9 @@ class FileFacts:
 
 def facts_of(launch_file: LaunchFile) -> FileFacts:
     """The facts of a file, whether well-formed or not."""
-    root = launch_file.root
-    mentions = tuple(_mentions(root, None)) if root is not None else ()
+    root, named = launch_file.root, launch_file.named
+    mentions = tuple(_mentions(root, None, substitutions=named is None)) if root is not None else ()
+    mentions += tuple(m for part in named or () for m in _of_substitution(part, Span(0, 0)))
     args = tuple(declaration(action) for action in _declarations(root)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
     passing_all = frozenset(_passing_all(root, launch_file.generation)) if root is not None else frozenset[Span]()
@@ -118,9 +119,18 @@ def declaration(action: Action) -> ArgDeclaration:
     return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), doc, span)
 
 
-def _mentions(action: Action, parent: Action | None) -> Iterator[Mention]:
+def _of_substitution(part: Substitution, action: Span) -> Iterator[Mention]:
+    named = NAMES.get(part.command)
+    kind = "arg-use" if named == "argument" else _OF_SUBSTITUTION.get(named)
+    if kind is not None:
+        yield Mention(kind, *first_word(part), action)
+
+
+def _mentions(action: Action, parent: Action | None, *, substitutions: bool) -> Iterator[Mention]:
     for attribute in action.attributes:
         yield from _of_attribute(action, attribute, parent)
+        if not substitutions:
+            continue
         if attribute.value.problem is None and "$" in attribute.value.text:
             for name, span in arg_references(attribute.value):
                 yield Mention("arg-use", name, span, action.head_span)
@@ -132,7 +142,7 @@ def _mentions(action: Action, parent: Action | None) -> Iterator[Mention]:
         for name, span in arg_references(action.body):
             yield Mention("arg-use", name, span, action.head_span)
     for child in action.children:
-        yield from _mentions(child, action)
+        yield from _mentions(child, action, substitutions=substitutions)
 
 
 def _of_attribute(action: Action, attribute: ActionAttribute, parent: Action | None) -> Iterator[Mention]:
@@ -146,12 +156,15 @@ def _of_attribute(action: Action, attribute: ActionAttribute, parent: Action | N
         case "arg", "name":
             passed = parent is not None and parent.kind == "include"
             yield mention("arg-passed" if passed else "arg-declaration")
-        case "node" | "test" | "node_container" | "composable_node", "pkg":
+        case "node" | "test" | "node_container" | "lifecycle_node" | "composable_node", "pkg":
             yield mention("package")
-        case ("node" | "test", "type") | ("node" | "node_container", "exec"):
+        case ("node" | "test", "type") | ("node" | "node_container" | "lifecycle_node", "exec"):
             package = action.value("pkg")
             yield mention("executable", f"{package.text if package else ''}/{attribute.value.text}")
-        case ("node" | "node_container" | "composable_node", "name") | ("test", "name" | "test-name"):
+        case ("node" | "node_container" | "lifecycle_node" | "composable_node", "name") | (
+            "test",
+            "name" | "test-name",
+        ):
             yield mention("node")
         case "node" | "test" | "machine", "machine" | "name":
             yield mention("machine")

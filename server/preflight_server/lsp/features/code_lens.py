@@ -42,7 +42,7 @@ def register(server: PreflightServer) -> None:
         return types.Command(title, name if name in server.client_commands else "", arguments=list(arguments))
 
     async def answer(uri: str) -> list[types.CodeLens] | None:
-        view = await server.session.view(uri) if server.session else None
+        view = await server.session.view(uri, python=True) if server.session else None
         if server.session is None or view is None:
             return None
         scene = await scene_of(server, view)

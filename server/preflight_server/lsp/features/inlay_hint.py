@@ -29,7 +29,7 @@ class _Told:
 
 
 async def _hints(ls: PreflightServer, uri: str, within: Span | types.Range) -> tuple[_Told, Positions] | None:
-    view = await ls.session.view(uri) if ls.session else None
+    view = await ls.session.view(uri, python=True) if ls.session else None
     if ls.session is None or view is None:
         return None
     span = within if isinstance(within, Span) else view.converter.span(view.path, within)

@@ -18,7 +18,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(ls: PreflightServer, params: types.ReferenceParams) -> list[types.Location] | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
         if ls.session is None or view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)

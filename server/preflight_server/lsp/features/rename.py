@@ -33,7 +33,7 @@ def register(server: PreflightServer) -> None:
     async def prepare_rename(
         ls: PreflightServer, params: types.PrepareRenameParams
     ) -> types.PrepareRenamePlaceholder | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
         if ls.session is None or view is None:
             return None
         positions = view.converter.positions(view.path)
@@ -43,7 +43,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def rename_symbol(ls: PreflightServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
         if ls.session is None or view is None:
             return None
         offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(ls, view)
