@@ -65,6 +65,22 @@ def test_graph_without_runs_has_what_annotations_and_sources_tell(desk: Desk, pr
     assert desk.sandbox_starts() == 0
 
 
+def test_graph_in_pictures(desk: Desk, preflight: Run) -> None:
+    begins = {
+        "dot": "digraph ros {\n",
+        "mermaid": "flowchart LR\n",
+        "svg": '<svg xmlns="http://www.w3.org/2000/svg"',
+        "html": "<!doctype html>\n",
+    }
+    for format_, begin in begins.items():
+        done = preflight("graph", desk.launch_file, "--format", format_)
+        assert (done.code, done.err) == (0, "")
+        assert done.out.startswith(begin)
+        assert "/chatter" in done.out
+        assert ("/rosout" in done.out) is (format_ == "html"), "the page has a switch"
+    assert "/rosout" in preflight("graph", desk.launch_file, "--format", "svg", "--builtin").out
+
+
 def test_trace_in_json(desk: Desk, preflight: Run) -> None:
     data = preflight("trace", desk.launch_file, "--format", "json").json
     assert data["schema"] == "ros-preflight/trace/1"

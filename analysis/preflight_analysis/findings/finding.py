@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from preflight_analysis.documents.span import Location
 
@@ -39,6 +39,14 @@ class Related:
     location: Location
 
 
+class End(NamedTuple):
+    """What a node has to do with a topic, service or action, all by their final names."""
+
+    kind: Literal["topic", "service", "action"]
+    channel: str
+    node: str
+
+
 @dataclass(frozen=True, slots=True)
 class Finding:
     """Something wrong, where it is, how sure we are and what mends it.
@@ -59,3 +67,5 @@ class Finding:
     stops_launch: bool = False
     met: int = field(default=0, compare=False)
     """Of one that stops the launcher: its place in the order in which the launcher would meet them."""
+    ends: tuple[End, ...] = field(default=(), compare=False)
+    """Of one about connections: the ends that it speaks of, for a picture of the graph."""

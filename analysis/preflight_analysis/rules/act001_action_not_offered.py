@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.near_miss import NearMiss, dangling_wants, fixes, near_misses, nodes_looked_at, weight
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -31,6 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 *include_chain(pair.site.node.origin),
             ),
             fixes=_fixes(context, pair),
+            ends=ends_of(pair.wanting, pair.offering),
         )
     explained = {id(pair.wanting) for pair in near}
     for end in dangling_wants(graph.actions):
@@ -43,6 +44,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity="hint",
                 confidence="likely" if sure else "possible",
                 related=include_chain(end.node.origin),
+                ends=ends_of(end),
             )
 
 

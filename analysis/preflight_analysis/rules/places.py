@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Literal
+
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Related
+from preflight_analysis.findings.finding import End, Related
 from preflight_analysis.graph.model import Connection, ParamRead
-from preflight_analysis.tracing.interface import Endpoint, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
+
+_KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
+    "publisher": "topic",
+    "subscriber": "topic",
+    "service": "service",
+    "client": "service",
+    "action_server": "action",
+    "action_client": "action",
+}
 
 
 def node_location(node: LaunchNode) -> Location:
@@ -29,6 +41,11 @@ def related_end(connection: Connection, verb: str) -> Related:
     """The other end, `verb` says what it does: `publishes`, `subscribes to`, ..."""
     known = _how_known(connection.endpoint)
     return Related(f"{connection.node.name} {verb} {connection.name}{known}", connection_location(connection))
+
+
+def ends_of(*connections: Connection) -> tuple[End, ...]:
+    """The ends as a finding names them."""
+    return tuple(End(_KINDS[c.endpoint.role], c.name, c.node.name) for c in connections)
 
 
 def related_param_read(read: ParamRead) -> Related:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -30,6 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     severity="warning" if assumed else None,
                     confidence="likely" if assumed else "certain",
                     related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
+                    ends=ends_of(wanting, offering),
                 )
 
 

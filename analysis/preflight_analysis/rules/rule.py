@@ -12,7 +12,7 @@ from preflight_analysis.environment.cmake import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Confidence, End, Finding, Fix, Related, Severity
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
@@ -105,6 +105,7 @@ class Rule:
         related: Iterable[Related] = (),
         fixes: Iterable[Fix] = (),
         stops_launch: bool = False,
+        ends: Iterable[End] = (),
     ) -> Finding:
         """A finding of this rule."""
         return Finding(
@@ -118,6 +119,7 @@ class Rule:
             tuple(fixes),
             (),
             stops_launch,
+            ends=tuple(ends),
         )
 
 

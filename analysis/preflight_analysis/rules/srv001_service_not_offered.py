@@ -16,7 +16,7 @@ from preflight_analysis.rules.near_miss import (
     weight,
 )
 from preflight_analysis.rules.nearest import numbers_in, share_words
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -41,6 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 *include_chain(pair.site.node.origin),
             ),
             fixes=fixes(context, pair),
+            ends=ends_of(pair.wanting, pair.offering),
         )
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
@@ -60,6 +61,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity="hint" if meant is None else "warning",
                 confidence="likely" if sure else "possible",
                 related=(*related, *include_chain(end.node.origin)),
+                ends=ends_of(end),
             )
 
 

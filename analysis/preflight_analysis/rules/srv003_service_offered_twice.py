@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -34,6 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity="info" if any(c.endpoint.assumed for c in servers) else None,
             confidence="likely" if sure else "possible",
             related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+            ends=ends_of(*(c for _, ends in offered for c in ends)),
         )
 
 

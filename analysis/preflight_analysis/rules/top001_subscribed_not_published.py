@@ -16,7 +16,7 @@ from preflight_analysis.rules.near_miss import (
     topic_near_misses,
     weight,
 )
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -42,6 +42,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 *include_chain(pair.site.node.origin),
             ),
             fixes=fixes(context, pair),
+            ends=ends_of(pair.wanting, pair.offering),
         )
     explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.topics):
@@ -77,6 +78,7 @@ def _hint(rule: Rule, graph: Graph, end: Connection, dangling: Mapping[str | Non
         severity="hint",
         confidence="likely" if sure else "possible",
         related=related,
+        ends=ends_of(end),
     )
 
 

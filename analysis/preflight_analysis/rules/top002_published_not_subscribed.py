@@ -7,7 +7,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import dangling_offers, topic_near_misses
-from preflight_analysis.rules.places import connection_location
+from preflight_analysis.rules.places import connection_location, ends_of
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -29,6 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             location,
             confidence="likely" if sure else "possible",
             related=include_chain(ends[0].node.origin),
+            ends=ends_of(*ends),
         )
 
 

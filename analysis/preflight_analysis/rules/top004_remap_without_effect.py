@@ -8,7 +8,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import IdleRemap, idle_remaps
-from preflight_analysis.rules.places import related_end
+from preflight_analysis.rules.places import ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -47,6 +47,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 *include_chain(remap.origin),
             ),
             fixes=_fix(context, idle, meant),
+            ends=ends_of(meant, *((idle.partner,) if idle.partner else ())),
         )
 
 

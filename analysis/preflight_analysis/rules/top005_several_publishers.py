@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_transform
@@ -63,6 +63,7 @@ def _finding(rule: Rule, channel: Channel, ends: list[Connection], severity: Sev
         severity="info" if any(end.endpoint.assumed for end in ends) else severity,
         confidence="likely" if sure else "possible",
         related=(*(related_end(end, "publishes") for end in ends[:-1]), *include_chain(ends[-1].node.origin)),
+        ends=ends_of(*ends),
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.places import connection_location, related_end
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Rule
 
@@ -47,6 +47,7 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
                         related_end(other, verbs.offers if other is offering else verbs.wants),
                         *include_chain(site.node.origin),
                     ),
+                    ends=ends_of(wanting, offering),
                 )
 
 

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping
+import os
+from collections.abc import Callable, Iterator, Mapping
 
 from preflight_analysis.findings.report import printable
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.graph.model import Channel, Graph
+from preflight_analysis.view.dot import dot
+from preflight_analysis.view.graph_page import graph_page
+from preflight_analysis.view.layout import lay_out
+from preflight_analysis.view.mermaid import mermaid
+from preflight_analysis.view.model import GraphView, graph_view
+from preflight_analysis.view.svg import standalone_svg
+from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
 from preflight_server.cli.errors import FAILED
@@ -18,11 +26,23 @@ HELP = "who talks to whom after the launch"
 DESCRIPTION = """Shows topics, services and actions under their final names, with the nodes at both ends. The nodes are
 run in a sandbox to see what they do: calling this command is your consent; --no-run executes nothing."""
 
+_PICTURES: Mapping[str, Callable[[GraphView], str]] = {
+    "dot": dot,
+    "mermaid": mermaid,
+    "svg": lambda view: standalone_svg(view, lay_out(view), os.getcwd()),
+    "html": lambda view: graph_page(view, os.getcwd()),
+}
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
-    options.add_common(parser)
+    options.add_common(parser, ("text", "json", *_PICTURES))
     options.add_file(parser)
+    parser.add_argument(
+        "--builtin",
+        action="store_true",
+        help="with dot, mermaid and svg: also what every node has by its client library (html has a switch for it)",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -33,10 +53,18 @@ def run(args: argparse.Namespace) -> int:
         return FAILED
     if args.format == "json":
         print_json(graph_json(analysis.graph))
+    elif args.format in _PICTURES:
+        print_text(_PICTURES[args.format](_view(analysis, analysis.graph, args)))
+        say_errors(analysis)
     else:
         print_text("".join(f"{printable(line)}\n" for line in _lines(analysis.graph)))
         say_errors(analysis)
     return exit_code(analysis, args.fail_on)
+
+
+def _view(analysis: Analysis, graph: Graph, args: argparse.Namespace) -> GraphView:
+    view = graph_view(graph, analysis.findings, analysis.documents)
+    return view if args.builtin or args.format == "html" else view.without_builtin()
 
 
 def _lines(graph: Graph) -> Iterator[str]:

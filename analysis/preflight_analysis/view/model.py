@@ -1,0 +1,229 @@
+"""A graph and the findings about it as what a picture shows: nodes, channels and the edges between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.tree_json import json_value
+from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
+from preflight_analysis.findings.report import positions
+from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.tracing.interface import Interface, Role
+
+Kind = Literal["topic", "service", "action"]
+State = Literal["normal", "missing", "extra", "wrong"]
+"""How a running robot compares: as launched, not there, there without having been launched, or of another type."""
+
+TOWARDS_CHANNEL: frozenset[Role] = frozenset(("publisher", "client", "action_client"))
+"""The roles from which messages, calls and goals go out: their edges point at the channel, the others away from it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A line to go to; line and column are counted from 1, the column in code points."""
+
+    file: str
+    line: int
+    column: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class ViewFinding:
+    """What a finding says of a node or of an edge."""
+
+    rule: str
+    severity: Severity
+    message: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class ViewNode:
+    """A node. `file` is the launch file with its tag, `places` the tag and then the includes that lead to it."""
+
+    name: str
+    package: str
+    executable: str
+    kind: str
+    file: str
+    places: tuple[Place, ...]
+    source: str
+    outcome: str
+    reason: str | None
+    findings: tuple[int, ...]
+    state: State = "normal"
+
+
+@dataclass(frozen=True, slots=True)
+class ViewChannel:
+    """A topic, service or action under its final name. `external`: the settings say that something else uses it."""
+
+    kind: Kind
+    name: str
+    types: tuple[str, ...]
+    builtin: bool
+    external: bool
+    findings: tuple[int, ...]
+    state: State = "normal"
+
+
+@dataclass(frozen=True, slots=True)
+class ViewEdge:
+    """One end: what `node` does with `channel`, by their positions in the view. `places` has the line of the source
+    that makes it, where that is known, and the place of the launch file that decides on its name."""
+
+    node: int
+    channel: int
+    role: Role
+    type: str | None
+    qos: Mapping[str, Any]
+    remapped_from: str | None
+    places: tuple[Place, ...]
+    builtin: bool
+    uncertain: bool
+    findings: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GraphView:
+    """All that a picture of the graph shows. `findings` are those that its parts refer to, by position."""
+
+    root: str
+    generation: int
+    nodes: tuple[ViewNode, ...]
+    channels: tuple[ViewChannel, ...]
+    edges: tuple[ViewEdge, ...]
+    findings: tuple[ViewFinding, ...]
+
+    def severity(self, findings: Iterable[int]) -> Severity | None:
+        """The worst of some findings."""
+        return max((self.findings[i].severity for i in findings), key=SEVERITIES.index, default=None)
+
+    def without_builtin(self) -> GraphView:
+        """Without what every node has by its client library, and the channels that nothing else uses."""
+        edges = [edge for edge in self.edges if not edge.builtin]
+        kept = sorted({edge.channel for edge in edges})
+        moved = {old: new for new, old in enumerate(kept)}
+        return GraphView(
+            self.root,
+            self.generation,
+            self.nodes,
+            tuple(self.channels[old] for old in kept),
+            tuple(replace(edge, channel=moved[edge.channel]) for edge in edges),
+            self.findings,
+        )
+
+
+def graph_view(graph: Graph, findings: Sequence[Finding], documents: Mapping[str, Document]) -> GraphView:
+    """The view of a graph. The topics that actions are made of are left out, an action is shown as such."""
+    return _Builder(graph, findings, documents).view()
+
+
+class _Builder:
+    def __init__(self, graph: Graph, findings: Sequence[Finding], documents: Mapping[str, Document]) -> None:
+        self._graph = graph
+        self._documents = documents
+        self._findings: list[ViewFinding] = []
+        self._of_ends: dict[tuple[str, str, str], list[int]] = {}
+        self._of_nodes: dict[int, list[int]] = {}
+        tags = _tags(graph.tree.nodes)
+        for finding in findings:
+            nodes = [] if finding.ends else _nodes_at(tags, finding.location)
+            if not finding.ends and not nodes:
+                continue
+            index = len(self._findings)
+            shown = ViewFinding(finding.rule, finding.severity, finding.message, self._place(finding.location))
+            self._findings.append(shown)
+            for end in dict.fromkeys(finding.ends):
+                self._of_ends.setdefault(end, []).append(index)
+            for node in nodes:
+                self._of_nodes.setdefault(node, []).append(index)
+
+    def view(self) -> GraphView:
+        graph = self._graph
+        nodes = [self._node(i, *pair) for i, pair in enumerate(zip(graph.tree.nodes, graph.interfaces, strict=True))]
+        index = {id(node): i for i, node in enumerate(graph.tree.nodes)}
+        channels: list[ViewChannel] = []
+        edges: list[ViewEdge] = []
+        all_channels: tuple[tuple[Kind, Mapping[str, Channel]], ...] = (
+            ("topic", graph.topics),
+            ("service", graph.services),
+            ("action", graph.actions),
+        )
+        for kind, named in all_channels:
+            for channel in named.values():
+                ends = (*channel.offers, *channel.wants)
+                if all(end.action is not None for end in ends):
+                    continue
+                at = len(channels)
+                made = [self._edge(kind, end, index[id(end.node)], at) for end in ends]
+                told = tuple(dict.fromkeys(i for edge in made for i in edge.findings))
+                builtin = all(edge.builtin for edge in made)
+                channels.append(ViewChannel(kind, channel.name, channel.types, builtin, channel.external, told))
+                edges += made
+        return GraphView(
+            graph.tree.file, graph.tree.generation, tuple(nodes), tuple(channels), tuple(edges), tuple(self._findings)
+        )
+
+    def _node(self, index: int, node: LaunchNode, interface: Interface) -> ViewNode:
+        return ViewNode(
+            node.name,
+            node.package,
+            node.executable,
+            node.kind,
+            node.location.file,
+            self._places(node.origin),
+            interface.source,
+            interface.outcome.status,
+            interface.outcome.reason,
+            tuple(self._of_nodes.get(index, ())),
+        )
+
+    def _edge(self, kind: Kind, end: Connection, node: int, channel: int) -> ViewEdge:
+        endpoint = end.endpoint
+        launch = end.remap.target_location if end.remap is not None else end.node.location
+        source = (
+            (Place(endpoint.source_file, endpoint.source_line),)
+            if endpoint.source_file is not None and endpoint.source_line is not None
+            else ()
+        )
+        return ViewEdge(
+            node,
+            channel,
+            endpoint.role,
+            endpoint.type,
+            {policy: json_value(value) for policy, value in endpoint.qos.items()},
+            endpoint.name if end.remap is not None else None,
+            (*source, self._place(launch)),
+            endpoint.builtin,
+            endpoint.uncertain,
+            tuple(self._of_ends.get((kind, end.name, end.node.name), ())),
+        )
+
+    def _places(self, origin: Origin) -> tuple[Place, ...]:
+        return tuple(self._place(step) for step in reversed(origin))
+
+    def _place(self, location: Location) -> Place:
+        (line, column), _ = positions(location, self._documents)
+        return Place(location.file, line + 1, column + 1)
+
+
+def _tags(nodes: Sequence[LaunchNode]) -> dict[str, dict[tuple[int, int], list[int]]]:
+    """The nodes by file and extent of their tags: a tag in a file that is included twice starts two."""
+    found: dict[str, dict[tuple[int, int], list[int]]] = {}
+    for i, node in enumerate(nodes):
+        span = node.action.span
+        found.setdefault(node.location.file, {}).setdefault((span.start, span.end), []).append(i)
+    return found
+
+
+def _nodes_at(tags: Mapping[str, Mapping[tuple[int, int], list[int]]], location: Location) -> list[int]:
+    """The nodes whose tag a place lies in: a composable node's, not its container's."""
+    start, end = location.span
+    around = [extent for extent in tags.get(location.file, {}) if extent[0] <= start and end <= extent[1]]
+    return tags[location.file][min(around, key=lambda extent: extent[1] - extent[0])] if around else []
