@@ -367,3 +367,23 @@ def test_substitutions_of_ros1() -> None:
           - include: {file: $(find p)/base.launch.xml}
                             ^^^^^^^^^ error[LCH011] 'find' is not a substitution; did you mean 'find-pkg-share'?
     """)
+
+
+def test_an_argument_that_a_file_which_cannot_be_read_may_set() -> None:
+    """Real launch files rely on that: Autoware's take half of their arguments from included ones."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="camera" default="front"/>
+          <group>
+            <include file="/gone.launch.xml"/>
+                           ^^^^^^^^^^^^^^^^ error[LCH013]
+            <log message="$(var lidar)"/>
+                          ^^^^^^^^^^^^ hint[ARG001] nothing that could be read declares argument 'lidar'
+            <log message="$(var camra)"/>
+                          ^^^^^^^^^^^^ warning[ARG001] declares argument 'camra'; did you mean 'camera'?
+          </group>
+          <log message="$(var lidar)"/>
+                        ^^^^^^^^^^^^ error[ARG001] argument 'lidar' is not declared
+        </launch>
+    """)

@@ -36,7 +36,8 @@ KINDS: dict[str, str] = {
     "env-unset": "name: $(env name) of a variable that is not set. fatal",
     "package-not-found": "name: $(find name). fatal",
     # arguments
-    "arg-undeclared": "name, declared (list): $(arg name) of an argument that is not declared before. fatal",
+    "arg-undeclared": "name, declared (list), in ROS 2 not_followed (Location or None: what may have set it): $(arg "
+    "name) of an argument that is not declared before. fatal if nothing may have set it",
     "arg-required": "name, file (the included), passed (list): an include without a value for a required arg. fatal",
     "root-arg-required": "name: the root file needs name:=value on the command line. fatal",
     "include-arg-undeclared": "name, file (the included), declared (list): roslaunch stops with 'unused args'. fatal",

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import declarations, declare
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -24,6 +25,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield problem_finding(rule, problem, f"{message} {where}", related=(declared,))
             continue
         near = nearest(name, problem.data["declared"])
+        not_followed = problem.data.get("not_followed")
+        if not_followed is not None:
+            yield _unsure(rule, context, problem, near, not_followed)
+            continue
         fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
         if near is None and part_of_another:
             message += ": another launch file that includes this one has to set it"
@@ -39,12 +44,26 @@ def _is_part_of_another(context: Context) -> bool:
     return context.tree.generation == 2 and needed
 
 
+def _unsure(rule: Rule, context: Context, problem: Problem, near: str | None, not_followed: Location) -> Finding:
+    """What comes before could not be evaluated, and in ROS 2 it may have set the argument."""
+    name = problem.data["name"]
+    return rule.finding(
+        f"nothing that could be read declares argument '{name}'{did_you_mean(near)}",
+        problem.location,
+        severity="warning" if near else "hint",
+        confidence="possible",
+        related=(Related("this could not be read, and may set it", not_followed), *include_chain(problem.origin)),
+        fixes=rename(context, problem.location, name, near) if near else (),
+    )
+
+
 RULE = Rule(
     id="ARG001",
     name="undeclared-argument",
     severity="error",
     what="Reports `$(arg name)` where the file has not declared that argument before, and names the nearest one that "
-    "it has declared.",
+    "it has declared. In ROS 2 an included file sets arguments of its includer too: after an include that cannot be "
+    "read it is a warning where there is a name that near, and a hint else.",
     why="`roslaunch` stops. An argument is known only in the file that declares it, from its `<arg>` on; files that "
     "are included get it only if it is passed.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',

@@ -51,10 +51,13 @@ class Scope:
     remaps: list[PushedRemap] | None = None
     params: list[PushedParam] | None = None
     environment: dict[str, str] = field(default_factory=dict)
+    not_followed: Location | None = None
+    """The first include, or whatever else, that could not be evaluated: it may set any configuration."""
 
     def copy(self) -> Scope:
         """As launch copies it."""
-        return Scope(dict(self.configurations), self.namespace, self.remaps, self.params, dict(self.environment))
+        configurations, environment = dict(self.configurations), dict(self.environment)
+        return Scope(configurations, self.namespace, self.remaps, self.params, environment, self.not_followed)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,6 +108,10 @@ class Context:
         if name == "ros_namespace" and self.scope.namespace is not None:
             return Configuration(self.scope.namespace, None)
         return self.scope.configurations.get(name)
+
+    def cannot_follow(self, at: Location) -> None:
+        """From here on there may be configurations that nobody knows of."""
+        self.scope.not_followed = self.scope.not_followed or at
 
     def set(self, name: str, value: Resolved, origin: Origin | None) -> None:
         """Set a launch configuration."""

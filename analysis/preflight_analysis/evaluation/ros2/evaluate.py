@@ -286,6 +286,7 @@ class _Walk:
         passed = self._passed(performer, action)
         if not file.known:
             self._names[-1] = None
+            self._context.cannot_follow(at)
             state.includes.append(Include(None, origin, at, {}))
             state.note_unknown("<include>", "its file is not known", at)
             return
@@ -300,6 +301,7 @@ class _Walk:
         found = self._read(place, path, at)
         if found is None:
             self._names[-1] = None
+            self._context.cannot_follow(at)
             return
         self._context.launch_file = path
         found, run = self._as_run(found, origin)
@@ -312,6 +314,8 @@ class _Walk:
         self._depth += 1
         self._names.append(set())
         self._file(Place(path, origin, run, found.partial), found)
+        if found.partial or found.document.problems:
+            self._context.cannot_follow(at)
         below = self._names.pop()
         self._depth -= 1
         above = self._names[-1]
@@ -568,9 +572,10 @@ class _Walk:
             return
         place, context = performer.place, self._context
         answer = called(self._state, context, place, number.text, name.text, "execute", action.head_span)
-        if answer is None:
-            return
         origin = place.origin(action.head_span)
+        if answer is None:
+            context.cannot_follow(origin[-1])
+            return
         for key, text in (answer.changed or {}).items():
             if key not in ("ros_namespace", "global_params", "ros_remaps"):
                 context.set(key, Resolved(text), origin)
@@ -646,6 +651,9 @@ _EXECUTE: dict[str, Callable[[_Walk, Performer, Action], None]] = {
     "unknown": _Walk._only_read,
 }
 
+_MAY_SET = frozenset({"arg", "let", "include", "group", "inline", "opaque"})
+"""Actions after which there may be other configurations."""
+
 
 def applies(performer: Performer, action: Action) -> bool:
     """Whether an action is executed, by its `if` and `unless` (`launch.conditions`)."""
@@ -663,6 +671,8 @@ def _condition(performer: Performer, action: Action, attribute: ActionAttribute,
     if not result.known:
         at = Location(performer.place.file, span)
         performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
+        if action.kind in _MAY_SET:
+            performer.context.cannot_follow(at)
         return False
     word = result.text.strip().lower()
     if word in ("true", "1", "false", "0"):

@@ -122,7 +122,9 @@ class Performer:
         if found is None:
             if len(part.words) == 2:
                 return self._word(part, 1)
-            raise _Failure("arg-undeclared", name=name, declared=sorted(self.context.scope.configurations))
+            scope = self.context.scope
+            declared, unsure = sorted(scope.configurations), scope.not_followed
+            raise _Failure("arg-undeclared", fatal=unsure is None, name=name, declared=declared, not_followed=unsure)
         if not found.value.known:
             raise _Failure
         return found.value.text
