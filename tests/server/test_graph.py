@@ -1,0 +1,82 @@
+"""The picture of the graph, through the protocol."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from editor_desk import Desk
+from lsp_desk import Editor, editing
+
+pytestmark = pytest.mark.ros
+
+
+async def ask(editor: Editor, desk: Desk, **more: Any) -> Any:
+    return await editor.client.protocol.send_request_async(
+        "rosPreflight/graph", {"uri": desk.launch_file.as_uri(), **more}
+    )
+
+
+def topics(graph: Any) -> list[str]:
+    return [channel.name for channel in graph.channels]
+
+
+async def test_the_graph_has_findings_on_its_edges_and_lines_to_go_to(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        graph = (await ask(editor, desk)).graph
+        assert topics(graph) == ["/chater", "/chatter"]
+        assert [(node.name, node.places[0].line) for node in graph.nodes] == [("/talker", 3), ("/listener", 6)]
+        (wanting,) = (edge for edge in graph.edges if edge.role == "subscriber")
+        assert [graph.findings[i].rule for i in wanting.findings] == ["TOP001"]
+        source, launch = wanting.places
+        assert source.shown.endswith("scripts/listener.py")
+        assert (launch.file, launch.line) == (str(desk.launch_file), 7)
+        assert graph.svg.startswith("<svg ")
+        assert graph.title == str(desk.launch_file.relative_to(desk.workspace))
+
+
+async def test_what_every_node_has_is_there_on_demand(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        assert "/rosout" in topics((await ask(editor, desk, builtin=True)).graph)
+
+
+async def test_the_graph_follows_the_text_and_is_sent_when_it_is_news(desk: Desk) -> None:
+    async with editing(desk, trusted=True, settings={"status": True}) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")
+        first = await ask(editor, desk)
+        while (again := await ask(editor, desk, known=first.digest)).graph is not None:
+            first = again  # runs may still tell something
+        assert again.digest == first.digest
+        before = editor.analysed
+        editor.change(desk.launch_file, editor.texts[desk.launch_file].replace("chater", "chatter"))
+        await editor.until(lambda: editor.analysed > before)
+        then = await ask(editor, desk, known=first.digest)
+        assert topics(then.graph) == ["/chatter"]
+
+
+async def test_before_anything_is_run_the_graph_is_what_the_sources_tell(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TRC004")
+        graph = (await ask(editor, desk)).graph
+        assert [node.name for node in graph.nodes] == ["/talker", "/listener"]
+    assert desk.sandbox_starts() == 0
+
+
+async def test_the_graph_of_a_file_that_does_not_parse(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        text = desk.launch_file.read_text().replace("</launch>", '<node name="half')
+        editor.open(desk.launch_file, text)
+        graph = (await ask(editor, desk)).graph
+        assert [node.name for node in graph.nodes][:2] == ["/talker", "/listener"]
+
+
+async def test_there_is_no_graph_of_what_is_no_launch_file(desk: Desk) -> None:
+    async with editing(desk) as editor:
+        for uri in ("file:///nowhere.launch", 5, None):
+            assert await ask(editor, desk, uri=uri) is None
