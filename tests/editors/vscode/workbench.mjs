@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 const ENTRY = fileURLToPath(import.meta.resolve("code-server/out/node/entry.js"));
-const CHROMIUM_FLAGS = [
+export const CHROMIUM_FLAGS = [
   "--disable-gpu",
   "--disable-quic",
   "--no-first-run",

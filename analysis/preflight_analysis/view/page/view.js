@@ -105,7 +105,7 @@
       const [, not, kind, wanted] = /^(-?)(?:(ns|node|topic|service|action):)?(.*)$/.exec(word);
       const low = wanted.toLowerCase();
       const pattern = /[*?]/.test(low)
-        ? new RegExp(`^${low.replace(/[.+^${}()|[\]\\]/g, "\\$&").replace(/\*/g, ".*").replace(/\?/g, ".")}$`)
+        ? new RegExp(`^${/^[/*]/.test(low) ? "" : "(?:.*/)?"}${low.replace(/[.+^${}()|[\]\\]/g, "\\$&").replace(/\*/g, ".*").replace(/\?/g, ".")}$`)
         : undefined;
       const folder = `/${low.replace(/^\/+|\/+$/g, "")}/`.replace(/^\/\/$/, "/");
       return {
@@ -141,7 +141,7 @@
       const found = graph.edges.filter((edge) => !hidden.node[edge.node] && !hidden.channel[edge.channel]);
       const near = { node: new Set(), channel: new Set() };
       for (const edge of found) {
-        if (channel[edge.channel] === 2 && bad([...edge.findings, ...(wanted.length > 0 && !problems ? [] : graph.channels[edge.channel].findings)])) {
+        if (channel[edge.channel] === 2) {
           near.node.add(edge.node);
         }
         if (node[edge.node] === 2 && !problems) {
@@ -231,17 +231,20 @@
       if (last && from <= last.to) {
         last.to = Math.max(last.to, to);
       } else {
-        merged.push({ from, to, at: last ? last.at + last.to - last.from : 10 });
+        merged.push({ from, to });
       }
     }
-    merged.forEach((each, i) => (each.at = i === 0 ? 10 : merged[i - 1].at + merged[i - 1].to - merged[i - 1].from));
-    const end = merged.at(-1);
+    let end = 10;
+    for (const each of merged) {
+      each.at = end;
+      end += each.to - each.from;
+    }
     return [
       (value) => {
-        const inside = merged.find((each) => value <= each.to) ?? end;
-        return Math.round((inside.at + Math.max(0, value - inside.from)) * 10) / 10;
+        const inside = merged.find((each) => value <= each.to);
+        return inside === undefined ? end : Math.round((inside.at + Math.max(0, value - inside.from)) * 10) / 10;
       },
-      end ? end.at + end.to - end.from + 10 : 10,
+      end + 10,
     ];
   }
 

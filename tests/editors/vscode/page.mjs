@@ -1,0 +1,185 @@
+// Drives the page of `graph --format html` as a reader would. Arguments: where things are, as JSON. Prints what was
+// seen as JSON; a step that fails is named on standard error.
+import { mkdirSync, readFileSync } from "node:fs";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+import { CHROMIUM_FLAGS, PATIENCE } from "./workbench.mjs";
+
+const { pages, screenshots, browser: executablePath } = JSON.parse(process.argv[2]);
+const seen = {};
+const browser = await chromium.launch({ executablePath, args: CHROMIUM_FLAGS });
+let page;
+let current = "start";
+
+async function open(name, colorScheme = "light") {
+  await page?.context().close();
+  const context = await browser.newContext({ viewport: { width: 1400, height: 800 }, colorScheme, acceptDownloads: true });
+  context.setDefaultTimeout(PATIENCE);
+  page = await context.newPage();
+  const wrong = (seen.wrong ??= []);
+  page.on("pageerror", (error) => wrong.push(`${name}: ${error}`));
+  page.on("console", (message) => message.type() === "error" && wrong.push(`${name}: ${message.text()}`));
+  page.on("dialog", (dialog) => wrong.push(`${name}: ${dialog.message()}`) && dialog.dismiss());
+  page.on("request", (request) => request.url().startsWith("file:") || wrong.push(`${name}: asked for ${request.url()}`));
+  await page.goto(pathToFileURL(pages[name]).href);
+  await page.locator("#canvas svg").waitFor();
+}
+
+async function step(name, action) {
+  current = name;
+  seen[name] = await action();
+}
+
+async function picture(name) {
+  mkdirSync(screenshots, { recursive: true });
+  await page.screenshot({ path: path.join(screenshots, `${name}.png`), animations: "disabled" });
+}
+
+const labels = (locator) => locator.evaluateAll((items) => items.map((item) => item.getAttribute("aria-label")).sort());
+const shown = () => labels(page.locator("[data-node]:not(.off):not(.context), .stack:not(.off) [data-channel]:not(.context)"));
+const context = () => labels(page.locator("[data-node].context:not(.off), .stack:not(.off) [data-channel].context"));
+const item = (name) => page.locator(`[aria-label^="${name}"]`).first();
+const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.id);
+const press = async (...keys) => {
+  for (const key of keys) {
+    await page.keyboard.press(key);
+  }
+  return focused();
+};
+
+try {
+  await step("open", () => open("robot"));
+  await picture("graph-1-light");
+  seen.all = (await shown()).length;
+  seen.status = await page.locator("#status").innerText();
+
+  await step("filter", async () => {
+    await page.keyboard.press("/");
+    await page.keyboard.type("ns:/camera");
+    return { shown: await shown(), context: await context(), status: await page.locator("#status").innerText() };
+  });
+  await picture("graph-2-filter");
+  await step("glob", async () => {
+    await page.locator("#filter").fill("topic:/*map");
+    return { shown: await shown(), context: await context() };
+  });
+  await step("without", async () => {
+    await page.locator("#filter").fill("-camera -node:tele*");
+    return shown();
+  });
+  await step("nothing", async () => {
+    await page.locator("#filter").fill("no such thing");
+    return { shown: await shown(), marked: await page.locator("#filter.nothing").count() };
+  });
+  await step("cleared", async () => {
+    await page.keyboard.press("Escape");
+    return { value: await page.locator("#filter").inputValue(), all: (await shown()).length };
+  });
+  await step("kinds", async () => {
+    await page.locator("#show-service").uncheck();
+    const without = await shown();
+    await page.locator("#show-service").check();
+    return without.filter((label) => label.startsWith("service"));
+  });
+  await step("problems", async () => {
+    await page.locator("#problems").check();
+    const found = { shown: await shown(), context: await context() };
+    await picture("graph-3-problems");
+    await page.locator("#problems").uncheck();
+    return found;
+  });
+  await step("builtin", async () => {
+    await page.locator("#builtin").check();
+    const found = (await shown()).filter((label) => label.includes("rosout"));
+    await page.locator("#builtin").uncheck();
+    return found;
+  });
+
+  await step("hover", async () => {
+    await item("topic /odom").hover();
+    const topic = await page.locator("#hint").innerText();
+    await picture("graph-4-hover");
+    const route = page.locator(".route.error .wide").first();
+    const [x, y] = await route.evaluate((line) => {
+      const point = line.getPointAtLength(line.getTotalLength() / 2).matrixTransform(line.getScreenCTM());
+      return [point.x, point.y];
+    });
+    await page.mouse.move(x, y, { steps: 3 });
+    await page.locator("#hint", { hasText: "nav_msgs/Odometry" }).waitFor();
+    return { topic, edge: await page.locator("#hint").innerText() };
+  });
+  await step("click", async () => {
+    await item("node /planner").click();
+    const text = await page.locator("#details").innerText();
+    await page.mouse.move(700, 760);
+    await picture("graph-5-details");
+    await page.locator("#details button.item", { hasText: "/map" }).click();
+    return { text, then: await page.locator("#details h2").innerText(), focused: await focused() };
+  });
+  await step("keyboard", async () => {
+    const found = { closed: await press("Escape").then(() => page.locator("#details").isVisible()) };
+    await item("node /teleop").focus();
+    found.right = await press("ArrowRight");
+    found.along = await press("ArrowRight");
+    found.back = await press("ArrowLeft");
+    found.down = await press("ArrowDown");
+    found.opened = await press("Enter").then(() => page.locator("#details h2").innerText());
+    found.filter = await press("/");
+    found.escaped = await press("Escape", "Escape");
+    return found;
+  });
+  await step("tab", async () => {
+    // From the last of the tool bar into the picture, and no other stop within it.
+    await page.locator("#theme").focus();
+    return [await press("Tab"), await press("Tab"), await press("Tab")];
+  });
+  await step("zoom", async () => {
+    const width = () => page.locator("#canvas svg").evaluate((svg) => Number(svg.getAttribute("width")));
+    const before = await width();
+    await page.locator("#zoom-in").click();
+    return (await width()) / before;
+  });
+  await step("saved", async () => {
+    await page.locator("#filter").fill("odom");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#save").click()]);
+    return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
+  });
+
+  await step("dark", async () => {
+    await open("robot", "dark");
+    const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const dark = await paper();
+    await picture("graph-6-dark");
+    await page.locator("#theme").click();
+    return { dark, light: await paper() };
+  });
+  await step("hostile", async () => {
+    await open("hostile");
+    await item("node ").first().hover();
+    await page.locator("#hint").waitFor();
+    for (const node of await page.locator("[data-node]").all()) {
+      await node.click();
+      await page.locator("#details").waitFor();
+    }
+    await picture("graph-7-hostile");
+    return page.locator("script").count();
+  });
+  await step("large", async () => {
+    await open("large");
+    await picture("graph-8-large");
+    const all = (await shown()).length;
+    await page.locator("#filter").fill("node:/subsystem_3/*");
+    const found = { all, shown: (await shown()).length, status: await page.locator("#status").innerText() };
+    await page.locator("#fit").click();
+    await picture("graph-9-large-filter");
+    return found;
+  });
+  console.log(JSON.stringify(seen));
+} catch (error) {
+  console.error(`step "${current}" failed: ${error.stack}`);
+  await picture("failed-page").catch(() => undefined);
+  process.exitCode = 1;
+} finally {
+  await browser.close();
+}
