@@ -177,7 +177,7 @@
       part.setAttribute("transform", `translate(${drawn.x(box.x)} ${drawn.y(box.y)})`);
     });
     graph.channels.forEach((_, i) => {
-      graph.items.get(channelKey(i)).classList.toggle("context", shown.channel[i] < 2);
+      graph.items.get(channelKey(i)).classList.toggle("context", shown.channel[i] === 0);
     });
     graph.routeParts.forEach((part, i) => {
       part.classList.toggle("off", !routes[i]);
