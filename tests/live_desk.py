@@ -64,6 +64,8 @@ class Ros1System:
     home: Path
     port: int = field(default_factory=private_port)
     running: list[subprocess.Popen[bytes]] = field(default_factory=list)
+    elsewhere: Path | None = None
+    """Another folder to look for packages in."""
 
     def __post_init__(self) -> None:
         self.package = self.home / "workspace/src/pkg"
@@ -79,7 +81,7 @@ class Ros1System:
             "ROS_HOME": str(self.home / "ros"),
             "ROS_LOG_DIR": str(self.home / "log"),
             "ROS_IP": "127.0.0.1",
-            "ROS_PACKAGE_PATH": str(self.package.parent),
+            "ROS_PACKAGE_PATH": os.pathsep.join(str(p) for p in (self.package.parent, self.elsewhere) if p is not None),
             "ROS_MASTER_URI": f"http://127.0.0.1:{self.port}/",
         }
 

@@ -91,6 +91,8 @@ class Editor:
         self.statuses: list[Any] = []
         """What `rosPreflight/status` told, for an editor with `"status": True` in its settings."""
         self.analysed = 0
+        self.live: list[Any] = []
+        """What `rosPreflight/live` told."""
         self.progress: dict[types.ProgressToken, list[Any]] = {}
         self.on_progress: Callable[[types.ProgressToken, Any], None] = lambda token, value: None
         self.texts: dict[Path, str] = {}
@@ -109,6 +111,7 @@ class Editor:
         register_lsp_features(self.client, features)
         self.client.feature("rosPreflight/status")(self._told_status())
         self.client.feature("rosPreflight/analysed")(self._told_analysed())
+        self.client.feature("rosPreflight/live")(self._told_live())
 
     # pygls takes no bound methods as handlers.
     def _published(self) -> Callable[..., None]:
@@ -157,6 +160,13 @@ class Editor:
     def _told_analysed(self) -> Callable[..., None]:
         def handler(ls: LanguageClient, params: Any) -> None:
             self.analysed += 1
+            self._news.set()
+
+        return handler
+
+    def _told_live(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: Any) -> None:
+            self.live.append(params)
             self._news.set()
 
         return handler

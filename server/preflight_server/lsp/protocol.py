@@ -11,6 +11,30 @@ from pygls.exceptions import JsonRpcException
 from pygls.protocol import LanguageServerProtocol
 from pygls.protocol.language_server import lsp_method
 
+WATCH = "rosPreflight/watch"
+"""Our own request to watch the running system, `{"uri", "watch": bool}` → `{"watching": bool, "message": string |
+null}`: start or stop to compare the ROS 1 master or ROS 2 domain that the server's environment leads to with what the
+root in whose context the file is shown should have started. One root is watched at a time. `message` says why it is
+not: without trust it never is. What is found comes by `LIVE`, until the client stops it, trust is taken back, or the
+system can never be asked."""
+
+LIVE = "rosPreflight/live"
+"""Our own notification about the running system while it is watched, `{"root": {"uri", "args"}, "event", ...}`:
+
+- `"event": "waiting"`, `"reason"`: the system cannot be asked; it is waited for. States told before hold no longer.
+- `"attached"`, or for another run of the same master `"restarted"`, `"to"`: what is watched, for people.
+- `"state"`, whenever it changes: `"same": bool`, `"nodes"`, `"topics"`, `"services"` and `"actions"`, each
+  `{full name: "present" | "missing" | "extra" | "dead" | "wrong-type" | "unsure"}`, and `"issues"`: `[{"kind":
+  "missing" | "extra" | "dead" | "twice" | "wrong-type" | "wrong-qos", "what": "node" | "publisher" | "subscriber" |
+  "service" | "client" | "action_server" | "action_client", "node": full name, "name": that of the end | null,
+  "expected", "actual", "similar": string | null, "counts": bool, "message": string, "location": Location | null,
+  "source": Location | null}]`. What does not count is for information. `location` is the line of the launch file that
+  should have made it, `source` that of the node's source. `unsure` is what is not there and need not be. Anonymous
+  names are those of the running system.
+- `"stopped"`, `"reason": string | null`: nothing is watched any more.
+
+The graph that is compared with is that of the newest analysis: an edit shows in the next state."""
+
 
 class RefusedError(JsonRpcException):
     """What the user asked for cannot be done, and why: an answer, not a failure of ours."""

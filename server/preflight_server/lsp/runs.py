@@ -153,6 +153,11 @@ class Runs:
             return NOT_TRUSTED
         return self._no_sandbox or (CANCELLED if self._cancelled else None)
 
+    @property
+    def trusted(self) -> bool:
+        """Whether the user trusts the workspace."""
+        return self._trusted
+
     def known(self, root: Root) -> dict[NodeKey, Interface]:
         """What is known of the nodes of a root."""
         return {key: known.interface for key, known in self._known.get(root, {}).items()}

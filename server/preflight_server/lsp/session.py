@@ -32,6 +32,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
+from preflight_server.lsp.live import LiveWatch
 from preflight_server.lsp.publisher import Publisher
 from preflight_server.lsp.runs import Runs, with_known
 from preflight_server.lsp.settings import Settings
@@ -113,6 +114,7 @@ class Session:
         self._every_root = frozenset(rule.id for rule in all_rules() if rule.every_root)
         self.runs = Runs(server, self, trusted=trusted)
         self.indexing = Indexing(server, self)
+        self.live = LiveWatch(server)
 
     # What the handlers report
 
@@ -174,6 +176,8 @@ class Session:
     def set_trusted(self, trusted: bool) -> None:
         """Whether the user trusts the workspace, so that its nodes may be run in the sandbox."""
         self.runs.set_trusted(trusted)
+        if not trusted:
+            self.live.stop("the workspace is not trusted any more")
         self._touch(None, None, quiet=0)
 
     def traces_cleared(self) -> None:
@@ -211,6 +215,7 @@ class Session:
     def close(self) -> None:
         """Leave nothing running. Returns when the threads have ended; may be called from any thread, and twice."""
         self._closed = True
+        self.live.close()
         self.runs.close()
         self.indexing.close()
         self._pool.shutdown(wait=True, cancel_futures=True)

@@ -1,0 +1,32 @@
+"""Our own request to watch the running system; it and what is told then stand in `protocol.py`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from preflight_server.lsp.protocol import WATCH
+from preflight_server.lsp.settings import as_mapping
+
+if TYPE_CHECKING:
+    from preflight_server.lsp.app import PreflightServer
+
+_NOT_TRUSTED = "the workspace is not trusted; trust it to have the running system watched"
+
+
+def register(server: PreflightServer) -> None:
+    """Register the handler."""
+
+    @server.feature(WATCH)
+    async def watch(ls: PreflightServer, params: Any) -> dict[str, Any]:
+        given = as_mapping(params)
+        if ls.session is None or given.get("watch") is not True:
+            if ls.session is not None:
+                ls.session.live.stop(None)
+            return {"watching": False, "message": None}
+        view = await ls.session.view(str(given.get("uri", "")), python=True)
+        if view is None:
+            return {"watching": False, "message": "this is no launch file, or it cannot be read"}
+        if not ls.session.runs.trusted:
+            return {"watching": False, "message": _NOT_TRUSTED}
+        ls.session.live.start(view.analysis)
+        return {"watching": True, "message": None}
