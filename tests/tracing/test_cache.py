@@ -434,7 +434,7 @@ def test_entries_of_other_versions_are_swept_as_any(desk: Desk) -> None:
 
 
 def test_libraries_of_other_versions_are_bounded(tmp_path: Path) -> None:
-    old = [tmp_path / f"roscpp-{number:032x}.so" for number in range(6)]
+    old = [tmp_path / f"roscpp-{number:032x}.so" for number in range(MOST_KEPT + 2)]
     for number, path in enumerate(old):
         path.write_text("of another compiler")
         os.utime(path, (number, number))

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -238,11 +239,11 @@ def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, no_compiler
 
 
 @pytest.mark.ros
-def test_what_does_not_compile_is_tried_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_does_not_compile_is_tried_once(tmp_path: Path) -> None:
     source = tmp_path / "odd.cpp"
     source.write_text("#error odd\n")
-    monkeypatch.setattr(preload, "SOURCE", source)
-    library = Library(tmp_path / "cache")
+    odd = replace(preload_compile.ROSCPP, source=source)
+    library = Library(tmp_path / "cache", watched=odd)
     assert "does not compile" in master_alone(library).notes[0]
     source.write_text("")
     assert library.build() == library.planned()
@@ -255,7 +256,7 @@ def prebuilt(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("wheel") / "prebuilt.so"
     compiler = preload_compile.compiler()
     assert compiler is not None
-    preload_compile.compile_library(compiler, preload_compile.SOURCE, made, portable=True)
+    preload_compile.compile_library(compiler, preload_compile.ROSCPP, made, portable=True)
     return made
 
 

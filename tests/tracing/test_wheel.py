@@ -70,4 +70,6 @@ def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Pat
     chatter = {"name": "/chatter", "type": "std_msgs/String", "qos": {"latch": True, "queue_size": 7}}
     assert chatter in node["publishers"]
     (copy,) = (tmp_path / "cache" / "ros-preflight" / "preload").iterdir()
-    assert copy.read_bytes() == (site / "preflight_analysis/tracing/agents/roscpp_preload.so").read_bytes()
+    agents = site / "preflight_analysis/tracing/agents"
+    assert copy.read_bytes() == (agents / "roscpp_preload.so").read_bytes()
+    assert (agents / "rcl_preload.so").is_file()

@@ -42,7 +42,8 @@ class Fallback:
         A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
         """
         lacking = [_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True)]
-        if not any(lacking):
+        placeless = [not lacks and _placeless(tree, each) for lacks, each in zip(lacking, interfaces, strict=True)]
+        if not any(lacking) and not any(placeless):
             return tuple(interfaces)
         values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
         values |= {f"{node.name}/{param.name}": param.value for node in tree.nodes for param in node.params}
@@ -51,13 +52,17 @@ class Fallback:
         digests: dict[str, str] = {}
         whole = list(interfaces)
         for at, node in enumerate(tree.nodes):
-            if lacking[at]:
-                found = (similar(node) if similar is not None else None) or self._sources.read(node, params, digests)
+            if lacking[at] or placeless[at]:
+                found: Interface | SourceInterface | None = (
+                    similar(node) if similar is not None and lacking[at] else None
+                )
+                found = found or self._sources.read(node, params, digests)
                 if found is not None:
                     key = node.name, node.resolved.path
                     known = self._filled.get(key)
                     if known is None or known.found is not found or known.interface != interfaces[at]:
-                        known = _Filled(interfaces[at], found, _with_more(node, interfaces[at], found))
+                        more = _with_places if placeless[at] else _with_more
+                        known = _Filled(interfaces[at], found, more(node, interfaces[at], found))
                         self._remember(key, known)
                     whole[at] = known.whole
         return tuple(whole)
@@ -74,6 +79,43 @@ def _lacks(node: LaunchNode, interface: Interface) -> bool:
     outcome = interface.outcome
     ended_well = outcome.status == "exited" and outcome.exit_code == 0
     return not (interface.complete or ended_well or interface.pending) and read_annotation(node.action)[0] is None
+
+
+def _placeless(tree: LaunchTree, interface: Interface) -> bool:
+    """Whether all is known of what a node does, but nothing of where in its source: rcl is not told that."""
+    seen = interface.endpoints + interface.params
+    told = any(each.source_file is not None for each in seen)
+    return tree.generation == 2 and interface.source == "trace" and bool(seen) and not told
+
+
+def _with_places(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
+    """With the places in the source where what was seen is made. Parameters of a client library that does not tell them
+    (its node "lists" them) are those of the source."""
+    places = {(e.role, e.name): (e.source_file, e.source_line) for e in found.endpoints}
+    declared = {use.name: use for use in found.params}
+    endpoints = []
+    for end in interface.endpoints:
+        file, line = places.get((end.role, end.name), (None, None))
+        endpoints.append(replace(end, source_file=file, source_line=line))
+    params = []
+    for use in interface.params:
+        said = declared.pop(use.name, None)
+        if said is None:
+            params.append(use)
+            continue
+        default = said if said.has_default and not use.has_default else use
+        params.append(
+            replace(
+                use,
+                default=default.default,
+                has_default=default.has_default,
+                source_file=said.source_file,
+                source_line=said.source_line,
+            )
+        )
+    if any(use.access == "list" for use in interface.params):
+        params += [replace(use, inferred=True) for use in declared.values()]
+    return replace(interface, endpoints=tuple(endpoints), params=tuple(params))
 
 
 def _with_more(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:

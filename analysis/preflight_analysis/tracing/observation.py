@@ -5,12 +5,11 @@ Every field is checked: the node could have written the records itself. What doe
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import re
 import signal
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeGuard, cast
 
 from preflight_analysis.evaluation import names
@@ -89,6 +88,8 @@ _WAITS = {
 }
 """What a node waits for at its end, by the kind that the library told."""
 _MAYBE = ("poll", "services", "calls", "transforms", "parameter", "clock")
+_NOT_LOADED = 127
+"""What the loader ends a program with whose libraries are not found."""
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
 
@@ -164,11 +165,15 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     elif found.fed and not found.answers and outcome.status in ("exited", "crashed"):
         # It slept in a loop, and ended of what we gave it without anything else to see.
         outcome = Outcome("spinning", seconds=outcome.seconds)
-    outcome = dataclasses.replace(outcome, answers=tuple(found.answers))
+    outcome = replace(outcome, answers=tuple(found.answers))
     if outcome.status == "not-run":
         return Observation(Interface("none", outcome), Dependencies(), lasting=False)
+    if request.generation == 2 and recipe.preload is not None and not found.woven and (why := _not_seen(outcome)):
+        # Nothing was seen of it, which does not say that there is nothing: it is as if it had not been run.
+        outcome = Outcome("not-run", stderr_tail=tail, reason=why)
+        return Observation(Interface("none", outcome), Dependencies(tuple(found.files)), lasting=not raw.killed)
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
-    if not recipe.python:
+    if request.generation == 1 and not recipe.python:
         _correct_names(found, request.node, remaps)
     gone = _withdrawn(found)
     endpoints = tuple(
@@ -177,6 +182,8 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         if not gone or (e.role, names.resolve(e.name, request.node, remaps)) not in gone
     )
     params, param_dependencies = _params(found)
+    if request.generation == 2 and recipe.preload is not None:
+        params = _without_given(params, request)
     asked = set(found.asked)
     told = sum(not endpoint.builtin for endpoint, _ in found.endpoints.values())
     unexplained = sum(not endpoint.builtin for endpoint in endpoints) > told or any(
@@ -291,7 +298,7 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
         on_demand=found.visited,
     )
     # One that it made before as well is sure.
-    key = repr(dataclasses.replace(endpoint, speculative=False, on_demand=False))
+    key = repr(replace(endpoint, speculative=False, on_demand=False))
     found.waited = found.waited or (bool(found.fed) and key not in found.endpoints)
     found.endpoints.setdefault(key, (endpoint, _text(record.get("resolved"), _NAME)))
     return True
@@ -384,7 +391,7 @@ def _correct_names(found: _Gathered, node: str, remaps: Mapping[str, str]) -> No
     the library did, the name is the library's."""
     for key, (endpoint, full) in found.endpoints.items():
         if full is not None and names.resolve(endpoint.name, node, remaps) != full:
-            found.endpoints[key] = dataclasses.replace(endpoint, name=full), full
+            found.endpoints[key] = replace(endpoint, name=full), full
 
 
 def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[Endpoint, ...]:
@@ -392,9 +399,7 @@ def _endpoints(found: _Gathered, node: str, remaps: Mapping[str, str]) -> tuple[
     waited_for = {names.resolve(name, node, remaps) for kind, name, _, _ in found.waits if kind == "service"}
     endpoints = [
         # Waiting for a service is calling it, whatever the answer.
-        dataclasses.replace(endpoint, speculative=False)
-        if endpoint.role == "client" and full in waited_for
-        else endpoint
+        replace(endpoint, speculative=False) if endpoint.role == "client" and full in waited_for else endpoint
         for endpoint, full in found.endpoints.values()
     ]
     known: set[tuple[str, str]] = {
@@ -430,6 +435,21 @@ def _is_named(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: s
     starts = ("//", f"{node}/", *([space] if space != "/" else []))
     given = [e.name for e in endpoints if not e.builtin] + [p.name for p in params if not p.builtin]
     return any(name.startswith(starts) for name in given)
+
+
+def _without_given(params: tuple[ParamUse, ...], request: TraceRequest) -> tuple[ParamUse, ...]:
+    """Parameters that a client library told as it declared them: a value that the launch file gives hides the default.
+    Where none was told, rcl knows nothing of them, and the node may take any."""
+    given = {name.removeprefix(f"{request.node}/") for name in request.params}
+    told = (replace(p, default=None, has_default=False) if p.name[1:] in given else p for p in params)
+    return tuple(told) or (ParamUse("/", "list"),)
+
+
+def _not_seen(outcome: Outcome) -> str | None:
+    """Why nothing was seen of a program that never called rcl, unless that is a fault of its own."""
+    if outcome.exit_code == _NOT_LOADED:
+        return f"it cannot be loaded here: {outcome.reason}"
+    return None if outcome.status == "crashed" else "it does not use rcl, or not within the time that it was given"
 
 
 def _withdrawn(found: _Gathered) -> set[tuple[str, str]]:

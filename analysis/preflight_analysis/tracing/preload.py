@@ -1,8 +1,9 @@
-"""The library that is preloaded into roscpp nodes: the one that came with the wheel, else compiled with the user's
-compiler on first use, and kept.
+"""The libraries that are preloaded into nodes of roscpp and of rcl: those that came with the wheel, else compiled with
+the user's compiler on first use, and kept.
 
 Our own code, so it is compiled outside the sandbox. `planned` says where it is or is going to be and costs nothing;
-`build` takes half a second the first time. Where it cannot be had, nodes are seen by the master alone.
+`build` takes a second the first time. Where it cannot be had, nodes of roscpp are seen by the master alone, and those
+of rcl are not run.
 """
 
 from __future__ import annotations
@@ -25,7 +26,17 @@ from pathlib import Path
 
 from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.cache_folder import cache_folder
-from preflight_analysis.tracing.preload_compile import FLAGS, MACHINES, PREBUILT, SECONDS, SOURCE, compile_library
+from preflight_analysis.tracing.preload_compile import (
+    COMMON,
+    FLAGS,
+    MACHINES,
+    RCL,
+    ROSCPP,
+    SECONDS,
+    WATCHED,
+    Watched,
+    compile_library,
+)
 from preflight_analysis.tracing.store import ABANDONED
 
 _log = logging.getLogger(__name__)
@@ -33,8 +44,8 @@ _log = logging.getLogger(__name__)
 _ELF = b"\x7fELF\x02"
 """Of 64 bits, as the library is."""
 _PROBE = "/bin/true"
-_NAME = re.compile(r"roscpp-[0-9a-f]{32}\.so")
-MOST_KEPT = 4
+_NAME = re.compile(rf"({'|'.join(watched.name for watched in WATCHED)})-[0-9a-f]{{32}}\.so")
+MOST_KEPT = 8
 """How many libraries stay in the folder: of versions of this program and of compilers."""
 
 
@@ -56,12 +67,13 @@ def applies(executable: str) -> bool:
 
 
 class Library:
-    """The library in one cache folder. Usable from several threads at once. `prebuilt` is the one to take, where there
-    is such a file and it can be loaded."""
+    """The library for one client library, in one cache folder. Usable from several threads at once. `prebuilt` is the
+    one to take, where there is such a file and it can be loaded."""
 
-    def __init__(self, folder: Path | None = None, prebuilt: Path = PREBUILT) -> None:
+    def __init__(self, folder: Path | None = None, prebuilt: Path | None = None, watched: Watched = ROSCPP) -> None:
         self._folder = folder or cache_folder() / "preload"
-        self._prebuilt = prebuilt
+        self._prebuilt = prebuilt or watched.prebuilt
+        self._watched = watched
         self._lock = threading.Lock()
         self._unfit = False
         self._failure: str | None = None
@@ -86,15 +98,16 @@ class Library:
                 _used(plan.path)
                 return plan
             try:
-                compile_library(self._compiler or "", SOURCE, Path(plan.path))
+                compile_library(self._compiler or "", self._watched, Path(plan.path))
                 self._tidy()
             except subprocess.TimeoutExpired:
                 self._failure = f"the C++ compiler did not end within {SECONDS} s"
             except subprocess.CalledProcessError as error:
                 said = error.stderr.decode(errors="replace").strip().splitlines()
-                self._failure = "the library for roscpp nodes does not compile" + (f": {said[0][:300]}" if said else "")
+                self._failure = f"the library for {self._watched.name} nodes does not compile"
+                self._failure += f": {said[0][:300]}" if said else ""
             except OSError as error:
-                self._failure = f"the library for roscpp nodes cannot be made: {error}"
+                self._failure = f"the library for {self._watched.name} nodes cannot be made: {error}"
             if self._failure is not None:
                 _log.warning("%s", self._failure)
             return self.planned()
@@ -132,30 +145,29 @@ class Library:
     @functools.cached_property
     def _compiled(self) -> Preload:
         if not _supported():
-            return Preload(None, f"roscpp nodes are watched on {MACHINES[0]} only")
+            return Preload(None, f"{self._watched.name} nodes are watched on {MACHINES[0]} only")
         if self._compiler is None:
-            return Preload(None, "there is no C++ compiler to watch roscpp nodes with: apt install g++")
+            return Preload(None, f"there is no C++ compiler to watch {self._watched.name} nodes with: apt install g++")
         compiler = os.path.realpath(self._compiler)
         with contextlib.suppress(OSError):
             info = os.stat(compiler)
             named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *FLAGS)
-            return self._at(
-                hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + SOURCE.read_bytes()).hexdigest()
-            )
+            made_of = self._watched.source.read_bytes() + COMMON.read_bytes()
+            return self._at(hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + made_of).hexdigest())
         return Preload(None, "the C++ compiler or our own source cannot be read")
 
     def _at(self, digest: str) -> Preload:
-        path = str(self._folder.absolute() / f"roscpp-{digest[:32]}.so")
+        path = str(self._folder.absolute() / f"{self._watched.name}-{digest[:32]}.so")
         # ld.so cuts LD_PRELOAD at both, and knows no quotes.
         if any(c.isspace() or c == ":" for c in path):
             return Preload(None, f"{self._folder} cannot be preloaded from: its name has blanks or colons")
         return Preload(path)
 
 
-@functools.lru_cache(maxsize=1)
-def library() -> Library:
-    """The one of the user's cache folder."""
-    return Library()
+@functools.cache
+def library(generation: int) -> Library:
+    """The one of the user's cache folder for nodes of a generation of ROS."""
+    return Library(watched=ROSCPP if generation == 1 else RCL)
 
 
 def _used(path: str | None) -> None:
@@ -187,7 +199,7 @@ def _copy(prebuilt: Path, path: Path) -> bool:
             if probe.returncode == 0 and not probe.stderr:
                 os.replace(made, path)
                 return True
-            _log.info("the library for roscpp nodes that was shipped does not fit: %r", probe.stderr[:300])
+            _log.info("the library %s that was shipped does not fit: %r", prebuilt, probe.stderr[:300])
     except (OSError, subprocess.TimeoutExpired) as error:
-        _log.info("the library for roscpp nodes that was shipped cannot be used: %s", error)
+        _log.info("the library %s that was shipped cannot be used: %s", prebuilt, error)
     return False

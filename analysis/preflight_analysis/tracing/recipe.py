@@ -49,7 +49,7 @@ class Recipe:
     remapped: bool = False
     """Whether it gets the remaps. The client library then tells the names from before remapping."""
     preload: str | None = None
-    """The library that watches roscpp in it."""
+    """The library that watches the client library in it."""
     files: Mapping[str, str] = field(default_factory=dict)
     """What is to be written inside, by its path there."""
 
@@ -60,7 +60,7 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     if request.generation == 2:
         from preflight_analysis.tracing import ros2_recipe  # noqa: PLC0415
 
-        return ros2_recipe.make(environment, request)
+        return ros2_recipe.make(environment, request, preload)
     stable = variables(environment, request.env)
     interpreter, python = _interpreter(environment, request.executable, stable["PATH"])
     argv = [*interpreter, request.executable, *request.args]
@@ -76,8 +76,13 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     if namespace:
         env["ROS_NAMESPACE"] = namespace
     if preload is not None:
-        env["LD_PRELOAD"] = ":".join(library for library in (preload, stable.get("LD_PRELOAD", "")) if library)
+        env["LD_PRELOAD"] = preloading(preload, stable)
     return Recipe(tuple(argv), env, stable, folder(request), python, remapped, preload)
+
+
+def preloading(library: str, stable: Mapping[str, str]) -> str:
+    """LD_PRELOAD with a library of ours before those of the user."""
+    return ":".join(path for path in (library, stable.get("LD_PRELOAD", "")) if path)
 
 
 def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:

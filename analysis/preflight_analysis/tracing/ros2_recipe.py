@@ -41,8 +41,9 @@ _ELSEWHERE = (
 """What leads the middleware to others, who are not there."""
 
 
-def make(environment: Environment, request: TraceRequest) -> Recipe:
-    """The recipe of a request of generation 2."""
+def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
+    """The recipe of a request of generation 2: of a program, which `preload` is the library for, or of a node in
+    Python."""
     stable = {k: v for k, v in recipes.variables(environment, request.env).items() if k not in _ELSEWHERE}
     python = environment.ros2_python or sys.executable
     stable["PYTHONPATH"] = _joined(
@@ -56,7 +57,7 @@ def make(environment: Environment, request: TraceRequest) -> Recipe:
     if request.entry_point is not None:
         argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]
     else:
-        argv = [python, request.executable, *request.args]
+        argv = [*([python] if preload is None else []), request.executable, *request.args]
     argv.append("--ros-args")
     space, _, base = request.node.rpartition("/")
     if request.named:
@@ -74,7 +75,11 @@ def make(environment: Environment, request: TraceRequest) -> Recipe:
         hooks.EXPECTED: request.node,
         hooks.SHARES: json.dumps(_shares(environment)),
     }
-    return Recipe(tuple(argv), env, stable, recipes.folder(request), True, files=files)
+    if preload is not None:
+        env["LD_PRELOAD"] = recipes.preloading(preload, stable)
+    return Recipe(
+        tuple(argv), env, stable, recipes.folder(request), python=preload is None, preload=preload, files=files
+    )
 
 
 def _split(variables: Mapping[str, str], name: str) -> list[str]:

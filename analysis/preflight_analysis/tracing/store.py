@@ -235,7 +235,7 @@ def changed_since(path: str, moment: float) -> bool:
 def _agents_digest() -> str:
     """Of our own code that makes a trace: another version of it sees other things."""
     digest = hashlib.sha256()
-    for path in sorted(p for p in Path(__file__).parent.glob("**/*") if p.suffix in (".py", ".cpp")):
+    for path in sorted(p for p in Path(__file__).parent.glob("**/*") if p.suffix in (".py", ".cpp", ".hpp")):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

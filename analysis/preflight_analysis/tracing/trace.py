@@ -39,7 +39,7 @@ class Tracer:
     ) -> None:
         self.environment = environment
         self.cache = cache
-        self._library = library or preload.library()
+        self._libraries = {1: library or preload.library(1), 2: preload.library(2)}
         self._services = ServiceTypes(environment)
 
     @functools.cached_property
@@ -52,7 +52,7 @@ class Tracer:
             return None
         alone = nodelets.standalone(request)
         try:
-            planned = self._library.planned() if _preloaded(alone) else _NO_PRELOAD
+            planned = self._libraries[request.generation].planned() if _preloaded(alone) else _NO_PRELOAD
             found = self.cache.load(recipes.make(self.environment, alone, planned.path), alone)
             return self._finished(found, request) if found is not None else None
         except Exception:
@@ -93,7 +93,9 @@ class Tracer:
             return _not_run(f"no sandbox: {status.reason}")
         if cancel.is_set():
             return _not_run("the run was cancelled")
-        built = self._library.build() if _preloaded(request) else _NO_PRELOAD
+        built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
+        if request.generation == 2 and built.reason is not None:
+            return _not_run(built.reason)
         recipe = recipes.make(self.environment, request, built.path)
         visible = sorted({*self._visible, *recipes.request_paths(request, recipe)})
         python = self.environment.python if request.generation == 1 else self.environment.ros2_python
@@ -127,8 +129,8 @@ class Tracer:
 
 
 def _preloaded(request: TraceRequest) -> bool:
-    """Whether it is a roscpp node, as far as can be told before it runs."""
-    return request.generation == 1 and preload.applies(request.executable)
+    """Whether it is a node in C++, as far as can be told before it runs."""
+    return request.entry_point is None and preload.applies(request.executable)
 
 
 def _unbuilt(found: Interface, environment: Environment) -> str | None:

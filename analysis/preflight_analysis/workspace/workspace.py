@@ -27,6 +27,7 @@ from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import Fallback
+from preflight_analysis.tracing import preload
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
@@ -179,11 +180,14 @@ class Workspace:
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
     def _ros2_request(self, node: LaunchNode) -> TraceRequest | None:
-        """How to run a node of ROS 2: one that is written in Python, where there is a rclpy for it."""
+        """How to run a node of ROS 2: one that is written in Python, where there is a rclpy for it, or a program."""
         path = node.resolved.path
-        if self.environment.ros2_python is None or path is None or node.unknowns:
+        if path is None or node.unknowns or node.kind not in ("node", "lifecycle"):
             return None
-        if node.kind not in ("node", "lifecycle") or (node.resolved.entry_point is None and not is_python(path)):
+        if node.resolved.entry_point is not None or is_python(path):
+            if self.environment.ros2_python is None:
+                return None
+        elif not preload.applies(path):
             return None
         return TraceRequest(
             node.name,

@@ -1,0 +1,95 @@
+"""Workspaces of ROS 2 that are built, with nodes in C on the rcl of PyPI's wheels."""
+
+from __future__ import annotations
+
+import functools
+import os
+import shutil
+import subprocess
+import tempfile
+import threading
+from pathlib import Path
+
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+from ros2_desk import ROOT, ros2_prefix
+
+SOURCE = ROOT / "tests" / "tracing" / "rcl_node.c"
+_LIBRARIES = (
+    "rcl",
+    "rcl_action",
+    "rcl_lifecycle",
+    "rcutils",
+    "rmw",
+    "rosidl_runtime_c",
+    *(f"{package}__rosidl_{kind}" for package in ("std_msgs", "std_srvs", "lifecycle_msgs", "rcl_interfaces")
+      for kind in ("typesupport_c", "generator_c")),
+    "pthread",
+)  # fmt: skip
+
+
+@functools.cache
+def rcl_node(distribution: str = "kilted") -> Path:
+    """The program, compiled by the first test that asks."""
+    prefix = ros2_prefix(distribution)
+    made = Path(tempfile.mkdtemp(prefix="rcl-node-")) / "node"
+    includes = [f"-I{folder}" for folder in (prefix / "include").iterdir()]
+    # The libraries of the wheels are not linked with all that they need.
+    linking = [f"-L{prefix / 'lib'}", "-rdynamic", "-Wl,--unresolved-symbols=ignore-in-shared-libs"]
+    libraries = [f"-l{library}" for library in _LIBRARIES]
+    subprocess.run(["cc", "-w", *includes, str(SOURCE), "-o", str(made), *linking, *libraries], check=True)
+    return made
+
+
+class RclDesk:
+    """A workspace with the built package `cpkg`, whose only program is `node`."""
+
+    def __init__(self, folder: Path, distribution: str = "kilted") -> None:
+        self.folder = folder
+        install = folder / "install"
+        prefix = ros2_prefix(distribution)
+        share = install / "share" / "cpkg"
+        (install / "share/ament_index/resource_index/packages").mkdir(parents=True)
+        (install / "share/ament_index/resource_index/packages/cpkg").touch()
+        (share / "launch").mkdir(parents=True)
+        (share / "package.xml").write_text(
+            "<package format='3'><name>cpkg</name><version>0.0.0</version><description>d</description>"
+            "<maintainer email='a@b.c'>a</maintainer><license>MIT</license>"
+            "<exec_depend>std_msgs</exec_depend><export><build_type>ament_cmake</build_type></export></package>"
+        )
+        self.program = install / "lib" / "cpkg" / "node"
+        self.program.parent.mkdir(parents=True)
+        shutil.copy(rcl_node(distribution), self.program)
+        self.launch_file = share / "launch" / "a.launch.xml"
+        libraries = [prefix / "lib", *prefix.glob("lib/python3*/site-packages/ros_*.libs")]
+        self.variables = {
+            "PATH": f"{prefix / 'bin'}:/usr/bin:/bin",
+            "HOME": os.environ["HOME"],
+            "ROS_DISTRO": distribution,
+            "AMENT_PREFIX_PATH": str(install),
+            "LD_LIBRARY_PATH": os.pathsep.join(map(str, libraries)),
+        }
+        self.cache: TraceCache | None = None
+
+    def check(self, launch: str) -> Analysis:
+        """All that is known of a launch file in XML after its nodes were run."""
+        self.launch_file.write_text(f"<launch>{launch}</launch>")
+        environment = detect_environment(str(self.folder), self.variables)
+        workspace = Workspace(environment, Sources())
+        static = workspace.static(str(self.launch_file))
+        tracer = Tracer(environment, self.cache)
+        interfaces = []
+        for request in workspace.requests(static):
+            assert request is not None
+            interfaces.append(tracer.trace(request, threading.Event()))
+        return workspace.with_interfaces(static, interfaces, None)
+
+    def trace(self, args: str, inside: str = "", attributes: str = "name='n'") -> Interface:
+        """What the node does with these arguments."""
+        graph = self.check(f"<node pkg='cpkg' exec='node' args='{args}' {attributes}>{inside}</node>").graph
+        assert graph is not None
+        return graph.interfaces[0]

@@ -1,0 +1,210 @@
+"""Nodes on rcl that are no Python: what the preloaded library tells of them, on each distribution that PyPI has."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from preflight_analysis.tracing import preload, preload_compile
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.preload import Library
+from rcl_desk import RclDesk
+from ros2_desk import ends, uses
+
+ALL = {
+    ("publisher", "chatter"): "std_msgs/msg/String",
+    ("publisher", "~/state"): "std_msgs/msg/String",
+    ("subscriber", "/scan"): "std_msgs/msg/String",
+    ("service", "reset"): "std_srvs/srv/Empty",
+    ("client", "/map/load"): "std_srvs/srv/Empty",
+}
+
+
+@pytest.fixture(params=["kilted", "jazzy"])
+def desk(request: pytest.FixtureRequest, tmp_path: Path) -> RclDesk:
+    return RclDesk(tmp_path, request.param)
+
+
+def test_endpoints_have_the_names_that_the_node_gave(desk: RclDesk) -> None:
+    found = desk.trace("ends", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
+    assert (found.source, found.outcome.status, found.outcome.answers, found.notes) == ("trace", "spinning", (), ())
+    by_name = ends(found)
+    assert {key: end.type for key, end in by_name.items()} == ALL
+    assert by_name["publisher", "~/state"].qos == {
+        "reliability": "reliable",
+        "durability": "transient_local",
+        "liveliness": "automatic",
+        "depth": 1,
+        "deadline": 2.5,
+    }
+    assert by_name["subscriber", "/scan"].qos["reliability"] == "best_effort"
+
+
+@pytest.mark.parametrize("mode", ["ends", "poll", "thread", "sleep"])
+def test_event_loops(desk: RclDesk, mode: str) -> None:
+    found = desk.trace(mode)
+    assert (found.outcome.status, set(ends(found))) == ("spinning", set(ALL))
+
+
+def test_what_is_made_after_a_short_wait_is_seen(desk: RclDesk) -> None:
+    assert set(ends(desk.trace("late"))) == {*ALL, ("publisher", "late")}
+
+
+def test_a_node_in_a_namespace_of_its_own_has_full_names(desk: RclDesk) -> None:
+    assert ("publisher", "/there/chatter") in ends(desk.trace("elsewhere", attributes=""))
+
+
+def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative(desk: RclDesk) -> None:
+    found = desk.trace("wait")
+    assert found.outcome.status == "spinning"
+    assert set(found.outcome.answers) == {
+        "it asks for the service /start again and again, and was told that it is there",
+        "it calls the service /start, and was given an empty answer",
+    }
+    assert {key: end.speculative for key, end in ends(found).items()} == {
+        ("client", "start"): False,
+        ("publisher", "after"): True,
+    }
+
+
+def test_lifecycle_nodes_are_configured_and_activated(desk: RclDesk) -> None:
+    found = desk.trace("managed")
+    assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
+    assert set(ends(found)) == {("publisher", "made"), ("subscriber", "active")}
+    builtin = {e.name for e in found.endpoints if e.builtin}
+    assert {"~/change_state", "~/get_state", "~/transition_event"} <= builtin
+
+
+def test_a_lifecycle_node_that_refuses_to_be_configured_is_left_alone(desk: RclDesk) -> None:
+    found = desk.trace("managed fail")
+    assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "made")})
+
+
+def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None:
+    outcomes = {}
+    for mode in ("exit 0", "exit 7", "crash", "down", "early"):
+        found = desk.trace(mode)
+        outcomes[mode] = found.outcome.status, found.outcome.exit_code, found.outcome.signal
+        assert set(ends(found)) == (set() if mode == "early" else set(ALL))
+    assert outcomes == {
+        "exit 0": ("exited", 0, None),
+        "exit 7": ("crashed", 7, None),
+        "crash": ("crashed", None, "SIGABRT"),
+        "down": ("exited", 0, None),
+        "early": ("crashed", None, "SIGABRT"),
+    }
+
+
+def test_parameters_are_those_that_the_client_library_publishes(desk: RclDesk) -> None:
+    found = desk.trace("declare", "<param name='count' value='3'/>")
+    assert {name: (use.default, use.has_default) for name, use in uses(found).items()} == {
+        "~on": (True, True),
+        "~count": (None, False),  # what is seen is the value that it was given
+        "~rate": (10.0, True),
+        "~frame.id": ('a"b', True),
+        "~gains": ([0.25, 3.0], True),
+        "~frames": (["map", "base"], True),
+        "~typed": (None, False),
+        "~odd": (None, False),
+    }
+    assert isinstance(uses(found)["~rate"].default, float)
+    assert [use.name for use in found.params if use.builtin] == ["~use_sim_time"]
+
+
+def test_a_parameter_that_is_not_declared_is_told_only_where_they_are_known(desk: RclDesk) -> None:
+    launch = "<node pkg='cpkg' exec='node' name='n' args='{}'><param name='rte' value='1.0'/></node>"
+    (finding,) = [f for f in desk.check(launch.format("declare")).findings if f.rule == "PRM013"]
+    assert "rate" in finding.message
+    assert "PRM013" not in {f.rule for f in desk.check(launch.format("ends")).findings}
+
+
+@pytest.mark.parametrize(("topic", "space", "found"), [("chatter", "", 0), ("chater", "", 1), ("chatter", "robot", 1)])
+def test_check_says_which_topics_of_two_nodes_do_not_meet(desk: RclDesk, topic: str, space: str, found: int) -> None:
+    desk.launch_file.write_text(
+        "<launch><node pkg='cpkg' exec='node' name='talker' args='talk chatter'/>"
+        f"<node pkg='cpkg' exec='node' name='listener' args='listen {topic}' namespace='{space}'/></launch>"
+    )
+    command = [str(Path(sys.executable).with_name("ros-preflight")), "check", str(desk.launch_file), "--format", "json"]
+    told = subprocess.run(command, env=desk.variables, capture_output=True, text=True, check=False)
+    findings = json.loads(told.stdout)["findings"]
+    assert [(f["rule"], f["confidence"]) for f in findings] == [("TOP001", "likely")] * found
+    assert all("did you mean '/chatter', published by /talker" in f["message"] for f in findings)
+
+
+def test_a_trace_is_kept_until_the_name_or_the_program_changes(desk: RclDesk) -> None:
+    desk.cache = TraceCache(desk.folder / "cache")
+    assert not desk.trace("talk a").cached
+    assert desk.trace("talk a", "<remap from='a' to='b'/>").cached
+    assert not desk.trace("talk a", attributes="name='m'").cached
+    with desk.program.open("ab") as file:
+        file.write(b"more")
+    assert not desk.trace("talk a").cached
+
+
+SOURCE = """#include "rclcpp/rclcpp.hpp"
+#include "std_msgs/msg/string.hpp"
+int main(int argc, char ** argv) {
+  rclcpp::init(argc, argv);
+  auto node = rclcpp::Node::make_shared("own");
+  auto chatter = node->create_publisher<std_msgs::msg::String>("chatter", 10);
+  auto other = node->create_publisher<std_msgs::msg::String>("other", 10);
+  node->declare_parameter("rate", 10.0);
+  rclcpp::spin(node);
+}
+"""
+
+
+def with_source(desk: RclDesk) -> str:
+    """Put a source of the program beside it, which says more than the program does."""
+    package = desk.folder / "src" / "cpkg"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text((desk.launch_file.parent.parent / "package.xml").read_text())
+    (package / "CMakeLists.txt").write_text(
+        "add_executable(node node.cpp)\ninstall(TARGETS node DESTINATION lib/cpkg)\n"
+    )
+    (package / "node.cpp").write_text(SOURCE)
+    return str(package / "node.cpp")
+
+
+def test_a_trace_wins_over_the_source_which_says_where_things_are_made(tmp_path: Path) -> None:
+    desk = RclDesk(tmp_path)
+    source = with_source(desk)
+    found = desk.trace("talk chatter")
+    places = {key: (end.source_file, end.source_line, end.inferred) for key, end in ends(found).items()}
+    assert (found.source, places) == ("trace", {("publisher", "chatter"): (source, 6, False)})
+    # Of parameters rcl knows nothing.
+    rate = uses(found)["~rate"]
+    assert (rate.default, rate.inferred, rate.source_line) == (10.0, True, 8)
+    rate = uses(desk.trace("declare", "<param name='rate' value='2.0'/>"))["~rate"]
+    assert (rate.default, rate.inferred, rate.source_line) == (10.0, False, 8)
+
+
+@pytest.mark.parametrize(
+    ("body", "reason"),
+    [
+        ("exit 0", "it does not use rcl, or not within the time that it was given"),
+        ("exit 127", "it cannot be loaded here: it ended with exit code 127"),
+    ],
+)
+def test_of_a_program_without_rcl_the_source_is_read(tmp_path: Path, body: str, reason: str) -> None:
+    desk = RclDesk(tmp_path)
+    with_source(desk)
+    compiled = ["cc", "-x", "c", "-", "-o", str(desk.program)]
+    subprocess.run(compiled, input=f"int main(void) {{ return {body.split()[1]}; }}", text=True, check=True)
+    found = desk.trace("")
+    assert (found.source, found.outcome.status, found.outcome.reason) == ("source", "not-run", reason)
+    assert set(ends(found)) == {("publisher", "chatter"), ("publisher", "other")}
+
+
+def test_without_a_compiler_the_source_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk = RclDesk(tmp_path)
+    with_source(desk)
+    monkeypatch.setattr(preload_compile, "COMPILERS", ("no-such-compiler",))
+    lacking = Library(tmp_path / "cache", tmp_path / "absent", preload_compile.RCL)
+    monkeypatch.setattr(preload, "library", lambda _: lacking)
+    found = desk.trace("ends")
+    assert found.source == "source"
+    assert "there is no C++ compiler to watch rcl nodes with" in (found.outcome.reason or "")
