@@ -9,7 +9,8 @@ python=${PYTHON:-python3}
 distribution=${1:-kilted}
 place=$root/out/ros2-$distribution
 case $distribution in
-  kilted) packages=(ros-rclpy==9.1.2 ros-rmw-fastrtps-cpp==9.3.3 ros-std-msgs==5.5.1 ros-std-srvs==5.5.1) ;;
+  kilted) packages=(ros-rclpy==9.1.2 ros-rmw-fastrtps-cpp==9.3.3 ros-std-msgs==5.5.1 ros-std-srvs==5.5.1
+    ros-geometry-msgs==5.5.1) ;;
   jazzy) packages=(ros-rclpy==7.1.6 ros-rmw-fastrtps-cpp==8.4.3 ros-std-msgs==5.3.6 ros-std-srvs==5.3.6) ;;
   *) echo "usage: $0 [kilted|jazzy]" >&2; exit 2 ;;
 esac

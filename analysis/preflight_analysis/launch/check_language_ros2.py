@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.launch.check_language import LanguageProblem
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
 from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
@@ -48,7 +48,7 @@ def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
     for child in action.children:
         if child.kind in tag.children:
             yield from _check(child, action.kind)
-        elif not (action.kind in ("node", "node_container", "composable_node") and child.kind in _ANNOTATIONS):
+        elif not (action.kind in NODE_KINDS and child.kind in _ANNOTATIONS):
             data = {"tag": child.kind, "parent": action.kind, "allowed": list(tag.children)}
             yield LanguageProblem("unknown-element", child.kind_span, data)
 

@@ -54,7 +54,7 @@ _ACTIONS = {
     "PushRosNamespace": ("push_ros_namespace", {"namespace": "namespace"}),
     "PushROSNamespace": ("push_ros_namespace", {"namespace": "namespace"}),
 }
-_ACTIONS["LifecycleNode"] = ("lifecycle_node", _ACTIONS["Node"][1])
+_ACTIONS["LifecycleNode"] = ("lifecycle_node", {**_ACTIONS["Node"][1], "autostart": "autostart"})
 _ACTIONS["ComposableNodeContainer"] = ("node_container", _ACTIONS["Node"][1])
 _FIRST = {
     "arg": ("name",),

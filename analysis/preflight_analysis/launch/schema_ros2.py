@@ -51,6 +51,7 @@ ACTIONS = (
     "set_use_sim_time",
     "node_container",
     "load_composable_node",
+    "lifecycle_node",
     "executable",
     "timer",
     "ros_timer",
@@ -129,6 +130,12 @@ TAGS_ROS2: Mapping[str, Tag] = {
     ),
     "reset": _action("Forgets all launch configurations but those to keep.", children=("keep",)),
     "node": _action("Starts a node.", *_NODE, children=_NODE_CHILDREN),
+    "lifecycle_node": _action(
+        "Starts a lifecycle node. Of a launch_ros of 2025 or newer; Python launch files have it since long.",
+        *(_required(a) if a.name in ("name", "namespace") else a for a in _NODE),
+        _flag("autostart", "Configure and activate the node once it is there."),
+        children=_NODE_CHILDREN,
+    ),
     "node_container": _action(
         "Starts a container and loads composable nodes into it.",
         *(_required(a) if a.name in ("name", "namespace") else a for a in _NODE),

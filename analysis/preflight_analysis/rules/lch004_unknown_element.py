@@ -8,7 +8,8 @@ from dataclasses import replace
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Problem
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Severity
+from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -24,15 +25,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not problem.fatal:
             message += " and is skipped"
         elif near is None:
-            message += "; an extension of launch that is not known here may define it"
+            message += "; a package that extends launch may define it, and no package here does"
         message += did_you_mean(near)
         fixes: list[Fix] = []
         if near is not None:
             renamed = rename(context, problem.location, name, near)
             fixes = [_both_tags(context, tags, problem, near, fix) for fix in renamed]
-        yield problem_finding(
-            rule, problem, message, severity="error" if problem.fatal and near is not None else None, fixes=fixes
-        )
+        severity: Severity | None = "error" if problem.fatal and near is not None else None
+        confidence: Confidence = "certain"
+        if problem.fatal and near is None and not has_ros(context):
+            severity, confidence = "hint", "possible"
+        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
 def _both_tags(context: Context, tags: Tags, problem: Problem, name: str, fix: Fix) -> Fix:
@@ -54,7 +57,9 @@ RULE = Rule(
     severity="warning",
     what="Reports an element that `roslaunch` does not know at that place, and names the nearest one that it knows.",
     why="`roslaunch` prints one line among many others and skips the element with all that is in it: the parameter "
-    "is not set, the node is not started. `ros2 launch` stops, and starts nothing of the file.",
+    "is not set, the node is not started. `ros2 launch` stops, and starts nothing of the file, unless a package with "
+    "the entry point `launch.frontend.launch_extension` defines the tag: those of the workspace and of the sourced ROS "
+    "are known.",
     example='<node pkg="camera" type="driver" name="camera">\n  <parm name="rate" value="30"/>\n</node>',
     instead='<node pkg="camera" type="driver" name="camera">\n  <param name="rate" value="30"/>\n</node>',
     check=_check,

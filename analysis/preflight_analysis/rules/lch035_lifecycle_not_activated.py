@@ -75,7 +75,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _waits(node: LaunchNode) -> bool:
     if node.unknowns or not (node.kind == "lifecycle" or (node.package, node.executable) in _KNOWN):
         return False
-    if node.action.value("autostart") is not None or "autostart" in node.args:
+    autostart = node.action.value("autostart")
+    if (autostart is not None and autostart.text.lower() not in ("false", "0")) or "autostart" in node.args:
         return False
     return not any(param.name in ("autostart_node", "autostart") and param.value for param in node.params)
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 
 from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.launch_extensions import exposed_actions
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.collector import Collector
@@ -27,15 +28,18 @@ from preflight_analysis.evaluation.ros2.python_params import python_value
 from preflight_analysis.evaluation.ros2.python_runs import called, calls_own_code, recorded
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem, Use
+from preflight_analysis.launch.check_language import LanguageProblem
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX, read_launch
+from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
 _FILLED_IN = re.compile(r"@[A-Za-z_]\w*@")
 MAX_DEPTH = 150
 """Of groups and includes within each other."""
 MAX_INCLUDES = 2_000
+_WITH_ACTIONS = tuple(tag for tag, schema in TAGS_ROS2.items() if "node" in schema.children)
 NO_RESULTS = NoResults()
 _MALFORMED = {".yaml": "yaml-malformed", ".yml": "yaml-malformed", PYTHON_SUFFIX: "python-malformed"}
 _SURE_UNRUN = ("python-malformed", "launch-file-not-run", "arg-not-a-choice", "nested-too-deeply")
@@ -160,7 +164,8 @@ class _Walk:
             state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", Location(place.file, span))
         if not place.file.endswith(PYTHON_SUFFIX):
             for found in check_language_ros2(launch_file):
-                state.problem(found.kind, place.origin(found.span), **found.data)
+                if found.kind != "unknown-element" or not self._is_extension(place, found):
+                    state.problem(found.kind, place.origin(found.span), **found.data)
         if launch_file.root is None:
             span = document.root.tag_span if document.root is not None else Span(0, min(1, len(document.text)))
             tag = document.root.tag if document.root is not None else None
@@ -172,6 +177,16 @@ class _Walk:
             # What is written in a program need not be what it does.
             kept = [p for p in state.problems[before:] if p.location.file != place.file or p.kind in _SURE_UNRUN]
             state.problems[before:] = kept
+
+    def _is_extension(self, place: Place, found: LanguageProblem) -> bool:
+        """Whether a package defines the tag; what that does is not known."""
+        tag = str(found.data["tag"])
+        package = exposed_actions(self._state.environment).get(tag) if found.data["parent"] in _WITH_ACTIONS else None
+        if package is not None:
+            self._state.note_unknown(
+                f"<{tag}>", f"what this tag of package '{package}' starts", place.origin(found.span)[-1]
+            )
+        return package is not None
 
     def _as_run(self, launch_file: LaunchFile, chain: Origin) -> tuple[LaunchFile, PythonRun | None]:
         """A Python launch file as its run tells it; any other is itself."""

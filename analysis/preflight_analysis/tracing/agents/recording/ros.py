@@ -333,6 +333,11 @@ class LifecycleNode(Node):
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.preflight_autostart = autostart
 
+    def preflight_tell(self, t: Any) -> None:
+        super().preflight_tell(t)
+        if self.preflight_autostart is not None:
+            t.attribute("autostart", self.preflight_autostart)
+
     @property
     def is_autostart(self) -> Any:
         return self.preflight_autostart
