@@ -22,3 +22,10 @@ def parse_arguments(words: Iterable[str]) -> dict[str, str]:
         if name and value and not private:
             found[name] = value
     return found
+
+
+def parse_ros2_arguments(words: Iterable[str]) -> dict[str, str]:
+    """The same for `ros2 launch`, which takes any name, and a value with `:=` in it. At a word that is no argument it
+    stops; here that is left out."""
+    pairs = (word.partition(":=") for word in words)
+    return {name: value for name, separator, value in pairs if name and separator and value}

@@ -109,20 +109,21 @@ class _Reader:
         start = at
         while at < end:
             character = self._text[at]
-            if character == "\\":
-                at += 2
-            elif quote is not None and character == quote:
+            if character == quote and not self._is_escaped(at):
                 break
-            elif character == "$" and self._text.startswith("(", at + 1):
+            if character == "$" and self._text.startswith("(", at + 1) and not self._is_escaped(at):
                 self._literal(parts, start, at)
                 part, at = self._substitution(at, quote)
                 parts.append(part)
                 start = at
             else:
                 at += 1
-        at = min(at, end)
         self._literal(parts, start, at)
         return tuple(parts), at
+
+    def _is_escaped(self, at: int) -> bool:
+        """Whether a backslash stands before it, which may well be the second of two."""
+        return at > 0 and self._text[at - 1] == "\\"
 
     def _literal(self, parts: list[_Part], start: int, end: int) -> None:
         if end > start:
@@ -173,8 +174,10 @@ class _Reader:
         begin = literal = at
         while at < len(text):
             character = text[at]
-            if character == "\\":
-                at += 2
+            if character == " ":
+                break
+            if self._is_escaped(at):
+                at += 1
                 continue
             if character == "$" and text.startswith("(", at + 1):
                 self._literal(parts_, literal, at)
@@ -182,13 +185,12 @@ class _Reader:
                 parts_.append(part)
                 literal = at
                 continue
-            if character in " )" or character == quote:
+            if character in (")", quote):
                 break
             if character == "(" or (quote is None and character in "'\""):
                 what = "a parenthesis" if character == "(" else "a quote"
                 raise _Malformed(f"{what} inside of an argument needs a backslash before it, or quotes", at, at + 1)
             at += 1
-        at = min(at, len(text))
         self._literal(parts_, literal, at)
         if at == begin:
             if at >= len(text):

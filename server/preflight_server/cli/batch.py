@@ -14,7 +14,7 @@ from typing import Any
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.arguments import parse_arguments
+from preflight_analysis.evaluation.arguments import parse_arguments, parse_ros2_arguments
 from preflight_analysis.evaluation.tree_json import tree_json
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
@@ -64,7 +64,7 @@ class Job:
     """One line of the jobs file, its paths absolute."""
 
     file: str
-    args: Mapping[str, str]
+    args: tuple[str, ...]
     env: Mapping[str, str]
     package_path: tuple[str, ...]
 
@@ -77,16 +77,15 @@ def answer_all(jobs: Path, *, no_run: bool = False) -> int:
         sources = Sources()
         launch_file = sources.launch_file(job.file)
         generation = 1 if isinstance(launch_file, Unreadable) else launch_file.generation
+        args = parse_arguments(job.args) if generation == 1 else parse_ros2_arguments(job.args)
         environment = environment_of(generation, job.package_path, tuple(sorted(job.env.items())))
         results = CommandResults(lambda: NO_RUN if no_run else None, _COMMAND)
         workspace = Workspace(environment, sources, _CWD, results)
         if no_run:
-            analysis = workspace.static(job.file, job.args)
+            analysis = workspace.static(job.file, args)
         else:
             runner = CommandRunner(environment, _CWD, CommandCache())
-            analysis = settled(
-                workspace, job.file, job.args, results, runner, threading.Event(), only_launch_files=True
-            )
+            analysis = settled(workspace, job.file, args, results, runner, threading.Event(), only_launch_files=True)
         print_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
     return CLEAN
 
@@ -130,7 +129,7 @@ def _job(line: str, root: str, where: str) -> Job:
 
     return Job(
         os.path.normpath(os.path.join(root, filled(file))),
-        parse_arguments(filled(each) for each in args),
+        tuple(filled(each) for each in args),
         {name: filled(value) for name, value in env.items()},
         tuple(os.path.normpath(os.path.join(root, filled(folder))) for folder in package_path),
     )

@@ -15,6 +15,7 @@ from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap, PythonRun
 from preflight_analysis.evaluation.ros2.declared import Declared, required_arguments
 from preflight_analysis.evaluation.ros2.nodes import (
@@ -27,6 +28,8 @@ from preflight_analysis.evaluation.ros2.params import pushed_value
 from preflight_analysis.evaluation.ros2.python_params import python_value
 from preflight_analysis.evaluation.ros2.python_runs import called, calls_own_code, recorded
 from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
+from preflight_analysis.evaluation.ros2.written import is_from_yaml
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem, Use
 from preflight_analysis.launch.check_language import LanguageProblem
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
@@ -163,7 +166,7 @@ class _Walk:
             state.problem("xml-entity", place.origin(span), fatal=False, name=name)
             state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", Location(place.file, span))
         if not place.file.endswith(PYTHON_SUFFIX):
-            for found in check_language_ros2(launch_file):
+            for found in (*check_language_ros2(launch_file), *check_values_ros2(launch_file)):
                 if found.kind != "unknown-element" or not self._is_extension(place, found):
                     state.problem(found.kind, place.origin(found.span), **found.data)
         if launch_file.root is None:
@@ -411,7 +414,10 @@ class _Walk:
                 continue
             if declared.include is not None:
                 self._missing_below.append(declared)
-            elif include is not None:
+            elif include is None:
+                origin = (Location(declared.file, declared.span),)
+                self._state.problem("root-arg-required", origin, name=declared.name)
+            else:
                 self._state.problem("arg-required", include, name=declared.name, file=declared.file, passed=passed)
 
     def _included_without_context(self, file: str, action: Action) -> LaunchFile | None:
@@ -623,6 +629,30 @@ class _Walk:
     def _pop_configurations(self, performer: Performer, action: Action) -> None:
         self._context.pop_if_pushed()
 
+    def _set_use_sim_time(self, performer: Performer, action: Action) -> None:
+        """The frontends hand the text over where the action wants a bool: it fails when it is executed."""
+        self._only_read(performer, action)
+        value = action.value("value")
+        if value is not None and not performer.place.file.endswith(PYTHON_SUFFIX):
+            expected = 'what launch can use: it takes no text; write <set_parameter name="use_sim_time" value="..."/>'
+            self._state.problem(
+                "bad-value",
+                performer.place.origin(value.span),
+                tag=action.kind,
+                attribute="value",
+                value=value.text,
+                expected=expected,
+                choices=(),
+            )
+
+    def _set_log_dir(self, performer: Performer, action: Action) -> None:
+        value = action.value("new_log_dir")
+        if value is not None:
+            result, environment = performer.value(value), self._context.scope.environment
+            folder = os.path.join(environment.get("ROS_LOG_DIR", ""), result.text)
+            if result.known and os.path.isabs(folder):
+                environment["ROS_LOG_DIR"] = folder
+
     def _only_read(self, performer: Performer, action: Action) -> None:
         """Actions that start nothing and set nothing that a node sees; their values are read all the same."""
         for attribute in action.attributes:
@@ -653,8 +683,8 @@ _EXECUTE: dict[str, Callable[[_Walk, Performer, Action], None]] = {
     "reset": _Walk._reset,
     "log": _Walk._only_read,
     "shutdown": _Walk._only_read,
-    "set_use_sim_time": _Walk._only_read,
-    "set_ros_log_dir": _Walk._only_read,
+    "set_use_sim_time": _Walk._set_use_sim_time,
+    "set_ros_log_dir": _Walk._set_log_dir,
     "lifecycle_node": _Walk._lifecycle,
     "unlet": _Walk._unlet,
     "inline": _Walk._inline,
@@ -709,10 +739,15 @@ def _condition(performer: Performer, action: Action, attribute: ActionAttribute,
 
 
 def _flag(action: Action, name: str, *, default: bool = True) -> bool:
-    """A boolean attribute; a text that is not one counts as true, as it does for launch."""
+    """A boolean attribute; a text that may have substitutions counts as true, as it does for launch."""
     value = action.value(name)
     if value is None:
         return default
     if value.typed is not None:
         return bool(value.typed.value)
-    return value.text.strip().lower() not in ("false", "0", "off", "no", "")
+    if is_from_yaml(action):
+        return bool(value.text)
+    try:
+        return bool(coerce(value.text, "bool", or_text=True))
+    except NotOfTypeError:
+        return default

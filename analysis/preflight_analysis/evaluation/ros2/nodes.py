@@ -44,8 +44,13 @@ def absolute(ns: str | None) -> str | None:
     return ns if ns is None or ns.startswith("/") else "/" + ns
 
 
-def namespace_of(performer: Performer, action: Action, scope: Scope) -> tuple[Resolved | None, bool]:
-    """The namespace of a node, None where neither it nor what is around it says one, and whether it is valid."""
+def namespace_of(
+    performer: Performer, action: Action, scope: Scope, *, fatal: bool = True
+) -> tuple[Resolved | None, bool]:
+    """The namespace of a node, None where neither it nor what is around it says one, and whether it is valid.
+
+    `fatal`: launch itself looks at it, and not only the container that is to load the node.
+    """
     value = action.value("namespace")
     own = performer.value(value) if value is not None else None
     base = scope.namespace
@@ -57,7 +62,7 @@ def namespace_of(performer: Performer, action: Action, scope: Scope) -> tuple[Re
     if known and text is not None and _NAMESPACE.fullmatch(text) is None:
         origin = performer.place.origin(value.span if value is not None else action.kind_span)
         reason = "a namespace is made of letters, digits and underscores between single slashes"
-        performer.state.problem("invalid-name", origin, what="namespace", name=text, reason=reason)
+        performer.state.problem("invalid-name", origin, fatal=fatal, what="namespace", name=text, reason=reason)
         return result, False
     return result, True
 
@@ -146,7 +151,7 @@ def evaluate_composable(
         if package is None or plugin is None:
             continue
         name = performer.value(name_value) if name_value is not None else None
-        ns, _ = namespace_of(performer, action, scope)
+        ns, _ = namespace_of(performer, action, scope, fatal=False)
         namespace = ns.text if ns is not None else "/"
         plugin_name = performer.value(plugin)
         full = _full(namespace, name.text if name is not None else plugin_name.text.rpartition("::")[2])
@@ -194,6 +199,7 @@ def evaluate_executable(performer: Performer, action: Action, *, deferred: bool)
             place.origin(action.head_span),
             action,
             Executable(None),
+            respawn=_text(performer, action, "respawn", "false").lower() in ("true", "1"),
             output=_text(performer, action, "output", "log"),
             cwd=_text(performer, action, "cwd", "") or None,
             launch_prefix=_text(performer, action, "launch-prefix", "") or None,

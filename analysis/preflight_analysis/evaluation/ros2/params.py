@@ -16,9 +16,11 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
 from preflight_analysis.evaluation.ros2.param_files import EVERY, Section, read_flat_file, read_param_file
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
-from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_valid
+from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid
+from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.evaluation.tree import Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
+from preflight_analysis.launch.schema_ros2 import PARAM_TYPES
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
 
 
@@ -77,7 +79,7 @@ def tag_params(performer: Performer, action: Action, node: str, prefix: str = ""
     place = performer.place
     type_attribute = action.value("type")
     type_name = type_attribute.text if type_attribute is not None else None
-    result = param_value(performer, value, type_name)
+    result = param_value(performer, action, value, type_name)
     if result is _UNKNOWN:
         return []
     name_location = Location(place.file, name_value.span)
@@ -88,28 +90,26 @@ _UNKNOWN = object()
 """Instead of a value that is not known, or is wrong, which is noted."""
 
 
-def param_value(performer: Performer, value: Value, type_name: str | None) -> Any:
+def param_value(performer: Performer, action: Action, value: Value, type_name: str | None) -> Any:
     """What `launch_ros` makes of the value of a `<param>`: a text is read as YAML first, then its substitutions are
-    made, and what they come to is read again."""
+    made, and what they come to is read again. What it refuses at once was said when the file was read."""
+    separator = action.value("value-sep")
+    between = separator.text if separator is not None else None
+    if type_name is not None and type_name not in PARAM_TYPES:
+        return _UNKNOWN
+    written = read_param_value(value, type_name, from_yaml=is_from_yaml(action), separator=between)
+    if written.expected is not None:
+        return _UNKNOWN
+    item_type = type_name.removeprefix("list_of_") if written.is_list and type_name in ITEMS and type_name else None
     try:
-        if value.typed is not None:
-            written = value.typed.value
-            if not is_valid(written, or_text=True):
-                raise NotOfTypeError("a bool, a number, a text or a list of one of them")
-        else:
-            written = coerce(value.text, type_name, or_text=True) if value.problem is None else value.text
-        if isinstance(written, list):
-            items = [_item(performer, each, value) for each in written]
-            return _UNKNOWN if any(each is _UNKNOWN for each in items) else items
-        if not isinstance(written, str):
-            return written
-        parts = value if value.typed is None and written == value.text else _again(written, value)
-        result = performer.value(parts)
-        if not result.known:
+        items = [_item(performer, each, item_type if written.is_list else type_name) for each in written.items]
+        if any(each is _UNKNOWN for each in items):
             return _UNKNOWN
-        if parts.is_literal:
-            return result.text
-        return coerce(result.text, type_name)
+        if not written.is_list:
+            return items[0]
+        if not is_of_type(items, type_name):
+            raise NotOfTypeError("a list of one type")
+        return items
     except NotOfTypeError as problem:
         origin = performer.place.origin(value.span)
         text = performer.value(value).text
@@ -119,19 +119,11 @@ def param_value(performer: Performer, value: Value, type_name: str | None) -> An
         return _UNKNOWN
 
 
-def _item(performer: Performer, item: Any, value: Value) -> Any:
-    if not isinstance(item, str):
+def _item(performer: Performer, item: Any, type_name: str | None) -> Any:
+    if not isinstance(item, Value):
         return item
-    parts = _again(item, value)
-    result = performer.value(parts)
-    if not result.known:
-        return _UNKNOWN
-    return result.text if parts.is_literal else coerce(result.text, None)
-
-
-def _again(text: str, value: Value) -> Value:
-    """A text that stands inside of the value, or that YAML made of it: places in it are those of the whole."""
-    return parse_value_ros2(SpannedText(text, value.span, (*(value.span.start,) * len(text), value.span.end)))
+    result = performer.value(item)
+    return coerce(result.text, type_name) if result.known else _UNKNOWN
 
 
 def pushed_source(performer: Performer, param: PushedParam, to: Sources) -> ParamSource | None:
@@ -167,7 +159,8 @@ def file_source(
     file = read_param_file(text)
     if file.problem is not None:
         message, span = file.problem
-        state.problem("bad-yaml", (*origin, Location(path, span)), fatal=must_exist, message=message, path=path)
+        at, fatal = (*origin, Location(path, span)), to.composable or substitute
+        state.problem("bad-yaml", at, fatal=fatal, message=message, path=path)
     reaching = [s for s in file.sections if s.reaches(to.node, composable=to.composable)]
     if to.composable:
         reaching.sort(key=lambda section: section.exact)

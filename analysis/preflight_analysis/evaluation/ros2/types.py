@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
 import yaml
+
+ITEMS: Mapping[str, type] = {"list_of_str": str, "list_of_bool": bool, "list_of_float": float, "list_of_int": int}
+"""Of what the types of lists are lists."""
+_SCALARS: Mapping[str, type] = {"str": str, "bool": bool, "float": float, "int": int}
 
 
 class NotOfTypeError(ValueError):
@@ -35,7 +40,7 @@ def coerce(text: str, type_name: str | None, *, or_text: bool = False) -> Any:
         if isinstance(value, bool) or (or_text and isinstance(value, str)):
             return value
         raise NotOfTypeError("true or false")
-    item = {"list_of_str": str, "list_of_bool": bool, "list_of_float": float, "list_of_int": int}[type_name]
+    item = ITEMS[type_name]
     value = _as_yaml(text, or_text)
     allowed = (str, item) if or_text else (item,)
     if not isinstance(value, list) or not all(isinstance(each, allowed) for each in value):
@@ -48,7 +53,7 @@ def _as_yaml(text: str, or_text: bool) -> Any:
         return text
     try:
         value = loaded(text)
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
         if or_text:
             return text
         raise NotOfTypeError("YAML") from error
@@ -65,9 +70,31 @@ def loaded(text: str) -> Any:
 
 def is_valid(value: Any, *, or_text: bool = False) -> bool:
     """Whether a parameter can have the value; `or_text`: texts among the items of a list may become anything."""
-    if isinstance(value, list):
-        kinds = {type(each) for each in value}
-        if or_text:
-            kinds.discard(str)
-        return len(kinds) <= 1 and all(isinstance(each, (bool, int, float, str)) for each in value)
-    return isinstance(value, (bool, int, float, str))
+    if not isinstance(value, list):
+        return isinstance(value, (bool, int, float, str))
+    kind = next((type(each) for each in value if type(each) is not str), str)
+    if kind not in (bool, int, float, str):
+        return False
+    return all(isinstance(each, (kind, str) if or_text else kind) for each in value)
+
+
+def is_of_type(value: Any, type_name: str | None, *, or_text: bool = False) -> bool:
+    """Whether it is an instance of the type, which is not the same as what can be made into one: 1 is no float
+    (`launch.utilities.type_utils.is_instance_of`)."""
+    if type_name in (None, "yaml"):
+        return is_valid(value, or_text=or_text)
+    assert type_name is not None
+    kind = ITEMS.get(type_name) or _SCALARS[type_name]
+    allowed = (str, kind) if or_text else (kind,)
+    if type_name in _SCALARS:
+        return isinstance(value, allowed)
+    return isinstance(value, list) and all(isinstance(each, allowed) for each in value)
+
+
+def coerced_items(texts: list[str], type_name: str | None) -> list[Any]:
+    """A list that was written with a separator of its own (`coerce_list`)."""
+    item = type_name.removeprefix("list_of_") if type_name in ITEMS and type_name is not None else None
+    found = [coerce(text, item, or_text=True) for text in texts]
+    if not is_valid(found, or_text=True):
+        raise NotOfTypeError("a list of one type")
+    return found

@@ -1,0 +1,114 @@
+"""How many of the recorded answers of real `ros2 launch` about Python launch files are ours too: `make corpus`.
+
+The corpus has the answers and names the projects and commits; the files themselves come from git repositories that
+are at hand, each as `<owner>+<name>/repo`, `<owner>+<name>` or `<owner>__<name>` in one folder. Without them nothing
+can be compared, and this says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+MAX_SIZE = 1_000_000
+"""Of a file that is taken over: launch files, parameters and manifests are small, meshes and pictures are not."""
+
+
+def main() -> int:
+    """Take the sources over, evaluate all jobs, compare."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--corpus", type=Path, required=True, help="the recorded answers")
+    parser.add_argument("--sources", type=Path, required=True, help="the folder with the git repositories")
+    parser.add_argument("--compare", type=Path, required=True, help="compare_ros2.py")
+    parser.add_argument("--out", type=Path, default=Path("out/ros2-python"))
+    parser.add_argument("--show", default="40", help="how many differences to show")
+    options = parser.parse_args()
+    with (options.corpus / "repositories.tsv").open() as table:
+        rows = list(csv.DictReader(table, delimiter="\t"))
+    missing = [row["repository"] for row in rows if _repository(options.sources, row) is None]
+    if missing:
+        print(f"Python launch files are not compared: no sources of {', '.join(missing)} in {options.sources}")
+        return 0
+    options.out.mkdir(parents=True, exist_ok=True)
+    for row in rows:
+        repository = _repository(options.sources, row)
+        assert repository is not None
+        _take_over(repository, row["commit"], options.out / "src" / row["folder"])
+    for name in ("jobs-python.jsonl", "packages.json"):
+        shutil.copyfile(options.corpus / name, options.out / name)
+    actual = options.out / "actual.jsonl"
+    with actual.open("w") as output:
+        batch = ["-m", "preflight_server.cli.main", "tree", "--batch", str(options.out / "jobs-python.jsonl")]
+        subprocess.run([sys.executable, *batch], stdout=output, check=True)
+    expected = str(options.corpus / "expected-python.jsonl")
+    compare = [str(options.compare), "--root", str(options.out), "--show", options.show, expected, str(actual)]
+    subprocess.run([sys.executable, *compare], check=False)
+    return 0
+
+
+def _repository(sources: Path, row: dict[str, str]) -> Path | None:
+    """The git folder that has the recorded commit."""
+    plus = row["repository"].replace("/", "+")
+    for folder in (sources / plus / "repo", sources / plus, sources / row["folder"]):
+        git = folder / ".git" if (folder / ".git").exists() else folder
+        found = subprocess.run(
+            ["git", f"--git-dir={git}", "cat-file", "-e", row["commit"] + "^{tree}"], capture_output=True, check=False
+        )
+        if found.returncode == 0:
+            return git
+    return None
+
+
+def _take_over(git: Path, commit: str, folder: Path) -> None:
+    """The small files of a commit; done once."""
+    mark = folder.with_name(f".{folder.name}.{commit}")
+    if mark.exists():
+        return
+    for path, mode, content in _files(git, commit):
+        file = folder / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        if mode == "120000":
+            file.unlink(missing_ok=True)
+            file.symlink_to(content.decode())
+        else:
+            file.write_bytes(content)
+            file.chmod(0o755 if mode == "100755" else 0o644)
+    mark.touch()
+
+
+def _files(git: Path, commit: str) -> Iterator[tuple[str, str, bytes]]:
+    listing = subprocess.run(
+        ["git", f"--git-dir={git}", "ls-tree", "-r", "-l", "-z", commit], capture_output=True, check=True
+    ).stdout.decode(errors="surrogateescape")
+    wanted = []
+    for line in filter(None, listing.split("\0")):
+        about, path = line.split("\t", 1)
+        mode, kind, blob, size = about.split()
+        # What a partial copy lacks has no size.
+        if kind == "blob" and size.isdigit() and int(size) <= MAX_SIZE:
+            wanted.append((path, mode, blob))
+    blobs = subprocess.run(
+        ["git", f"--git-dir={git}", "cat-file", "--batch"],
+        input="".join(f"{blob}\n" for _, _, blob in wanted).encode(),
+        capture_output=True,
+        check=True,
+    ).stdout
+    at = 0
+    for path, mode, _ in wanted:
+        end = blobs.index(b"\n", at)
+        head = blobs[at:end].split()
+        at = end + 1
+        if head[1] == b"missing":
+            continue
+        size = int(head[2])
+        yield path, mode, blobs[at : at + size]
+        at += size + 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
