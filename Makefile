@@ -65,7 +65,9 @@ fuzz: $(READY) ## 50,000 random edits of files of ../shared/corpus/ros1, each co
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
-vsix: ## the VS Code extension, out/ros-preflight.vsix
+vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
+	rm -rf vscode-client/server
+	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir vscode-client/server .
 	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package
 
 test-editors: setup vsix ## the extension in the real VS Code, with screenshots in out/screenshots
@@ -78,4 +80,4 @@ docs: $(READY) ## the rule reference, from the rules, and the schemas of the set
 	$(BIN)/python -m preflight_server.lsp.contribution vscode-client/package.json
 
 clean:
-	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist tests/editors/vscode/node_modules
+	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist vscode-client/server tests/editors/vscode/node_modules

@@ -37,6 +37,7 @@ def untrusted_desk() -> Iterator[Desk]:
 
 @pytest.fixture
 def desk_without_server() -> Iterator[Desk]:
-    """The command `ros-preflight` is not on PATH."""
+    """The command `ros-preflight` is not on PATH, and what it needs cannot be fetched."""
     with desk("catkin_ws", server_on_path=False) as laid:
+        laid.environment["PIP_NO_INDEX"] = "1"
         yield laid

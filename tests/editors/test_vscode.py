@@ -79,4 +79,6 @@ def test_untrusted_workspace_says_why_and_trust_needs_no_restart(untrusted_desk:
 def test_server_is_asked_for_and_started_again_when_it_dies(desk_without_server: Desk) -> None:
     seen = drive(desk_without_server, "restarts")
 
-    assert "pipx install ros-preflight" in seen["missing"]
+    assert "No matching distribution found" in seen["missing"]
+    assert {"Show Log", "Choose Python", "Set Path"} <= set(seen["buttons"])
+    assert seen["told"] == 1

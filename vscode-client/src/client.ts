@@ -23,11 +23,20 @@ function initializationOptions(): Record<string, unknown> {
     inlayHints: settings.get("inlayHints"),
     packagePath: settings.get("packagePath"),
     clientCommands,
+    status: true,
   };
 }
 
-/** Makes a client for one life of the server; `closed` is called when its connection ends without having been asked to. */
-export function createClient(server: ServerCommand, log: LogOutputChannel, closed: () => void): LanguageClient {
+/**
+ * Makes a client for one life of the server, which runs in this environment; `closed` is called when its connection
+ * ends without having been asked to.
+ */
+export function createClient(
+  server: ServerCommand,
+  environment: NodeJS.ProcessEnv,
+  log: LogOutputChannel,
+  closed: () => void,
+): LanguageClient {
   return new LanguageClient(
     "rosPreflight",
     "ROS Preflight",
@@ -35,7 +44,7 @@ export function createClient(server: ServerCommand, log: LogOutputChannel, close
       command: server.program,
       args: [...server.args],
       // Not the workspace: `python -m` would import from it, trusted or not.
-      options: { cwd: homedir() },
+      options: { cwd: homedir(), env: environment },
     },
     {
       documentSelector: [...servedFiles],

@@ -1,39 +1,76 @@
 import {
   commands,
   type Disposable,
+  EventEmitter,
   type ExtensionContext,
   languages,
   type TextDocument,
+  type Uri,
   window,
   workspace,
 } from "vscode";
 import { launchFiles } from "./documents";
+import { choosePython, clearCache, DOCTOR, nodesOf, setServerPath, trace } from "./maintenance";
+import { showMenu } from "./menu";
+import type { NodeItem } from "./nodeItems";
+import { NodeTreeView } from "./nodeTree";
 import { type Place, selectRoot, showReferences } from "./rootCommands";
 import { ServerSession } from "./serverSession";
+import { StatusBar } from "./statusBar";
+
+/** The settings that say which server is started, and with which environment. */
+const OF_THE_START = ["server.command", "server.python", "server.install", "environment.setup"];
 
 let session: ServerSession | undefined;
 
 export function activate(context: ExtensionContext): void {
   const log = window.createOutputChannel("ROS Preflight", { log: true });
-  const server = new ServerSession(log);
+  const tree = new NodeTreeView((document) => languages.match(launchFiles, document) > 0);
+  let statusBar: StatusBar | undefined;
+  const server = new ServerSession(context, log, {
+    changed: (life, status) => statusBar?.update(life, status),
+    connected: (client) => tree.connect(client),
+    analysed: () => tree.refresh(),
+  });
   session = server;
+  const command = (name: string, perform: (...given: never[]) => unknown) =>
+    commands.registerCommand(`rosPreflight.${name}`, perform);
   context.subscriptions.push(
     log,
-    commands.registerCommand("rosPreflight.restartServer", () => server.restart()),
-    commands.registerCommand("rosPreflight.showOutput", () => log.show()),
-    commands.registerCommand("rosPreflight.selectRoot", (uri?: string) => {
+    tree,
+    command("restartServer", () => server.restart()),
+    command("showOutput", () => log.show()),
+    command("showMenu", showMenu),
+    command("showNodeTree", () => commands.executeCommand("rosPreflight.nodes.focus")),
+    command("selectRoot", (uri?: string) => {
       const file = uri ?? window.activeTextEditor?.document.uri.toString();
       return file === undefined ? undefined : server.withClient((client) => selectRoot(client, file));
     }),
-    commands.registerCommand("rosPreflight.showReferences", (...place: Place) =>
-      server.withClient((client) => showReferences(client, ...place)),
-    ),
+    command("showReferences", (...place: Place) => server.withClient((client) => showReferences(client, ...place))),
+    command("traceNode", (line?: { readonly item: NodeItem }) => {
+      const editor = window.activeTextEditor;
+      const which =
+        line !== undefined && tree.shown !== undefined
+          ? { uri: tree.shown, node: line.item.name }
+          : editor && nodesOf(editor, false);
+      return which && server.withClient((client) => trace(client, which));
+    }),
+    command("traceAll", () => {
+      const which = window.activeTextEditor ? nodesOf(window.activeTextEditor, true) : tree.shown && { uri: tree.shown };
+      return which && server.withClient((client) => trace(client, which));
+    }),
+    command("clearCache", () => server.withClient(clearCache)),
+    command("choosePython", () => choosePython(log)),
+    command("setServerPath", setServerPath),
+    registerDoctor(server),
     onFirstLaunchFile(() => {
+      statusBar = new StatusBar();
       void server.restart();
       context.subscriptions.push(
+        statusBar,
         workspace.onDidGrantWorkspaceTrust(() => server.trustGranted()),
         workspace.onDidChangeConfiguration((change) => {
-          if (change.affectsConfiguration("rosPreflight.server.command")) {
+          if (OF_THE_START.some((name) => change.affectsConfiguration(`rosPreflight.${name}`))) {
             void server.restart();
           }
         }),
@@ -44,6 +81,32 @@ export function activate(context: ExtensionContext): void {
 
 export async function deactivate(): Promise<void> {
   await session?.stop();
+}
+
+/** The command that opens the doctor's page, and who writes it: anew each time. */
+function registerDoctor(server: ServerSession): Disposable {
+  const stale = new EventEmitter<Uri>();
+  const provided = workspace.registerTextDocumentContentProvider(DOCTOR.scheme, {
+    onDidChange: stale.event,
+    provideTextDocumentContent: async () => {
+      let text = "";
+      await server.withClient(async (client) => {
+        ({ text } = await client.sendRequest<{ text: string }>("rosPreflight/doctor", {}));
+      });
+      return [...server.facts, text].join("\n");
+    },
+  });
+  const opened = commands.registerCommand("rosPreflight.doctor", async () => {
+    stale.fire(DOCTOR);
+    await window.showTextDocument(await workspace.openTextDocument(DOCTOR), { preview: true });
+  });
+  return {
+    dispose: () => {
+      stale.dispose();
+      provided.dispose();
+      opened.dispose();
+    },
+  };
 }
 
 /** Calls back once, when a launch file is or comes to be open: an XML file of another kind needs no server. */

@@ -24,13 +24,14 @@ export class ServerNotFound extends Error {}
 const NAME = "ros-preflight";
 
 /**
- * Finds the `ros-preflight` command: the setting, else PATH, else beside the selected interpreter, else `~/.local/bin`.
+ * Finds the `ros-preflight` command: the setting, else PATH, else beside the selected interpreter, else `~/.local/bin`;
+ * undefined where it is nowhere.
  *
  * A setting that leads nowhere is an error, not a reason to look elsewhere.
  *
  * @throws ServerNotFound
  */
-export function findServer(setting: unknown, around: Surroundings): ServerCommand {
+export function findServer(setting: unknown, around: Surroundings): ServerCommand | undefined {
   const configured = readSetting(setting);
   if (configured !== undefined) {
     return fromSetting(configured, around);
@@ -45,10 +46,7 @@ export function findServer(setting: unknown, around: Surroundings): ServerComman
       return { program, args: ["lsp"], foundIn };
     }
   }
-  throw new ServerNotFound(
-    "the command ros-preflight was not found on PATH, in the selected Python environment or in ~/.local/bin. " +
-      "Install it with 'pipx install ros-preflight', or name it in the setting rosPreflight.server.command.",
-  );
+  return undefined;
 }
 
 function readSetting(setting: unknown): [string, ...string[]] | undefined {

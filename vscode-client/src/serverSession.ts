@@ -1,32 +1,67 @@
-import { commands, type LogOutputChannel, window, workspace } from "vscode";
-import { type LanguageClient, State } from "vscode-languageclient/node";
+import { readdirSync } from "node:fs";
+import * as path from "node:path";
+import { commands, type ExtensionContext, type LogOutputChannel, ProgressLocation, window, workspace } from "vscode";
+import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
 import { createClient, workspaceTrust } from "./client";
-import { findServer, ServerNotFound } from "./findServer";
+import { findServer, type ServerCommand, ServerNotFound } from "./findServer";
+import { install, installed, InstallFailed } from "./privateServer";
 import { RestartPolicy } from "./restartPolicy";
-import { surroundings } from "./surroundings";
+import type { Life, ServerStatus } from "./serverStatus";
+import { SetupFailed, setupPaths, Setups } from "./setups";
+import { isExecutable, pythons, surroundings } from "./surroundings";
 
-/** The one server of this window: found, started, started again when it dies, stopped. */
+const statusChanged = new NotificationType<ServerStatus>("rosPreflight/status");
+const analysed = new NotificationType<object>("rosPreflight/analysed");
+
+/** Who is told what becomes of the server. */
+export interface Listener {
+  /** The server's life or what it does has changed. */
+  changed(life: Life, status: ServerStatus | undefined): void;
+  /** A server runs and can be asked, or there is none any more. */
+  connected(client: LanguageClient | undefined): void;
+  /** There is something newer to be shown. */
+  analysed(): void;
+}
+
+type Action = [label: string, perform: () => unknown];
+
+/** The one server of this window: found or installed, started, started again when it dies, stopped. */
 export class ServerSession {
   private client: LanguageClient | undefined;
   private policy = new RestartPolicy();
   /** Stops and starts stand in a queue, so that two quick restarts do not leave two servers behind. */
   private queue: Promise<void> = Promise.resolve();
+  private readonly setups = new Setups();
+  private installing: AbortController | undefined;
+  private life: Life = { state: "stopped" };
+  private status: ServerStatus | undefined;
+  private saidThatItDied = false;
+  /** Where the server was found and what was sourced for it, a line each, for the doctor's page. */
+  readonly facts: string[] = [];
 
-  constructor(private readonly log: LogOutputChannel) {}
+  constructor(
+    private readonly context: ExtensionContext,
+    private readonly log: LogOutputChannel,
+    private readonly listener: Listener,
+  ) {}
 
   /** Starts the server, stopping one that runs. Never rejects: what goes wrong is shown to the user. */
   restart(): Promise<void> {
     this.policy = new RestartPolicy();
+    this.setups.forget();
+    this.installing?.abort();
     return this.enqueue(() => this.replaceClient());
   }
 
   stop(): Promise<void> {
+    this.installing?.abort();
     return this.enqueue(() => this.stopClient());
   }
 
   /** Passes on that the workspace is trusted now; where no server runs, this may be what it takes to find one. */
   async trustGranted(): Promise<void> {
-    if (this.client === undefined || this.client.state === State.Stopped) {
+    const sources = workspace.getConfiguration("rosPreflight").get<unknown[]>("environment.setup") ?? [];
+    if (this.client === undefined || this.client.state === State.Stopped || sources.length > 0) {
       return this.restart();
     }
     try {
@@ -51,57 +86,160 @@ export class ServerSession {
   }
 
   private enqueue(step: () => Promise<void>): Promise<void> {
-    this.queue = this.queue.then(step).catch((error: unknown) => this.report(String(error)));
+    this.queue = this.queue.then(step).catch((error: unknown) => this.fail(String(error)));
     return this.queue;
   }
 
   private async replaceClient(): Promise<void> {
     await this.stopClient();
-    let server;
-    try {
-      const command = workspace.getConfiguration("rosPreflight").get<unknown>("server.command");
-      server = findServer(command, await surroundings(this.log));
-    } catch (error) {
-      if (!(error instanceof ServerNotFound)) {
-        throw error;
-      }
-      this.report(error.message, ["Open Settings", openSettings]);
+    this.facts.length = 0;
+    this.tell({ state: "starting" });
+    const server = await this.server();
+    if (server === undefined) {
       return;
     }
+    const environment = await this.environment();
     this.log.info(`Starting ${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`);
+    this.facts.push(`server                ${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`);
     let started = false;
-    const client = createClient(server, this.log, () => {
+    const client = createClient(server, environment, this.log, () => {
       if (started && client === this.client) {
         this.died();
       }
     });
     this.client = client;
+    client.onNotification(statusChanged, (status) => {
+      if (client === this.client) {
+        this.status = status;
+        this.tell({ state: "running" });
+      }
+    });
+    client.onNotification(analysed, () => this.listener.analysed());
     // Not awaited: a server that never answers must not keep "Restart Server" waiting.
     client.start().then(
       () => {
-        started = true;
+        if (client === this.client) {
+          started = true;
+          this.tell({ state: "running" });
+          this.listener.connected(client);
+        }
       },
       (error: unknown) => {
         if (client === this.client) {
-          this.report(`the server did not start: ${String(error)}`);
+          this.fail(`the server did not start: ${String(error)}`);
         }
       },
     );
   }
 
+  /** The server to start: found, or installed. Where there is none, the user is told. */
+  private async server(): Promise<ServerCommand | undefined> {
+    const settings = workspace.getConfiguration("rosPreflight");
+    try {
+      const found = findServer(settings.get<unknown>("server.command"), await surroundings(this.log));
+      return found ?? (await this.privateServer(settings.get<boolean>("server.install") !== false));
+    } catch (error) {
+      if (error instanceof ServerNotFound) {
+        this.fail(error.message, ["Open Settings", () => openSettings("rosPreflight.server.command")]);
+      } else if (error instanceof InstallFailed) {
+        this.fail(
+          error.message,
+          ["Show Log", () => this.log.show()],
+          ["Choose Python", () => commands.executeCommand("rosPreflight.choosePython")],
+          ["Set Path", () => commands.executeCommand("rosPreflight.setServerPath")],
+        );
+      } else {
+        throw error;
+      }
+      return undefined;
+    }
+  }
+
+  private async privateServer(mayInstall: boolean): Promise<ServerCommand> {
+    const storage = this.context.globalStorageUri.fsPath;
+    const wheel = bundledWheel(this.context.extensionPath);
+    const known = wheel === undefined ? undefined : installed(storage, wheel, isExecutable);
+    const nowhere = "the command ros-preflight was not found on PATH, in the selected Python environment or in ~/.local/bin";
+    if (known === undefined && (wheel === undefined || !mayInstall)) {
+      throw new InstallFailed(`${nowhere}. Install it with 'pipx install ros-preflight', or name it in the settings.`);
+    }
+    const [program = "", ...args] = known ?? (await this.install(storage, wheel ?? ""));
+    return { program, args: [...args, "lsp"], foundIn: "the extension's own virtual environment" };
+  }
+
+  private async install(storage: string, wheel: string): Promise<string[]> {
+    const candidates = await pythons(this.log);
+    const abort = new AbortController();
+    this.installing = abort;
+    this.tell({ state: "installing", reason: "The server is being installed in an environment of its own." });
+    const options = { location: ProgressLocation.Notification, title: "ROS Preflight", cancellable: true };
+    return window.withProgress(options, (progress, token) => {
+      token.onCancellationRequested(() => abort.abort());
+      return install(candidates, {
+        storage,
+        wheel,
+        environment: process.env,
+        line: (text) => this.log.info(text),
+        step: (what) => progress.report({ message: what }),
+        signal: abort.signal,
+      });
+    });
+  }
+
+  /** What the server runs in: this process's environment, with what the user's set-ups make of it. */
+  private async environment(): Promise<NodeJS.ProcessEnv> {
+    const setting = workspace.getConfiguration("rosPreflight").get<unknown>("environment.setup");
+    try {
+      const files = setupPaths(setting, workspace.workspaceFolders?.[0]?.uri.fsPath);
+      // Sourcing a file is running it, and what it sources in turn may be the workspace's.
+      if (files.length > 0 && !workspace.isTrusted) {
+        this.log.info("The set-ups of the settings are sourced once the workspace is trusted.");
+        this.facts.push("set-ups               not sourced: the workspace is not trusted");
+        return process.env;
+      }
+      const environment = await this.setups.environment(files, process.env, (line) => this.log.info(line));
+      this.facts.push(...files.map((file) => `set-up                ${file}, sourced`));
+      return environment;
+    } catch (error) {
+      if (!(error instanceof SetupFailed)) {
+        throw error;
+      }
+      this.facts.push(`set-ups               not sourced: ${error.message}`);
+      this.report(
+        error.message,
+        ["Show Log", () => this.log.show()],
+        ["Open Settings", () => openSettings("rosPreflight.environment.setup")],
+      );
+      return process.env;
+    }
+  }
+
   private died(): void {
+    this.listener.connected(undefined);
     if (this.policy.allowsRestart()) {
       this.log.warn("The server stopped; it is started again.");
+      if (!this.saidThatItDied) {
+        this.saidThatItDied = true;
+        const show = "Show Log";
+        void window
+          .showWarningMessage("ROS Preflight: the server stopped unexpectedly and is started again.", show)
+          .then((choice) => (choice === show ? this.log.show() : undefined));
+      }
       void this.enqueue(() => this.replaceClient());
     } else {
       const minutes = this.policy.windowMilliseconds / 60_000;
-      this.report(`the server stopped ${this.policy.limit + 1} times within ${minutes} minutes and is left stopped.`);
+      this.fail(`the server stopped ${this.policy.limit + 1} times within ${minutes} minutes and is left stopped.`);
     }
   }
 
   private async stopClient(): Promise<void> {
     const client = this.client;
     this.client = undefined;
+    this.status = undefined;
+    if (client !== undefined) {
+      this.listener.connected(undefined);
+      this.tell({ state: "stopped" });
+    }
     try {
       await client?.dispose();
     } catch (error) {
@@ -110,19 +248,38 @@ export class ServerSession {
     }
   }
 
-  private report(reason: string, more: [string, () => unknown] = ["Show Output", () => this.log.show()]): void {
+  private tell(life: Life): void {
+    this.life = life;
+    this.listener.changed(this.life, this.status);
+  }
+
+  /** There is no server, and the user is told why. */
+  private fail(reason: string, ...actions: Action[]): void {
+    this.tell({ state: "missing", reason });
+    this.report(reason, ...(actions.length > 0 ? actions : [["Show Log", () => this.log.show()] as Action]));
+  }
+
+  private report(reason: string, ...actions: Action[]): void {
     this.log.error(reason);
-    const [label, action] = more;
-    const again = "Restart Server";
-    void window.showErrorMessage(`ROS Preflight: ${reason}`, again, label).then((choice) => {
-      if (choice === again) {
-        return this.restart();
-      }
-      return choice === label ? action() : undefined;
-    });
+    const offered: Action[] = [["Restart Server", () => this.restart()], ...actions];
+    const labels = offered.map(([label]) => label);
+    void window
+      .showErrorMessage(`ROS Preflight: ${reason}`, ...labels)
+      .then((choice) => offered.find(([label]) => label === choice)?.[1]());
   }
 }
 
-function openSettings(): Thenable<unknown> {
-  return commands.executeCommand("workbench.action.openSettings", "rosPreflight.server.command");
+/** The wheel of the server that `make vsix` put into the extension. */
+function bundledWheel(extension: string): string | undefined {
+  const folder = path.join(extension, "server");
+  try {
+    const wheel = readdirSync(folder).find((name) => name.endsWith(".whl"));
+    return wheel === undefined ? undefined : path.join(folder, wheel);
+  } catch {
+    return undefined;
+  }
+}
+
+function openSettings(name: string): Thenable<unknown> {
+  return commands.executeCommand("workbench.action.openSettings", name);
 }

@@ -47,8 +47,9 @@ async function killServer() {
   await noSquiggle();
 }
 
+// By the badge in the status bar.
 async function trust() {
-  await workbench.command("Workspaces: Manage Workspace Trust");
+  await workbench.status("Not trusted").click();
   const editor = workbench.page.locator(".workspace-trust-editor");
   await editor.getByRole("button", { name: "Trust", exact: true }).click();
   await workbench.page.locator(".workspace-trust-editor", { hasText: "You trust this folder" }).waitFor();
@@ -99,6 +100,7 @@ const scenarios = {
     seen.sandboxStarts = contents(desk.sandboxRecord).length;
     const before = serverProcess();
     await step("trust the workspace", trust);
+    await step("badge gone", () => workbench.status("Not trusted").waitFor({ state: "detached" }));
     await step("squiggle", () => squiggle().waitFor());
     await step("picture after trust", () => picture("7-trusted"));
     seen.sameServer = serverProcess() === before;
@@ -108,19 +110,26 @@ const scenarios = {
   async restarts() {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
     await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
-    const missing = workbench.message("ros-preflight was not found");
+    const missing = workbench.message("installing the server with pip failed");
     seen.missing = await step("message about the missing server", () => missing.innerText());
+    await step("status of the missing server", () => workbench.status("no server").waitFor());
+    seen.buttons = await step("its buttons", () => missing.locator(".monaco-button").allInnerTexts());
     await step("picture of the message", () => picture("8-no-server"));
     workbench.configure({ "rosPreflight.server.command": [desk.server] });
     await step("squiggle of the configured server", () => squiggle().waitFor());
     for (let death = 1; death <= 5; death += 1) {
       await step(`death ${death}`, killServer);
       await step(`restart ${death}`, () => squiggle().waitFor());
+      if (death === 1) {
+        await step("told that it came back", () => workbench.message("is started again").waitFor());
+        await step("picture of the restarted server", () => picture("9-came-back"));
+      }
     }
+    seen.told = await step("how often it was told", () => workbench.toldSoFar("is started again"));
     await step("death 6", killServer);
     const gaveUp = workbench.message("the server stopped 6 times within 3 minutes");
     await step("message that it is left stopped", () => gaveUp.waitFor());
-    await step("picture of that message", () => picture("9-left-stopped"));
+    await step("picture of that message", () => picture("10-left-stopped"));
     await step("Restart Server", () => gaveUp.getByRole("button", { name: "Restart Server" }).click());
     await step("squiggle of the restarted server", () => squiggle().waitFor());
   },

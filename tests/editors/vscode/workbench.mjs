@@ -188,6 +188,27 @@ export class Workbench {
     return this.page.locator(".notification-toast", { hasText: text });
   }
 
+  /** How many messages that hold a text were shown so far and not closed. */
+  async toldSoFar(text) {
+    await this.command("Notifications: Show Notifications");
+    const center = this.page.locator(".notifications-center.visible");
+    await center.waitFor();
+    const count = await center.locator(".notification-list-item", { hasText: text }).count();
+    await this.command("Notifications: Hide Notifications");
+    await center.waitFor({ state: "hidden" });
+    return count;
+  }
+
+  /** An entry of the status bar that holds a text. */
+  status(text) {
+    return this.page.locator(".statusbar-item", { hasText: text });
+  }
+
+  /** A line of the tree of nodes that holds a text. */
+  treeLine(text) {
+    return this.page.locator(".pane-body .monaco-list-row", { hasText: text });
+  }
+
   /** Changes settings as an edit of settings.json would. Those of the scopes `machine*` count in `Machine` alone. */
   configure(settings, scope = "Machine") {
     const file = path.join(this.desk.home, "data", scope, "settings.json");

@@ -1,0 +1,53 @@
+import { commands, type QuickPickItem, QuickPickItemKind, window, workspace } from "vscode";
+
+interface Entry extends QuickPickItem {
+  readonly command?: string;
+}
+
+const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] = [
+  [
+    "Nodes",
+    [
+      { label: "$(play) Trace This Node", description: "run the node at the cursor anew", command: "rosPreflight.traceNode" },
+      { label: "$(run-all) Trace All Nodes", description: "run all nodes of the launch anew", command: "rosPreflight.traceAll" },
+      { label: "$(trash) Clear Cache", description: "forget what runs of nodes told", command: "rosPreflight.clearCache" },
+    ],
+  ],
+  [
+    "Launch",
+    [
+      { label: "$(list-selection) Select Root and Arguments", description: "in whose context the file is shown", command: "rosPreflight.selectRoot" },
+      { label: "$(list-tree) Show Node Tree", description: "what the launch starts", command: "rosPreflight.showNodeTree" },
+      { label: "$(type-hierarchy) Show Graph", description: "who talks to whom", command: "rosPreflight.showGraph" },
+    ],
+  ],
+  [
+    "Server",
+    [
+      { label: "$(pulse) Doctor", description: "ROS, the sandbox, and what is missing", command: "rosPreflight.doctor" },
+      { label: "$(output) Show Log", command: "rosPreflight.showOutput" },
+      { label: "$(debug-restart) Restart Server", command: "rosPreflight.restartServer" },
+    ],
+  ],
+];
+
+const TRUST: Entry = {
+  label: "$(shield) Manage Workspace Trust",
+  description: "nodes are not run before the workspace is trusted",
+  command: "workbench.trust.manage",
+};
+
+/** The menu of the status bar. */
+export async function showMenu(): Promise<void> {
+  const known = new Set(await commands.getCommands(true));
+  const entries = ENTRIES.flatMap(([label, group]): Entry[] => [
+    { label, kind: QuickPickItemKind.Separator },
+    ...group.filter(({ command }) => known.has(command ?? "")),
+  ]);
+  const choice = await window.showQuickPick<Entry>(workspace.isTrusted ? entries : [TRUST, ...entries], {
+    title: "ROS Preflight",
+  });
+  if (choice?.command !== undefined) {
+    await commands.executeCommand(choice.command);
+  }
+}

@@ -1,0 +1,91 @@
+import type { Location } from "vscode-languageserver-types";
+
+/** A line of the tree of nodes, in the server's own words (`rosPreflight/tree`). */
+export interface NodeItem {
+  readonly kind: "namespace" | "node" | "param" | "remap" | "section" | "include" | "not-taken";
+  readonly label: string;
+  readonly detail: string;
+  /** The full name of a node or namespace. */
+  readonly name: string;
+  readonly location: Location | null;
+  /** Which of the tree's files it comes from. */
+  readonly file: number | null;
+  readonly note: string;
+  /** The worst of its findings, as LSP counts: 1 is an error, 2 a warning, 3 an information. */
+  readonly severity: number | null;
+  readonly findings: number;
+  readonly children: readonly NodeItem[];
+}
+
+/** All of one launch. */
+export interface NodeTree {
+  readonly root: { readonly uri: string; readonly args: Readonly<Record<string, string>> };
+  readonly files: readonly string[];
+  readonly nodes: number;
+  readonly items: readonly NodeItem[];
+}
+
+/** What a node is doing on the running robot: for who watches it. */
+export type LiveState = "running" | "missing" | "unexpected";
+
+/** The colours of launch files, by names that every theme has. The root file has the first. */
+const COLOURS = ["charts.blue", "charts.orange", "charts.green", "charts.purple", "charts.yellow", "charts.red"] as const;
+
+/** The colour of what comes from a file; there are more files than colours in a large launch. */
+export function colourOf(file: number | null): string | undefined {
+  return file === null ? undefined : COLOURS[file % COLOURS.length];
+}
+
+/** The icon of a line, by its name in the product's icon font. */
+export function iconOf(item: NodeItem, live: LiveState | undefined): string {
+  switch (item.kind) {
+    case "namespace":
+      return "symbol-namespace";
+    case "node":
+      return live === undefined ? "circle-large-filled" : { running: "pass-filled", missing: "error", unexpected: "question" }[live];
+    case "param":
+      return "symbol-parameter";
+    case "remap":
+      return "arrow-swap";
+    case "include":
+      return "file-code";
+    case "not-taken":
+      return "circle-slash";
+    case "section":
+      return { Includes: "files", "Not started": "debug-pause" }[item.label] ?? "list-unordered";
+  }
+}
+
+/** What is decorated about a line, spelled as the query of a URI: that is how the editor asks for decorations. */
+export function decorationOf(item: NodeItem): string | undefined {
+  if (item.kind === "not-taken") {
+    return "left-out";
+  }
+  const marks = marksOf(item);
+  return marks.findings > 0 ? `${marks.severity === 1 ? "error" : marks.severity === 2 ? "warning" : "info"}=${marks.findings}` : undefined;
+}
+
+/** The findings of a node, or of all nodes in a namespace: those are seen while it is folded. */
+function marksOf(item: NodeItem): { severity: number; findings: number } {
+  const own = { severity: item.severity ?? 4, findings: item.findings };
+  return item.kind !== "namespace"
+    ? own
+    : item.children.map(marksOf).reduce(
+        (all, one) => ({
+          severity: one.findings > 0 ? Math.min(all.severity, one.severity) : all.severity,
+          findings: all.findings + one.findings,
+        }),
+        own,
+      );
+}
+
+/** Names for lines that stay the same when the tree is made anew, so that what is unfolded stays so. */
+export function identified(items: readonly NodeItem[], parent = ""): { id: string; item: NodeItem }[] {
+  const seen = new Map<string, number>();
+  return items.map((item) => {
+    const plain = `${parent}/${item.kind}:${item.name || item.label}`;
+    const count = seen.get(plain) ?? 0;
+    seen.set(plain, count + 1);
+    return { id: count === 0 ? plain : `${plain}#${count}`, item };
+  });
+}

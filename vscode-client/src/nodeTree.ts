@@ -1,0 +1,207 @@
+import * as path from "node:path";
+import {
+  type CancellationToken,
+  type Disposable,
+  EventEmitter,
+  type FileDecoration,
+  type FileDecorationProvider,
+  MarkdownString,
+  ThemeColor,
+  type TextDocument,
+  ThemeIcon,
+  type TreeDataProvider,
+  TreeItem,
+  TreeItemCollapsibleState,
+  type TreeView,
+  Uri,
+  window,
+  workspace,
+} from "vscode";
+import type { LanguageClient } from "vscode-languageclient/node";
+import { colourOf, decorationOf, iconOf, identified, type LiveState, type NodeItem, type NodeTree } from "./nodeItems";
+
+const SCHEME = "ros-preflight-node";
+
+interface Line {
+  readonly id: string;
+  readonly item: NodeItem;
+}
+
+/** The view of what the launch file in the editor starts; newer trees replace older ones while the user types. */
+export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvider, Disposable {
+  private readonly changed = new EventEmitter<undefined>();
+  readonly onDidChangeTreeData = this.changed.event;
+  private readonly view: TreeView<Line>;
+  private readonly subscriptions: Disposable[];
+  private client: LanguageClient | undefined;
+  private uri: string | undefined;
+  private tree: NodeTree | undefined;
+  private live: ReadonlyMap<string, LiveState> = new Map();
+  private asking = false;
+  private askAgain = false;
+
+  /** `isLaunchFile` tells the documents that have a tree. */
+  constructor(private readonly isLaunchFile: (document: TextDocument) => boolean) {
+    this.view = window.createTreeView("rosPreflight.nodes", { treeDataProvider: this, showCollapseAll: true });
+    this.subscriptions = [
+      this.changed,
+      this.view,
+      window.registerFileDecorationProvider(this),
+      window.onDidChangeActiveTextEditor(() => this.follow()),
+      this.view.onDidChangeVisibility(() => this.refresh()),
+    ];
+  }
+
+  /** From now on this server is asked; undefined when there is none. */
+  connect(client: LanguageClient | undefined): void {
+    this.client = client;
+    if (client === undefined) {
+      this.show(undefined);
+    } else {
+      this.follow();
+    }
+  }
+
+  /** The launch file whose tree it is. */
+  get shown(): string | undefined {
+    return this.uri;
+  }
+
+  /** Shows what nodes do on the running robot, by full name; an empty map when nobody watches it. */
+  showLive(states: ReadonlyMap<string, LiveState>): void {
+    this.live = states;
+    this.changed.fire(undefined);
+  }
+
+  /** There may be a newer tree. Asked for once at a time, and again when news came meanwhile. */
+  refresh(): void {
+    if (this.client === undefined || this.uri === undefined || !this.view.visible) {
+      return;
+    }
+    if (this.asking) {
+      this.askAgain = true;
+      return;
+    }
+    this.asking = true;
+    const uri = this.uri;
+    this.client
+      .sendRequest<NodeTree | null>("rosPreflight/tree", { uri })
+      .then(
+        (tree) => {
+          // A parameter file, say, leaves what the launch file before it starts.
+          if (tree !== null && uri === this.uri) {
+            this.show(tree);
+          }
+        },
+        () => undefined, // the server has stopped, and its end is told elsewhere
+      )
+      .finally(() => {
+        this.asking = false;
+        if (this.askAgain) {
+          this.askAgain = false;
+          this.refresh();
+        }
+      });
+  }
+
+  getChildren(line?: Line): Line[] {
+    return line === undefined ? identified(this.tree?.items ?? []) : identified(line.item.children, line.id);
+  }
+
+  getTreeItem({ id, item }: Line): TreeItem {
+    const made = new TreeItem(item.label, fold(item));
+    made.id = id;
+    made.description = item.detail;
+    made.contextValue = item.kind;
+    const colour = colourOf(item.file);
+    made.iconPath = new ThemeIcon(
+      iconOf(item, this.live.get(item.name)),
+      item.kind === "not-taken"
+        ? new ThemeColor("disabledForeground")
+        : colour === undefined || item.kind === "param" || item.kind === "remap"
+          ? undefined
+          : new ThemeColor(colour),
+    );
+    const decoration = decorationOf(item);
+    if (decoration !== undefined) {
+      made.resourceUri = Uri.from({ scheme: SCHEME, path: id, query: decoration });
+    }
+    if (item.location !== null && this.client !== undefined) {
+      const { uri, range } = this.client.protocol2CodeConverter.asLocation(item.location);
+      made.command = { command: "vscode.open", title: "Open", arguments: [uri, { selection: range, preview: true }] };
+    }
+    return made;
+  }
+
+  async resolveTreeItem(made: TreeItem, { item }: Line, token: CancellationToken): Promise<TreeItem> {
+    const lines = [`**${item.name || item.label}** ${item.detail}`, item.note, this.place(item)];
+    let text = lines.filter((line) => line !== "").join("\n\n");
+    if (item.kind === "node" && item.location !== null && this.client !== undefined) {
+      // What hover says of the node, where its file is open.
+      const params = { textDocument: { uri: item.location.uri }, position: item.location.range.start };
+      const hover = await this.client
+        .sendRequest<{ contents: { value?: string } } | null>("textDocument/hover", params, token)
+        .catch(() => null);
+      text = hover?.contents.value ?? text;
+    }
+    made.tooltip = new MarkdownString(text);
+    return made;
+  }
+
+  provideFileDecoration(uri: Uri): FileDecoration | undefined {
+    if (uri.scheme !== SCHEME) {
+      return undefined;
+    }
+    if (uri.query === "left-out") {
+      return { color: new ThemeColor("disabledForeground"), tooltip: "not started" };
+    }
+    const [severity = "", count = ""] = uri.query.split("=");
+    const colour = { error: "list.errorForeground", warning: "list.warningForeground" }[severity];
+    return {
+      badge: count.length > 1 ? "9+" : count,
+      tooltip: `${count} problem${count === "1" ? "" : "s"}`,
+      ...(colour === undefined ? {} : { color: new ThemeColor(colour) }),
+    };
+  }
+
+  dispose(): void {
+    for (const subscription of this.subscriptions) {
+      subscription.dispose();
+    }
+  }
+
+  private follow(): void {
+    const document = window.activeTextEditor?.document;
+    if (document !== undefined && this.isLaunchFile(document)) {
+      this.uri = document.uri.toString();
+    }
+    this.refresh();
+  }
+
+  private show(tree: NodeTree | undefined): void {
+    this.tree = tree;
+    this.view.description = tree === undefined ? "" : described(tree);
+    this.changed.fire(undefined);
+  }
+
+  private place(item: NodeItem): string {
+    if (item.location === null) {
+      return "";
+    }
+    const file = workspace.asRelativePath(Uri.parse(item.location.uri));
+    return `${file}:${item.location.range.start.line + 1}`;
+  }
+}
+
+function fold(item: NodeItem): TreeItemCollapsibleState {
+  if (item.children.length === 0) {
+    return TreeItemCollapsibleState.None;
+  }
+  const unfolded = item.kind === "namespace" || item.kind === "not-taken" || item.kind === "include" || item.label === "Includes" || item.label === "Not started";
+  return unfolded ? TreeItemCollapsibleState.Expanded : TreeItemCollapsibleState.Collapsed;
+}
+
+function described(tree: NodeTree): string {
+  const args = Object.entries(tree.root.args).map(([name, value]) => `${name}:=${value}`);
+  return [path.basename(Uri.parse(tree.root.uri).path), ...args].join(" ");
+}

@@ -1,0 +1,72 @@
+/** What the server tells of itself with `rosPreflight/status`, in its own words. */
+export interface ServerStatus {
+  readonly state: "idle" | "indexing" | "tracing";
+  readonly done: number;
+  /** 0 while it is not known how much there is to do. */
+  readonly total: number;
+  /** What keeps nodes from being run. */
+  readonly notRun: NotRun | null;
+}
+
+export interface NotRun {
+  readonly kind: "off" | "untrusted" | "cancelled" | "sandbox";
+  readonly message: string;
+}
+
+/** What this extension knows of the server's life. `reason` is a sentence for the user. */
+export type Life =
+  | { readonly state: "starting" | "running" | "stopped" }
+  | { readonly state: "installing"; readonly reason: string }
+  | { readonly state: "missing"; readonly reason: string };
+
+/** What the status bar shows. */
+export interface Shown {
+  readonly text: string;
+  readonly tooltip: string;
+  readonly severity: "none" | "warning" | "error";
+}
+
+const NAME = "ROS Preflight";
+
+/** The entry of the status bar that opens the menu. */
+export function shown(life: Life, status: ServerStatus | undefined): Shown {
+  switch (life.state) {
+    case "missing":
+      return { text: `$(error) ${NAME}: no server`, tooltip: life.reason, severity: "error" };
+    case "installing":
+      return { text: `$(sync~spin) ${NAME}: installing`, tooltip: life.reason, severity: "none" };
+    case "starting":
+      return { text: `$(sync~spin) ${NAME}`, tooltip: "The server is starting.", severity: "none" };
+    case "stopped":
+      return { text: `$(debug-disconnect) ${NAME}: stopped`, tooltip: "The server is not running.", severity: "error" };
+    case "running":
+      return running(status);
+  }
+}
+
+function running(status: ServerStatus | undefined): Shown {
+  if (status !== undefined && status.state !== "idle") {
+    const share = status.total > 0 ? ` ${status.done} of ${status.total}` : "";
+    const what = status.state === "tracing" ? "Running nodes in the sandbox." : "Looking at the launch files of the workspace.";
+    return { text: `$(sync~spin) ${NAME}: ${status.state}${share}`, tooltip: what, severity: "none" };
+  }
+  const notRun = status?.notRun;
+  switch (notRun?.kind) {
+    case "sandbox":
+      return {
+        text: `$(warning) ${NAME}: no sandbox`,
+        tooltip: `Nodes are not run: ${notRun.message}`,
+        severity: "warning",
+      };
+    case "off":
+    case "cancelled":
+      return { text: `$(circle-slash) ${NAME}`, tooltip: `Nodes are not run: ${notRun.message}`, severity: "none" };
+    default: // A workspace that is not trusted has a badge of its own.
+      return { text: `$(check) ${NAME}`, tooltip: "Everything is up to date.", severity: "none" };
+  }
+}
+
+/** Whether the badge is shown that leads to the editor of Workspace Trust. */
+export function showsTrustBadge(life: Life, status: ServerStatus | undefined): boolean {
+  return life.state === "running" && status?.notRun?.kind === "untrusted";
+}
