@@ -41,7 +41,7 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse, Role
+from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse, Range, Role
 from preflight_analysis.workspace.sources import Sources
 
 _FILE = re.compile(r"//- (\S+)\s*\Z")
@@ -202,9 +202,10 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
 
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
-    `{name: default}`, null for none, or `{name: {"access": ...}}`; `status`, `exit_code`, `reason`, `stderr`,
-    `notes`, `answers`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`,
-    `speculative` and `on_demand`, lists of names."""
+    `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
+    [0, 10], ...}}` of them; `status`, `exit_code`, `reason`, `stderr`, `notes`, `answers`; `md5` `{name: sum}`;
+    `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and `on_demand`, lists of
+    names."""
     made = data.get("made", {})
     endpoints = [
         Endpoint(
@@ -225,7 +226,9 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     params = [
         ParamUse(name, default["access"])
         if isinstance(default, dict)
-        else ParamUse(name, "get", default, default is not None, default is None, *made.get(name, ()))
+        else ParamUse(
+            name, "get", default, default is not None, default is None, *made.get(name, ()), **_described(data, name)
+        )
         for name, default in data.get("params", {}).items()
     ]
     outcome = Outcome(
@@ -238,6 +241,11 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     )
     source = "none" if outcome.status == "not-run" else "trace"
     return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())))
+
+
+def _described(data: Mapping[str, Any], name: str) -> dict[str, Any]:
+    given = dict(data.get("described", {}).get(name, {}))
+    return {**given, "range": Range(*given["range"])} if "range" in given else given
 
 
 def interfaces_of(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:

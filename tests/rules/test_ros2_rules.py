@@ -387,3 +387,94 @@ def test_an_argument_that_a_file_which_cannot_be_read_may_set() -> None:
                         ^^^^^^^^^^^^ error[ARG001] argument 'lidar' is not declared
         </launch>
     """)
+
+
+def test_a_parameter_of_another_type_than_it_arrives_with() -> None:
+    """As real rclpy has it: `tests/evaluation/test_types_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a">
+            <param name="rate" value="5"/>
+                         ^^^^ error[PRM014] 'rate' is an integer, and /a declares it as a double: the node stops
+            <param name="gains" value="[1, 2]"/>
+                         ^^^^^ error[PRM014] 'gains' is a list of integers, and /a declares it as a list of doubles
+            <param name="axis" value="y" type="str"/>
+                         ^^^^ error[PRM014] launch hands over 'y' without quotes, which rcl reads as a bool
+            <param name="any" value="5"/>
+            <param name="kind" value="5"/>
+                         ^^^^ error[PRM014] 'kind' is an integer, and /a declares it as a string
+            <param name="frames" value="[a, b]"/>
+                         ^^^^^^ error[PRM014] and /a declares it as bytes (which an empty list means)
+            <param from="/a.yaml"/>
+          </node>
+        </launch>
+        //- /a.yaml
+        a:
+          ros__parameters:
+            side: y
+            ^^^^ error[PRM014] 'side' is a bool, and /a declares it as a string: the node stops
+            name: "y"
+            none: []
+            ^^^^ error[PRM014] 'none' is an empty list, which has no type
+        //- interfaces
+        {"/a": {"params": {"~rate": 10.0, "~gains": [1.0], "~axis": "x", "~any": 1.0, "~side": "x", "~name": "x",
+                           "~none": [1.0], "~kind": null, "~frames": []},
+                "described": {"~any": {"dynamic": true}, "~kind": {"type": "string"},
+                              "~frames": {"type": "byte array"}}}}
+    """)
+
+
+def test_a_parameter_out_of_its_range() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a">
+            <param name="rate" value="11"/>
+                         ^^^^ error[PRM017] 'rate' is 11, which is out of range: /a declares it for 0 to 10, and stops
+            <param name="even" value="3"/>
+                         ^^^^ error[PRM017] which is none of the steps: /a declares it for 0 to 10 in steps of 2
+            <param name="last" value="10"/>
+            <param name="part" value="0.3"/>
+            <param name="over" value="1.01"/>
+                         ^^^^ error[PRM017] 'over' is 1.01, which is out of range
+            <param name="fixed" value="3"/>
+            <param name="any" value="3"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {"params": {"~rate": 5, "~even": 2, "~last": 0, "~part": 0.1, "~over": 1.0, "~fixed": 1, "~any": 1},
+                "described": {"~rate": {"range": [0, 10]}, "~even": {"range": [0, 10, 2]},
+                              "~last": {"range": [0, 10, 3]},
+                              "~part": {"range": [0.0, 1.0, 0.1], "type": "double"}, "~fixed": {"read_only": true},
+                              "~over": {"range": [0.0, 1.0]}, "~any": {"dynamic": true, "range": [0, 1]}}}}
+    """)
+
+
+def test_what_a_parameter_file_cannot_have() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/a.yaml"/></node>
+          <node_container pkg="p" exec="c" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::D" name="d" namespace="/b"><param from="/d.yaml"/></composable_node>
+          </node_container>
+        </launch>
+        //- /d.yaml
+        /b:
+          /d:
+            ros__parameters: {x: 1}
+        //- /a.yaml
+        a:
+          ros__parameters:
+            gains: [1, 2.5]
+                   ^^^^^^^^ error[PRM016] a list with doubles and integers in it: 'gains'; the client libraries refuse
+            grid: [[1, 2], [3, 4]]
+                  ^^^^^^^^^^^^^^^^ error[PRM016] a list of lists: 'grid'
+            tilde: ~
+            fine: [1.0, 2.5]
+        /b:
+        ^^ error[PRM016] a node's name with two slashes: '/b//c'
+          /c:
+            ros__parameters: {x: 1}
+    """)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.tracing.interface import NOT_RUN, Interface
+from preflight_analysis.tracing.interface import NOT_RUN, Interface, Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -457,7 +457,7 @@ def test_a_base_of_the_same_name_in_another_namespace(desk: Desk) -> None:
 
 LIBRARY_YAML = """\
 battery:
-  rate: {type: double, default_value: 10, validation: {gt<>: 0.0}}
+  rate: {type: double, default_value: 10, validation: {bounds<>: [0.1, 20.0]}}
   topics:
     state:
       type: string
@@ -492,6 +492,13 @@ def test_parameters_of_a_generated_library(desk: Desk) -> None:
     found = desk.read(LISTENING, '<param name="topics.state" value="front"/>')
     assert params(found) == {"~rate": 10.0, "~topics.state": "state", "~gains": [1.0, 0.5], "~device": None}
     assert ends(found) == [("publisher", "front", "std_msgs/msg/String")]
+    about = {use.name: (use.type, use.read_only, use.range) for use in found.params}
+    assert about == {
+        "~rate": ("double", False, Range(0.1, 20.0)),
+        "~topics.state": ("string", False, None),
+        "~gains": ("double array", False, None),
+        "~device": ("string", True, None),
+    }
     rows = LIBRARY_YAML.splitlines()
     lines = {use.name: rows[(use.source_line or 0) - 1].split(":")[0].strip() for use in found.params}
     assert lines == {"~rate": "rate", "~topics.state": "state", "~gains": "gains", "~device": "device"}
@@ -504,3 +511,39 @@ def test_a_generated_library_that_does_not_tell_all_names(desk: Desk, text: str)
     desk.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
     desk.write("src/battery.yaml", text)
     assert ("list", "/") in [(use.access, use.name) for use in desk.read(LISTENING).params]
+
+
+def test_descriptors_of_parameters(desk: Desk) -> None:
+    found = desk.read(
+        """
+        #include <rclcpp/rclcpp.hpp>
+        class Battery : public rclcpp::Node {
+        public:
+          Battery() : Node("battery") {
+            rcl_interfaces::msg::ParameterDescriptor fixed;
+            fixed.read_only = true;
+            declare_parameter("serial", "a", fixed);
+            auto bounded = rcl_interfaces::msg::ParameterDescriptor();
+            rcl_interfaces::msg::IntegerRange range;
+            range.from_value = 1;
+            range.to_value = 50;
+            range.step = 7;
+            bounded.integer_range.push_back(range);
+            declare_parameter("rate", 8, bounded);
+            auto any = rcl_interfaces::msg::ParameterDescriptor{};
+            any.dynamic_typing = true;
+            declare_parameter("any", rclcpp::ParameterValue(1), any);
+            declare_parameter<double>("gain");
+            declare_parameter("names", rclcpp::PARAMETER_STRING_ARRAY);
+          }
+        };
+        int main() { rclcpp::spin(std::make_shared<Battery>()); }
+        """
+    )
+    assert {use.name: (use.type, use.read_only, use.dynamic, use.range) for use in found.params} == {
+        "~serial": (None, True, False, None),
+        "~rate": (None, False, False, Range(1, 50, 7)),
+        "~any": (None, False, True, None),
+        "~gain": ("double", False, False, None),
+        "~names": ("string array", False, False, None),
+    }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.interface import NOT_RUN, Interface
+from preflight_analysis.tracing.interface import NOT_RUN, Interface, Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -13,6 +13,8 @@ NODE = """
 import rclpy
 from rclpy.action import ActionServer
 from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import OccupancyGrid
@@ -27,6 +29,13 @@ class Driver(Base):
         super().__init__('driver')
         self.declare_parameters('limits', [('speed', 1.5), ('turn',)])
         self.topic = self.declare_parameter('cmd_topic', 'cmd_vel').value
+        limits = [FloatingPointRange(from_value=0.0, to_value=2.0, step=0.5)]
+        fixed = ParameterDescriptor(description='d', read_only=True, floating_point_range=limits)
+        self.declare_parameter('gain', 1.0, fixed)
+        self.declare_parameter('typed', Parameter.Type.INTEGER_ARRAY)
+        anything = ParameterDescriptor()
+        anything.dynamic_typing = True
+        self.declare_parameter('any', 1, descriptor=anything)
         self.create_subscription(Twist, self.topic, self.on_command, 10)
         self.create_subscription(LaserScan, 'scan', self.on_scan, qos_profile_sensor_data)
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -103,7 +112,13 @@ def test_a_node_of_a_class_of_its_own(tmp_path: Path) -> None:
         "~limits.speed": 1.5,
         "~limits.turn": None,
         "~cmd_topic": "cmd_vel",
+        "~gain": 1.0,
+        "~typed": None,
+        "~any": 1,
     }
+    about = {u.name: u for u in found.params}
+    assert (about["~gain"].read_only, about["~gain"].range) == (True, Range(0.0, 2.0, 0.5))
+    assert (about["~typed"].type, about["~any"].dynamic) == ("integer array", True)
     qos = {e.name: dict(e.qos) for e in found.endpoints if e.qos}
     assert qos == {
         "drive": {"reliability": "reliable", "durability": "volatile", "depth": 10},

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from ros2_desk import Ros2Desk, ends, node_of, ros2_prefix, uses
@@ -108,6 +109,56 @@ def test_parameters_are_declared_with_their_defaults(tmp_path: Path) -> None:
         "~topic": ("chatter", True, False),
     }
     assert ("publisher", "given") in ends(found)
+
+
+DESCRIBED = """
+self.declare_parameter('rate', 10, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=50, step=5)]))
+self.declare_parameter('gain', 0.5, ParameterDescriptor(
+    read_only=True, floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1.0)]))
+self.declare_parameter('any', 'x', ParameterDescriptor(dynamic_typing=True))
+self.declare_parameter('typed', Parameter.Type.STRING_ARRAY)
+self.declare_parameters('', [('plain', True), ('nothing', [])])
+"""
+DESCRIBING = (
+    "from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor",
+    "from rclpy.parameter import Parameter",
+)
+
+
+def test_descriptors_of_parameters(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, talker=node_of(DESCRIBED, *DESCRIBING))
+    desk.cache = TraceCache(tmp_path / "cache")
+    found = [desk.trace("talker"), desk.trace("talker")]
+    for interface in found:
+        assert {n.removeprefix("~"): (u.type, u.dynamic, u.read_only, u.range) for n, u in uses(interface).items()} == {
+            "rate": ("integer", False, False, Range(0, 50, 5)),
+            "gain": ("double", False, True, Range(0.0, 1.0, 0.0)),
+            "any": (None, True, False, None),
+            "typed": ("string array", False, False, None),
+            "plain": ("bool", False, False, None),
+            "nothing": ("byte array", False, False, None),
+        }
+    assert [interface.cached for interface in found] == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("params", "rule"),
+    [
+        ("<param name='rate' value='51'/>", "PRM017"),
+        ("<param name='rate' value='12'/>", "PRM017"),
+        ("<param name='gain' value='1.5'/>", "PRM017"),
+        ("<param name='typed' value='[1]'/>", "PRM014"),
+        ("<param name='nothing' value='[1.5]'/>", "PRM014"),
+        ("<param name='gain' value='0.25'/><param name='rate' value='45'/><param name='any' value='1.5'/>", None),
+    ],
+)
+def test_a_descriptor_is_kept_to(tmp_path: Path, params: str, rule: str | None) -> None:
+    desk = Ros2Desk(tmp_path, talker=node_of(DESCRIBED, *DESCRIBING))
+    analysis = desk.check(f"<node pkg='pkg' exec='talker' name='n'>{params}</node>")
+    assert analysis.graph is not None
+    status = analysis.graph.interfaces[0].outcome.status
+    assert status == ("spinning" if rule is None else "crashed")
+    assert {f.rule for f in analysis.findings if f.rule.startswith("PRM")} == ({rule} if rule is not None else set())
 
 
 @pytest.mark.parametrize(

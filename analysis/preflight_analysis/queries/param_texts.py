@@ -29,8 +29,16 @@ def type_text(value: ParamValue) -> str:
 
 
 def default_text(use: ParamUse) -> str:
-    """How a node declares a parameter: `double, default 10.0`."""
-    if not use.has_default:
-        return "no default" if use.mandatory else ""
-    kind = type_text(use.default)
-    return f"{kind}, default {value_text(use.default)}" if kind else f"default {value_text(use.default)}"
+    """How a node declares a parameter: `double, default 10.0, 0.1 to 20.0, read-only`."""
+    parts = [use.type or (type_text(use.default) if use.has_default and not use.dynamic else "")]
+    if use.dynamic:
+        parts.append("any type")
+    if use.has_default:
+        parts.append(f"default {value_text(use.default)}")
+    elif use.mandatory:
+        parts.append("no default")
+    if use.range is not None:
+        parts.append(str(use.range))
+    if use.read_only:
+        parts.append("read-only")
+    return ", ".join(part for part in parts if part)

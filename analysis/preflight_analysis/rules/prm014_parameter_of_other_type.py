@@ -3,34 +3,48 @@
 from collections.abc import Iterator
 from typing import Any
 
+from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Interface, ParamUse
 
-_NAMES = {bool: "a bool", int: "an integer", float: "a double", str: "a string"}
-_LISTS = {bool: "a list of bools", int: "a list of integers", float: "a list of doubles", str: "a list of strings"}
+_TYPES = {bool: "bool", int: "integer", float: "double", str: "string"}
+_NAMES = {
+    "bool": "a bool",
+    "integer": "an integer",
+    "double": "a double",
+    "string": "a string",
+    "byte array": "bytes (which an empty list means)",
+}
+_ENDS = "the node stops when it declares it (InvalidParameterTypeException)"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
+    told: set[tuple[object, ...]] = set()
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
-        declared = {u.name.removeprefix("~"): u for u in interface.params if u.has_default and u.access == "get"}
+        if not node.params:
+            continue
+        declared = {u.name.removeprefix("~"): u for u in interface.params if u.access == "get" and not u.dynamic}
+        files = {s.path for s in node.param_sources if s.path is not None}
         for param in node.params:
             use = declared.get(param.name)
-            if use is None:
+            wanted = _declared_type(use, interface) if use is not None else None
+            if use is None or wanted is None:
                 continue
-            wanted, given = _kind(use.default), _kind(param.value)
-            if wanted is None or given is None or wanted == given:
+            place = name_place(param)
+            passed = param.value if place.file in files or node.container else as_passed(param.value)
+            message = _wrong(param, passed, wanted, node)
+            if message is None or (place, message) in told:
                 continue
-            hint = ""
-            if (given, wanted) == (_NAMES[int], _NAMES[float]):
-                hint = f"; write {param.value}.0"
+            told.add((place, message))
             yield rule.finding(
-                f"'{param.name}' is {given}, and {node.name} declares it as {wanted}: the node stops when it "
-                f"declares it{hint}",
-                name_place(param),
+                message,
+                place,
                 confidence="likely" if not use.assumed else "possible",
                 severity="error" if not use.assumed else "warning",
                 related=(
@@ -40,21 +54,74 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-def _kind(value: Any) -> str | None:
-    """The type of a parameter's value; None for what says none, an empty list for instance."""
+def _declared_type(use: ParamUse, interface: Interface) -> str | None:
+    """The type that the node gives the parameter; what an annotation says of a default is a text, whatever it means."""
+    if use.type is not None or not use.has_default:
+        return use.type
+    return None if interface.declared and isinstance(use.default, str) else _type(use.default)
+
+
+def _wrong(param: Param, passed: Any, wanted: str, node: LaunchNode) -> str | None:
+    """What is wrong with the value that arrives at the node; None if it fits, or if nobody can tell."""
+    if isinstance(passed, (list, tuple)) and not passed:
+        return (
+            f"'{param.name}' is an empty list, which has no type: {node.name} declares it as {_named(wanted)}, and "
+            "gets no value (rclpy) or stops (rclcpp)"
+        )
+    given = _type(passed)
+    if given is None or given == wanted:
+        return None
+    declares = f"{node.name} declares it as {_named(wanted)}"
+    if _type(param.value) == wanted:
+        return (
+            f"'{param.name}' is {_named(wanted)} here, but launch hands over {_shown(param.value)} without quotes, "
+            f"which rcl reads as {_named(given)}, and {declares}: {_ENDS}; write it, in quotes, into a parameter file"
+        )
+    return f"'{param.name}' is {_named(given)}, and {declares}: {_ENDS}{_hint(passed, given, wanted)}"
+
+
+def _hint(passed: Any, given: str, wanted: str) -> str:
+    match given, wanted:
+        case "integer", "double":
+            return f"; write {float(passed)}"
+        case "integer array", "double array":
+            return f"; write {[float(each) for each in passed]}"
+        case (("integer" | "double" | "bool"), "string"):
+            return "; in a parameter file, write it in quotes"
+        case "string", ("integer" | "double" | "bool"):
+            return "; write it without quotes" if _type(plain_scalar(str(passed))) == wanted else ""
+    if given == wanted.removesuffix(" array"):
+        return f"; write [{passed}]" if given != "string" else ""
+    return ""
+
+
+def _type(value: Any) -> str | None:
+    """The type of a parameter's value; None for what says none."""
     if isinstance(value, (list, tuple)):
         kinds = {type(each) for each in value}
-        return _LISTS.get(kinds.pop()) if len(kinds) == 1 else None
-    return _NAMES.get(type(value))
+        kind = _TYPES.get(kinds.pop()) if len(kinds) == 1 else None
+        return f"{kind} array" if kind else None
+    return _TYPES.get(type(value))
+
+
+def _named(type_: str) -> str:
+    return _NAMES.get(type_) or f"a list of {type_.removesuffix(' array')}s"
+
+
+def _shown(value: Any) -> str:
+    text = str(value)
+    return repr(text if len(text) <= 40 else f"{text[:37]}...")
 
 
 RULE = Rule(
     id="PRM014",
     name="parameter-of-other-type",
     severity="error",
-    what="Reports a parameter whose value has another type than the one that the node declares it with (ROS 2). An "
-    "integer is no double.",
-    why="rclcpp and rclpy raise an exception in `declare_parameter`, and most nodes end by it.",
+    what="Reports a parameter that arrives at its node with another type than the one that the node declares it with "
+    "(ROS 2). An integer is no double, and a list without items has no type at all. A text of the launch file may "
+    "arrive as something else: launch hands it over in a YAML file and puts it in quotes where Python's YAML needs "
+    "them, while rcl also takes `y`, `n` and `1e3` for values.",
+    why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes end by it.",
     example='<!-- declare_parameter("rate", 10.0) -->\n<param name="rate" value="5"/>',
     instead='<param name="rate" value="5.0"/>',
     generations=(2,),

@@ -12,6 +12,8 @@ from typing import Any
 
 import yaml
 
+from preflight_analysis.tracing.interface import Range
+
 _MAX_PARAMS = 300
 _MAX_DEPTH = 10
 
@@ -26,6 +28,8 @@ class LibraryParam:
     has_default: bool
     file: str
     line: int
+    read_only: bool = False
+    range: Range | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +67,20 @@ def _collect(node: yaml.Node, names: tuple[str, ...], line: int, path: str, foun
     if isinstance(type_, yaml.ScalarNode):
         _, default = fields.get("default_value", (None, None))
         value = _value(default) if default is not None else None
-        found.append(LibraryParam(".".join(names), type_.value, value, default is not None, path, line))
+        _, read_only = fields.get("read_only", (None, None))
+        _, rules = fields.get("validation", (None, None))
+        found.append(
+            LibraryParam(
+                ".".join(names),
+                type_.value,
+                value,
+                default is not None,
+                path,
+                line,
+                read_only is not None and _value(read_only) is True,
+                _range(_value(rules) if rules is not None else None, type_.value),
+            )
+        )
         return True
     complete = True
     for name, (key, inner) in fields.items():
@@ -71,6 +88,14 @@ def _collect(node: yaml.Node, names: tuple[str, ...], line: int, path: str, foun
         known = not name.startswith("__map_") and _collect(inner, (*names, name), here, path, found)
         complete = complete and known
     return complete
+
+
+def _range(rules: Any, type_: str) -> Range | None:
+    """The range that the generated code puts into the descriptor, for which it takes `bounds<>` alone."""
+    bounds = rules.get("bounds<>") if isinstance(rules, dict) and type_ in ("int", "double") else None
+    if not isinstance(bounds, list) or len(bounds) != 2 or not all(type(each) in (int, float) for each in bounds):
+        return None
+    return Range(*bounds)
 
 
 def _value(node: yaml.Node) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
@@ -31,7 +31,7 @@ from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.parameter_library import Libraries
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 from preflight_analysis.source.rclcpp_qos import Qos
-from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
+from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 LIBRARIES = frozenset(
     {
@@ -186,6 +186,24 @@ _UNSET: Any = object()
 """The default of a parameter that is declared without one."""
 
 
+_RANGES = {"integer": "integer_range", "double": "floating_point_range"}
+_TYPE_NAMES = {
+    "double": "double",
+    "float": "double",
+    "int": "integer",
+    "int64_t": "integer",
+    "std::int64_t": "integer",
+    "bool": "bool",
+    "std::string": "string",
+}
+_LIBRARY_TYPES = {
+    f"{name}{more}": f"{type_}{' array' if more else ''}"
+    for name, type_ in (("bool", "bool"), ("int", "integer"), ("double", "double"), ("string", "string"))
+    for more in ("", "_array")
+}
+"""Of generate_parameter_library, whose types may have a size."""
+
+
 class RclcppCalls:
     """Collects what the calls of one node make. Implements `cpp_values.Calls`."""
 
@@ -268,6 +286,8 @@ class RclcppCalls:
             return self._new_node(given, place, has_lifecycle=_NODES[name])
         if (qos := rclcpp_qos.make(name, given)) is not None:
             return qos
+        if (message := _message(name)) is not None:
+            return message
         match name:
             case "rclcpp::NodeOptions":
                 return next((v for v in given if isinstance(v, _Options)), _Options())
@@ -343,6 +363,8 @@ class RclcppCalls:
         """Note what a free function makes; its value where it has one that is known."""
         name = name.removeprefix("::")
         space, _, leaf = name.rpartition("::")
+        if (message := _message(name)) is not None:
+            return message
         if name in _WITH_NODE:
             self._with_node(name, types, args, place)
             return UNKNOWN
@@ -507,7 +529,9 @@ class RclcppCalls:
         for param in library.params:
             place = Place(param.file, param.line)
             default = _of_type(param.default, param.type)
-            value = self._declare(node, prefix + param.name, default, param.has_default, place)
+            type_ = _LIBRARY_TYPES.get(re.sub(r"_fixed_\d+\Z", "", param.type))
+            about = ParamUse("", "get", type=type_, read_only=param.read_only, range=param.range)
+            value = self._declare(node, prefix + param.name, default, param.has_default, place, about=about)
             *groups, leaf = param.name.split(".")
             inner = struct
             for group in groups:
@@ -525,7 +549,8 @@ class RclcppCalls:
         type_ = types[0] if types else None
         has_default = len(args) > 1 and not isinstance(args[1].value, Constant) and not _is_descriptor(args[1].value)
         default = _parameter(args[1], type_) if has_default else _Parameter(UNKNOWN)
-        found = self._declare(node, name, default.value, has_default, place, typed=default.typed)
+        about = _described(args, type_)
+        found = self._declare(node, name, default.value, has_default, place, typed=default.typed, about=about)
         of_value = len(args) > 1 and isinstance(args[1].value, (_Parameter, Constant))
         if of_value and type_ is None:
             return _of(found)
@@ -548,14 +573,29 @@ class RclcppCalls:
             self._declare(node, name, default.value, True, place)
 
     def _declare(
-        self, node: NodeObject, name: str, default: Any, has_default: bool, place: Place, *, typed: bool = True
+        self,
+        node: NodeObject,
+        name: str,
+        default: Any,
+        has_default: bool,
+        place: Place,
+        *,
+        typed: bool = True,
+        about: ParamUse | None = None,
     ) -> Any:
-        """Note a declaration; the value that the parameter has then."""
+        """Note a declaration; the value that the parameter has then. `about` has what its descriptor says."""
         full = node.param(name)
         if full is UNKNOWN:
             return UNKNOWN
         known = default if has_default and typed and is_plain(default) else None
-        use = ParamUse(full, "get", known, has_default, False, place.file, place.line)
+        use = replace(
+            about or ParamUse("", "get"),
+            name=full,
+            default=known,
+            has_default=has_default,
+            source_file=place.file,
+            source_line=place.line,
+        )
         if self._is_aside:
             self._not_reached.append(use)
             return UNKNOWN
@@ -708,12 +748,42 @@ def _is_options(value: Any) -> bool:
 
 
 def _is_descriptor(value: Any) -> bool:
-    return isinstance(value, Unmade) and value.type.name.endswith("ParameterDescriptor")
+    return isinstance(value, Instance) and value.cls.text.name == "ParameterDescriptor"
 
 
-def _struct() -> Instance:
+def _struct(name: str = "Params") -> Instance:
     """A struct whose fields are known and nothing else of it."""
-    return Instance(Class(ClassText("Params", (), (), (), (), FileText("")), {}))
+    return Instance(Class(ClassText(name, (), (), (), (), FileText("")), {}))
+
+
+def _message(name: str) -> Instance | None:
+    """A message that describes a parameter."""
+    space, _, name = name.rpartition("::")
+    if space != "rcl_interfaces::msg" or name not in ("ParameterDescriptor", "IntegerRange", "FloatingPointRange"):
+        return None
+    made = _struct(name)
+    if name == "ParameterDescriptor":
+        made.names.update((field, []) for field in _RANGES.values())
+    return made
+
+
+def _described(args: Sequence[Argument], type_: CppType | None) -> ParamUse:
+    """What a declaration says of the parameter beyond its default: a type without one, and a descriptor."""
+    use = ParamUse("", "get")
+    given = value_at(args, 1)
+    if isinstance(given, Constant) and given.name.startswith("PARAMETER_") and given.name != "PARAMETER_NOT_SET":
+        use = replace(use, type=given.name.removeprefix("PARAMETER_").lower().replace("_", " "))
+    elif type_ is not None and (len(args) < 2 or _is_descriptor(given)):
+        use = replace(use, type=_TYPE_NAMES.get(type_.name))
+    about: Mapping[str, Any] = next((arg.value.names for arg in args if _is_descriptor(arg.value)), {})
+    # Only the range of the parameter's own type counts, which is not known here: that of both is none.
+    ranges = [each for name in _RANGES.values() if isinstance(about.get(name), list) for each in about[name]]
+    found = None
+    if len(ranges) == 1 and isinstance(ranges[0], Instance):
+        ends = [ranges[0].names.get(field, 0) for field in ("from_value", "to_value", "step")]
+        found = Range(*ends) if all(isinstance(end, (int, float)) for end in ends) else None
+    dynamic = about.get("dynamic_typing", False) is not False
+    return replace(use, dynamic=dynamic, read_only=about.get("read_only") is True, range=found)
 
 
 def _of_type(value: Any, type_: str) -> Any:

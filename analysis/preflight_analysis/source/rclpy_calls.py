@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.found import Found, is_name
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain
-from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
+from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 _TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv|action)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
 _TF = "tf2_msgs/msg/TFMessage"
@@ -38,6 +39,11 @@ _FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
     "tf2_ros.TransformListener": (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF)),
 }
 _LIBRARIES = frozenset({"rclpy", "tf2_ros", "message_filters"})
+
+_DESCRIBING = frozenset(
+    f"rcl_interfaces.msg.{name}" for name in ("ParameterDescriptor", "IntegerRange", "FloatingPointRange")
+)
+_BARE = re.compile(r"\bParameter\.Type\.((?:BOOL|INTEGER|DOUBLE|STRING)(?:_ARRAY)?)\Z")
 
 _RELIABLE = {"reliability": "reliable", "durability": "volatile"}
 _PROFILES: Mapping[str, Mapping[str, Any]] = {
@@ -99,6 +105,8 @@ class RclpyCalls:
             for role, topic, type_ in fixed:
                 self.found.end(Endpoint(role, topic, type_, None, {}, file, line))
             return Imported(f"{name}()")
+        if name in _DESCRIBING:
+            return Instance(Class(name.rpartition(".")[2], {}, ()), dict(kwargs))
         if path.startswith("rclpy."):
             return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
         if name in ("os.path.join",) and args and all(isinstance(a, str) for a in args):
@@ -117,7 +125,7 @@ class RclpyCalls:
         line: int,
     ) -> Any:
         if method == "declare_parameter":
-            return self._declared(given(0, "name"), given(1, "value"), file, line)
+            return self._declared(given(0, "name"), given(1, "value"), given(2, "descriptor"), file, line)
         if method == "declare_parameters":
             return self._declared_all(given(0, "namespace"), given(1, "parameters"), file, line)
         if method in ("get_parameter", "get_parameter_or", "has_parameter"):
@@ -140,12 +148,14 @@ class RclpyCalls:
             return _policies(kwargs)
         return Imported(f"{path}()")
 
-    def _declared(self, name: Any, default: Any, file: str, line: int) -> Any:
+    def _declared(self, name: Any, default: Any, descriptor: Any, file: str, line: int) -> Any:
         if not isinstance(name, str) or not name:
             return UNKNOWN
-        has_default = default is not UNKNOWN and default is not None
+        bare = _bare_type(default)
+        has_default = default is not UNKNOWN and default is not None and bare is None
         known = default if has_default and is_plain(default) else None
-        self.found.use(ParamUse(f"~{name}", "get", known, has_default, False, file, line))
+        use = ParamUse(f"~{name}", "get", known, has_default, False, file, line, type=bare)
+        self.found.use(_described(use, descriptor))
         self._defaults[name] = default if has_default else UNKNOWN
         return _parameter(self._value(name))
 
@@ -154,7 +164,7 @@ class RclpyCalls:
         for each in parameters if isinstance(parameters, (list, tuple)) else ():
             if isinstance(each, (list, tuple)) and each and isinstance(each[0], str):
                 default = each[1] if len(each) > 1 else UNKNOWN
-                self._declared(prefix + each[0], default, file, line)
+                self._declared(prefix + each[0], default, each[2] if len(each) > 2 else UNKNOWN, file, line)
         return UNKNOWN
 
     def _read(self, name: Any, method: str, otherwise: Any) -> Any:
@@ -170,6 +180,30 @@ class RclpyCalls:
     def _value(self, name: str) -> Any:
         found = self._params.look(names.resolve(f"~{name}", self._node))
         return self._defaults.get(name, UNKNOWN) if found is UNKNOWN else found
+
+
+def _bare_type(value: Any) -> str | None:
+    """The type that stands in the place of a default: `Parameter.Type.DOUBLE`."""
+    found = _BARE.search(value.path) if isinstance(value, Imported) else None
+    return found[1].lower().replace("_", " ") if found else None
+
+
+def _described(use: ParamUse, descriptor: Any) -> ParamUse:
+    """The declaration with what its descriptor says, as far as that is known."""
+    about = (
+        descriptor.names if isinstance(descriptor, Instance) and descriptor.cls.name == "ParameterDescriptor" else {}
+    )
+    if not about:
+        return use
+    found = None
+    of_double = use.type == "double" or isinstance(use.default, float)
+    ranges = about.get("floating_point_range" if of_double else "integer_range")
+    if isinstance(ranges, (list, tuple)) and len(ranges) == 1 and isinstance(ranges[0], Instance):
+        ends = [ranges[0].names.get(field, 0) for field in ("from_value", "to_value", "step")]
+        if all(isinstance(end, (int, float)) for end in ends):
+            found = Range(*ends)
+    dynamic = about.get("dynamic_typing", False) is not False
+    return replace(use, range=found, dynamic=dynamic, read_only=about.get("read_only") is True)
 
 
 def _parameter(value: Any) -> Instance:

@@ -20,7 +20,7 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.agents.params import ParamTree
-from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse, Range
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
@@ -259,6 +259,11 @@ def _encode(interface: Interface) -> dict[str, Any]:
     return dataclasses.asdict(interface)
 
 
+def _param(data: Mapping[str, Any]) -> ParamUse:
+    use = ParamUse(**data)
+    return use if use.range is None else dataclasses.replace(use, range=Range(**data["range"]))
+
+
 def _decode(data: Mapping[str, Any]) -> Interface:
     outcome = dict(data["outcome"])
     outcome["stderr_tail"] = tuple(outcome["stderr_tail"])
@@ -267,7 +272,7 @@ def _decode(data: Mapping[str, Any]) -> Interface:
         data["source"],
         Outcome(**outcome),
         tuple(Endpoint(**endpoint) for endpoint in data["endpoints"]),
-        tuple(ParamUse(**use) for use in data["params"]),
+        tuple(_param(use) for use in data["params"]),
         notes=tuple(data["notes"]),
         frames=tuple(Frame(**frame) for frame in data["frames"]),
     )

@@ -54,6 +54,20 @@ class Endpoint:
 
 
 @dataclass(frozen=True, slots=True)
+class Range:
+    """The values that a parameter of ROS 2 may have, both ends among them; a `step` of 0 is none."""
+
+    low: float
+    high: float
+    step: float = 0
+
+    def __str__(self) -> str:
+        """`0 to 10 in steps of 2`."""
+        text = f"{self.low} to {self.high}"
+        return f"{text} in steps of {self.step}" if self.step else text
+
+
+@dataclass(frozen=True, slots=True)
 class ParamUse:
     """A parameter call of the node. `name` as the node gave it; `access` is `get`, `has`, `set`, `delete`, `search`
     or `list`. `mandatory`: read without default."""
@@ -70,6 +84,13 @@ class ParamUse:
     """Read from the source code, not seen in a run."""
     similar: bool = False
     """Seen in a run of the same executable under another configuration, not in one of this node."""
+    type: str | None = None
+    """ROS 2: `bool`, `integer`, `double`, `string`, or one of these with ` array`; None where it is not known."""
+    dynamic: bool = False
+    """ROS 2: it may have any type."""
+    read_only: bool = False
+    """ROS 2: nobody changes it once it is declared; the launch may still set it."""
+    range: Range | None = None
 
     @property
     def assumed(self) -> bool:

@@ -22,6 +22,7 @@ from preflight_analysis.tracing.interface import (
     Interface,
     Outcome,
     ParamUse,
+    Range,
     Role,
     without_stamp,
 )
@@ -46,6 +47,9 @@ _NAME = re.compile(r"[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{1,300}\Z")
 _FILE = re.compile(r"/[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{0,4095}\Z")
 _TYPE = re.compile(r"(\*|[A-Za-z]\w*/((msg|srv|action)/)?[A-Za-z]\w*)\Z")
 _MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
+_PARAM_TYPE = re.compile(r"(bool|integer|double|string|byte)( array)?\Z")
+_MOST = 1e308
+"""Of the ends of a range: what JSON can say and others can compare."""
 _POLICIES = {
     "reliability": ("reliable", "best_effort"),
     "durability": ("volatile", "transient_local"),
@@ -340,10 +344,22 @@ def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:
         source_file=file,
         source_line=line,
         builtin=record.get("builtin") is True,
+        type=_text(record.get("type"), _PARAM_TYPE),
+        dynamic=record.get("dynamic") is True,
+        read_only=record.get("read_only") is True,
+        range=_range(record.get("range")),
     )
     found.waited = found.waited or (bool(found.fed) and repr(use) not in found.params)
     found.params.setdefault(repr(use), (use, _text(record.get("resolved"), _NAME)))
     return True
+
+
+def _range(given: object) -> Range | None:
+    if not isinstance(given, list) or len(given) != 3:
+        return None
+    if not all(isinstance(end, (int, float)) and abs(end) < _MOST and not isinstance(end, bool) for end in given):
+        return None
+    return Range(*given)
 
 
 def _own(record: Mapping[str, Any], found: _Gathered) -> bool:

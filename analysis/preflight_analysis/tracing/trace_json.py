@@ -59,6 +59,14 @@ def _param(use: ParamUse) -> dict[str, Any]:
     data = {"name": use.name, "access": use.access, "mandatory": use.mandatory, "builtin": use.builtin}
     if use.has_default:
         data["default"] = json_value(use.default)
+    if use.type is not None:
+        data["type"] = use.type
+    if use.dynamic:
+        data["dynamic"] = True
+    if use.read_only:
+        data["read_only"] = True
+    if use.range is not None:
+        data["range"] = [use.range.low, use.range.high, use.range.step]
     return {**data, **_made_at(use)}
 
 

@@ -10,12 +10,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import yaml
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import parse_yaml, span_of
+from preflight_analysis.evaluation.ros2 import rcl_yaml
 
 MARK = "ros__parameters"
 EVERY = "/**"
@@ -28,10 +30,12 @@ _MAX_WILDCARDS = 3
 
 
 class FileParam(NamedTuple):
-    """One parameter of a section, its name as the node declares it (`a.b`)."""
+    """One parameter of a section, its name as the node declares it (`a.b`). `value` is what rcl makes of it,
+    `by_launch` what PyYAML does, by which launch reads the file for a composable node."""
 
     name: str
     value: Any
+    by_launch: Any
     name_span: Span
     value_span: Span
 
@@ -63,11 +67,13 @@ class Section:
 @dataclass(frozen=True, slots=True)
 class ParamFile:
     """What a parameter file says. `problem` is why it is no YAML, with its place; `unmarked` are keys that lead to
-    values without `ros__parameters` above them, which nobody reads."""
+    values without `ros__parameters` above them, which nobody reads; `refused` is YAML for which rcl refuses the file:
+    what it is, and where."""
 
     sections: tuple[Section, ...]
     problem: tuple[str, Span] | None = None
     unmarked: tuple[tuple[str, Span], ...] = ()
+    refused: tuple[tuple[str, Span], ...] = ()
 
 
 @lru_cache(maxsize=64)
@@ -79,7 +85,7 @@ def read_param_file(text: str) -> ParamFile:
     reader = _Reader()
     if isinstance(parsed.node, yaml.MappingNode):
         reader.nodes(parsed.node, (), (), 0)
-    return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked))
+    return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused))
 
 
 @lru_cache(maxsize=64)
@@ -93,6 +99,7 @@ class _Reader:
     def __init__(self) -> None:
         self.sections: list[Section] = []
         self.unmarked: list[tuple[str, Span]] = []
+        self.refused: list[tuple[str, Span]] = []
         self._keys = 0
 
     def nodes(self, node: yaml.MappingNode, keys: tuple[str, ...], spans: tuple[Span, ...], depth: int) -> None:
@@ -104,6 +111,8 @@ class _Reader:
             if name == MARK:
                 if isinstance(value, yaml.MappingNode):
                     params = tuple(self._params(value, "", depth))
+                    if any("//" in f"{key}/{below}" for key, below in pairwise(keys)):
+                        self.refused.append(("a node's name with two slashes: '" + "/".join(keys) + "'", spans[0]))
                     self.sections.append(Section(_pattern(keys), spans or (span,), params, _key(keys)))
             elif isinstance(value, yaml.MappingNode):
                 self.nodes(value, (*keys, name), (*spans, span), depth + 1)
@@ -126,7 +135,10 @@ class _Reader:
             if isinstance(value, yaml.MappingNode):
                 yield from self._params(value, name + ".", depth + 1)
             else:
-                yield FileParam(name, plain(value), span_of(key), span_of(value))
+                refused = rcl_yaml.refused(value)
+                if refused is not None:
+                    self.refused.append((f"{refused}: '{name}'", span_of(value)))
+                yield FileParam(name, rcl_yaml.value(value), plain(value), span_of(key), span_of(value))
 
 
 def plain(node: yaml.Node) -> Any:

@@ -170,7 +170,8 @@ def file_source(
     for section in reaching:
         for param in section.params:
             place = Location(path, Span(0, 0) if substitute else param.name_span)
-            params.append(Param(param.name, param.value, (*origin, place), to.owner, place))
+            value = param.by_launch if to.composable else param.value
+            params.append(Param(param.name, value, (*origin, place), to.owner, place))
             keys.append(section.key)
     return ParamSource(path, tuple(params), origin, tuple(keys))
 

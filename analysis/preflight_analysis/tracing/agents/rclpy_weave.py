@@ -217,6 +217,22 @@ def _default(value: Any) -> tuple[Any, bool]:
     return (plain if len(json.dumps(plain)) < _MAX_DEFAULT else None), True
 
 
+def _described(given: Any, descriptor: Any) -> dict[str, Any]:
+    """The type that a parameter is declared with, by its default or as such, and what its descriptor allows."""
+    if given is None or getattr(descriptor, "dynamic_typing", False) is True:
+        return {"dynamic": True, "read_only": bool(getattr(descriptor, "read_only", False))}
+    kinds = sys.modules["rclpy.parameter"].Parameter.Type  # of those that rclpy.node imports
+    kind = given if isinstance(given, kinds) else kinds.from_parameter_value(given)
+    told = {"type": kind.name.lower().replace("_", " "), "read_only": bool(getattr(descriptor, "read_only", False))}
+    # rclpy looks at the range of the parameter's own type alone.
+    ranges = getattr(
+        descriptor, {"integer": "integer_range", "double": "floating_point_range"}.get(told["type"], ""), ()
+    )
+    for each in list(ranges)[:1]:
+        told["range"] = [each.from_value, each.to_value, each.step]
+    return told
+
+
 @_quiet
 def _tell_params(arguments: dict[str, Any]) -> None:
     file, line, internal = _caller()
@@ -224,7 +240,8 @@ def _tell_params(arguments: dict[str, Any]) -> None:
     prefix = f"{namespace}." if namespace else ""
     for each in arguments.get("parameters") or ():
         described = each if isinstance(each, (list, tuple)) else (each,)
-        default, has_default = _default(described[1] if len(described) > 1 else None)
+        given = described[1] if len(described) > 1 else None
+        default, has_default = _default(given)
         channel.send(
             "param",
             access="get",
@@ -232,6 +249,7 @@ def _tell_params(arguments: dict[str, Any]) -> None:
             default=default,
             has_default=has_default and not internal,
             optional=True,
+            **_described(given, described[2] if len(described) > 2 else None),
             file=None if internal else file,
             line=None if internal else line,
             builtin=internal,

@@ -1,0 +1,95 @@
+"""Values of parameters as rcl reads them, which has a YAML of its own (`rcl_yaml_param_parser/src/parse.c`).
+
+It differs from PyYAML, by which launch reads what stands in launch files: `y` is a bool, `1e3` a double, `12:30:00`,
+`1_000` and `null` are texts. As launch writes what it read into a file for rcl, without quotes where PyYAML needs none,
+a text of the launch file may arrive as something else.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import yaml
+
+_TRUE = frozenset(("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"))
+_FALSE = frozenset(("N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"))
+_INTEGER = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)", re.ASCII)
+_DOUBLE = re.compile(
+    r"[-+]?([0-9]+\.?[0-9]*([eE][-+]?[0-9]+)?|\.[0-9]+([eE][-+]?[0-9]+)?|\.?(inf|nan)|infinity"
+    r"|0x[0-9a-f]+(\.[0-9a-f]*)?(p[-+]?[0-9]+)?)",
+    re.ASCII | re.IGNORECASE,
+)
+_MOST = 2**63
+_STRING_TAG = "tag:yaml.org,2002:str"
+_MAX_TEXT = 400
+
+
+def scalar(node: yaml.ScalarNode) -> bool | int | float | str:
+    """What rcl makes of a single value."""
+    text = str(node.value)
+    if node.style in ("'", '"'):
+        return text
+    read = plain_scalar(text)
+    return text if not isinstance(read, str) and _is_marked(node) else read
+
+
+def plain_scalar(text: str) -> bool | int | float | str:
+    """What rcl makes of a text without quotes."""
+    if text in _TRUE or text in _FALSE:
+        return text in _TRUE
+    if len(text) > _MAX_TEXT:
+        return text
+    if _INTEGER.fullmatch(text):
+        sign = -1 if text.startswith("-") else 1
+        digits = text.lstrip("+-").lower()
+        number = sign * int(digits, 16 if digits.startswith("0x") else 8 if digits.startswith("0") else 10)
+        return number if -_MOST <= number < _MOST else float(number)
+    if _DOUBLE.fullmatch(text):
+        plain = re.sub(r"\.(?=inf|nan)", "", text.lower())
+        value = float.fromhex(plain) if "0x" in plain else float(plain)
+        return text if value in (float("inf"), float("-inf")) and "inf" not in plain else value
+    return text
+
+
+def _is_marked(node: yaml.ScalarNode) -> bool:
+    """Whether a tag says that it is a text; PyYAML gives the same tag to what it takes for one by itself."""
+    resolver: Any = yaml.SafeLoader("")
+    return node.tag == _STRING_TAG and resolver.resolve(yaml.ScalarNode, node.value, (True, False)) != _STRING_TAG
+
+
+def value(node: yaml.Node) -> Any:
+    """What rcl makes of the value of a parameter. What is in it that a parameter cannot have is None."""
+    if isinstance(node, yaml.SequenceNode):
+        return [scalar(each) if isinstance(each, yaml.ScalarNode) else None for each in node.value]
+    return scalar(node) if isinstance(node, yaml.ScalarNode) and refused(node) is None else None
+
+
+def refused(node: yaml.Node) -> str | None:
+    """Why rcl refuses the whole file for the value of a parameter."""
+    if isinstance(node, yaml.ScalarNode):
+        return "a parameter without a value" if node.value == "" and not node.style else None
+    if not isinstance(node, yaml.SequenceNode):
+        return None
+    kinds = {type(scalar(each)) for each in node.value if isinstance(each, yaml.ScalarNode)}
+    if len(kinds) > 1:
+        named = sorted(_NAMES[kind] for kind in kinds)
+        return f"a list with {', '.join(named[:-1])} and {named[-1]} in it"
+    if len(node.value) > 1 and any(isinstance(each, yaml.SequenceNode) for each in node.value):
+        return "a list of lists"
+    return None
+
+
+_NAMES = {bool: "bools", int: "integers", float: "doubles", str: "texts"}
+
+
+def as_passed(given: Any) -> Any:
+    """What arrives at a node of a value that stands in a launch file."""
+    if isinstance(given, (list, tuple)):
+        return [as_passed(each) for each in given]
+    if not isinstance(given, str):
+        return given
+    read = plain_scalar(given)
+    if isinstance(read, str) or yaml.safe_dump(given).startswith(("'", '"')):
+        return given
+    return read

@@ -1,0 +1,84 @@
+"""PRM017: a parameter outside of the range that its node declares (ROS 2)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import ParamUse, Range
+
+_CLOSE = 1e-6
+"""As a part of the value; the client libraries are stricter."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    told: set[tuple[object, ...]] = set()
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
+        if not node.params:
+            continue
+        ranges = {u.name.removeprefix("~"): u for u in interface.params if u.range is not None and not u.dynamic}
+        for param in node.params:
+            use = ranges.get(param.name)
+            if use is None or use.range is None or not _is_of_its_type(param.value, use):
+                continue
+            why = _outside(param.value, use.range)
+            at = name_place(param), why
+            if why is None or at in told:
+                continue
+            told.add(at)
+            yield rule.finding(
+                f"'{param.name}' is {param.value}, which is {why}: {node.name} declares it for {use.range}, and "
+                "stops when it declares it (InvalidParameterValueException)",
+                name_place(param),
+                confidence="possible" if use.assumed else "likely",
+                severity="warning" if use.assumed else "error",
+                related=(
+                    Related(f"{node.name} is started here", node_location(node)),
+                    *include_chain(node.origin),
+                ),
+            )
+
+
+def _is_of_its_type(value: object, use: ParamUse) -> bool:
+    """Whether it has the type that is declared; the range is looked at after that, and only for single numbers."""
+    wanted = {"integer": int, "double": float}.get(use.type) if use.type else type(use.default)
+    return wanted in (int, float) and type(value) is wanted
+
+
+def _outside(value: float, allowed: Range) -> str | None:
+    """Why the value is not allowed; None if it is. Both ends of the range are, whatever the steps."""
+    if _is_close(value, allowed.low) or _is_close(value, allowed.high):
+        return None
+    if not allowed.low <= value <= allowed.high:
+        return "out of range"
+    if not allowed.step:
+        return None
+    nearest = allowed.low + round((value - allowed.low) / allowed.step) * allowed.step
+    return None if _is_close(value, nearest) else "none of the steps"
+
+
+def _is_close(value: float, other: float) -> bool:
+    return value == other or (isinstance(value, float) and math.isclose(value, other, rel_tol=_CLOSE, abs_tol=1e-12))
+
+
+RULE = Rule(
+    id="PRM017",
+    name="parameter-out-of-range",
+    severity="error",
+    what="Reports a number that is not in the range of the descriptor with which the node declares the parameter, or "
+    "between its steps (ROS 2).",
+    why="rclcpp and rclpy raise InvalidParameterValueException in `declare_parameter`, and most nodes end by it.",
+    example="<!-- declare_parameter('rate', 10, ParameterDescriptor(integer_range=\n"
+    "       [IntegerRange(from_value=1, to_value=50)])) -->\n"
+    '<param name="rate" value="100"/>',
+    instead='<param name="rate" value="50"/>',
+    generations=(2,),
+    check=_check,
+    needs_graph=True,
+)
