@@ -50,8 +50,8 @@ def test_what_may_be_missing_is_for_information() -> None:
     assert told([source_only], live({"/a": []})) == [
         "(/a does not publish /x (std_msgs/String); it may not do so in each case)"
     ]
-    assert told([replace(node("/a"), certain=False)], live({})) == ["(/a is not running, as far as is known)"]
-    assert told([replace(node("/a"), ends_itself=True)], live({})) == []
+    assert told([replace(node("/a"), certain=False)], live({})) == ["(/a is not running, which may be right)"]
+    assert told([replace(node("/a"), ends_itself=True)], live({})) == ["(/a is not running, which may be right)"]
 
 
 def test_a_node_that_died_is_no_node_with_missing_ends() -> None:

@@ -40,7 +40,7 @@ def build_graph(
     for node, interface in zip(tree.nodes, merged, strict=True):
         if not interface.endpoints and not interface.params:
             continue
-        remaps = _effective_remaps(node, tree.generation)
+        remaps = effective_remaps(node, tree.generation)
         of_actions: set[int] = set()
         for action in actions_of(interface.endpoints, tree.generation):
             whole, parts = _connect_action(node, action, remaps, as_a_whole=moves_actions(distro))
@@ -66,7 +66,7 @@ def build_graph(
     )
 
 
-def _effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap, str]]:
+def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap, str]]:
     """Resolved source to the remap and its resolved target; of two for one name the later wins in ROS 1, the first one
     in ROS 2, as in the clients."""
     ordered = node.remaps if generation == 1 else reversed(node.remaps)

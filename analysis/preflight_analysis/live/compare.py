@@ -75,7 +75,7 @@ def compare(expected: Expected, live: Observation) -> Comparison:
     """What of `live` is missing, extra or of the wrong type."""
     states = _States()
     issues: list[Issue] = []
-    matched, tokens = _matched(expected, live)
+    running_as, tokens = matched((node.name for node in expected.nodes), live)
     nodes = [_with_tokens(node, tokens) for node in expected.nodes]
     ends: dict[str, _LiveEnds] = defaultdict(lambda: defaultdict(list))
     for end in live.ends:
@@ -84,7 +84,7 @@ def compare(expected: Expected, live: Observation) -> Comparison:
     owned: dict[str, list[ExpectedNode]] = defaultdict(list)
     for node in nodes:
         running = live.nodes.get(node.name)
-        issue = _of_node(node, running, matched)
+        issue = _of_node(node, running)
         if issue is not None:
             issues.append(issue)
         state = _state(issue, running)
@@ -102,33 +102,34 @@ def compare(expected: Expected, live: Observation) -> Comparison:
         if states.nodes.get(owner) == "present":
             issues += _of_ends(owner, of_owner, ends[owner], expected.generation, states)
     issues += _wrong_topics(nodes, live, states) if expected.generation == 1 else ()
-    issues += _extra_nodes(expected, live, set(matched.values()), states)
+    issues += _extra_nodes(expected, live, set(running_as.values()), states)
     return Comparison(tuple(issues), states.nodes, states.topics, states.services, states.actions)
 
 
 # Which node is which
 
 
-def _matched(expected: Expected, live: Observation) -> tuple[dict[str, str], dict[str, str]]:
+def matched(expected: Iterable[str], live: Observation) -> tuple[dict[str, str], dict[str, str]]:
     """Expected names to those that run, and what the anonymous parts of names are in this run."""
-    found = {node.name: node.name for node in expected.nodes if node.name in live.nodes}
+    expected = list(expected)
+    found = {name: name for name in expected if name in live.nodes}
     tokens: dict[str, str] = {}
-    for node in expected.nodes:
-        if node.name in found or not _ANONYMOUS.search(node.name):
+    for wanted in expected:
+        if wanted in found or not _ANONYMOUS.search(wanted):
             continue
-        places = list(_ANONYMOUS.finditer(node.name))
+        places = list(_ANONYMOUS.finditer(wanted))
         pattern, at = "", 0
         for place in places:
             known = tokens.get(place[0])
-            wanted = re.escape(known) if known is not None else re.escape(place[1]) + _ANONYMOUS_TAIL
-            pattern += re.escape(node.name[at : place.start()]) + f"({wanted})"
+            part = re.escape(known) if known is not None else re.escape(place[1]) + _ANONYMOUS_TAIL
+            pattern += re.escape(wanted[at : place.start()]) + f"({part})"
             at = place.end()
-        pattern += re.escape(node.name[at:]) + r"\Z"
+        pattern += re.escape(wanted[at:]) + r"\Z"
         taken = set(found.values())
         for name in sorted(live.nodes, key=lambda each: (live.nodes[each].dead is not None, each)):
             match = re.match(pattern, name)
             if match and name not in taken:
-                found[node.name] = name
+                found[wanted] = name
                 tokens.update((place[0], match[number]) for number, place in enumerate(places, 1))
                 break
     return found, tokens
@@ -152,15 +153,11 @@ def _with_tokens(node: ExpectedNode, tokens: Mapping[str, str]) -> ExpectedNode:
 # Nodes
 
 
-def _of_node(node: ExpectedNode, running: LiveNode | None, matched: Mapping[str, str]) -> Issue | None:
+def _of_node(node: ExpectedNode, running: LiveNode | None) -> Issue | None:
     if running is None:
-        if node.ends_itself or "$(" in node.name:
-            return None
-        return Issue("missing", "node", node.name, counts=node.certain, place=node.place)
+        return Issue("missing", "node", node.name, counts=node.certain and not node.ends_itself, place=node.place)
     if running.dead is not None:
-        if node.ends_itself:
-            return None
-        return Issue("dead", "node", node.name, actual=running.dead, place=node.place)
+        return Issue("dead", "node", node.name, actual=running.dead, counts=not node.ends_itself, place=node.place)
     if running.count > 1:
         return Issue("twice", "node", node.name, actual=str(running.count), place=node.place)
     return None
@@ -170,7 +167,7 @@ def _state(issue: Issue | None, running: LiveNode | None) -> State:
     if running is None:
         return "missing" if issue is not None and issue.counts else "unsure"
     if running.dead is not None:
-        return "dead" if issue is not None else "unsure"
+        return "dead" if issue is not None and issue.counts else "unsure"
     return "present"
 
 

@@ -48,8 +48,8 @@ def _node(
     connections = list(connections)
     name, certain = node.name, "$(" not in node.name
     if not node.named:
-        found = _own_names(connections)
-        name, certain = (found[0], True) if len(found) == 1 else (name, False)
+        found = _own_name(connections)
+        name, certain = (found, True) if found is not None else (name, False)
     loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if generation == 1 else None
     manager = names.resolve(loaded.manager, node.name) if loaded is not None and loaded.manager is not None else None
     ended = interface.outcome.status == "exited" and not interface.outcome.exit_code
@@ -68,10 +68,21 @@ def _node(
     )
 
 
-def _own_names(connections: Iterable[Connection]) -> list[str]:
-    """What a node calls itself that the launch file gives no name, by the services that each node has."""
+def own_names(graph: Graph) -> dict[str, str]:
+    """What nodes call themselves that the launch file gives no name (ROS 2), by the name that they have in the tree."""
+    services: dict[int, list[Connection]] = defaultdict(list)
+    for channel in graph.services.values():
+        for connection in channel.offers:
+            if not connection.node.named:
+                services[id(connection.node)].append(connection)
+    found = {node.name: _own_name(services[id(node)]) for node in graph.tree.nodes if not node.named}
+    return {name: own for name, own in found.items() if own is not None}
+
+
+def _own_name(connections: Iterable[Connection]) -> str | None:
+    """The name of a node, by the services that each has below it; None where there are none, or those of several."""
     found = {c.name.removesuffix(_NAME_SERVICE) for c in connections if c.name.endswith(_NAME_SERVICE)}
-    return sorted(found)
+    return next(iter(found)) if len(found) == 1 else None
 
 
 def _end(connection: Connection, generation: int, documents: Mapping[str, Document]) -> ExpectedEnd:

@@ -34,7 +34,7 @@ def message(issue: Issue) -> str:
     node, name = issue.node, issue.name
     if issue.what == "node":
         return {
-            "missing": f"{node} is not running" if issue.counts else f"{node} is not running, as far as is known",
+            "missing": f"{node} is not running" if issue.counts else f"{node} is not running, which may be right",
             "extra": f"{node} runs and is not in the launch file",
             "dead": f"{node} is registered and does not answer: {issue.actual}",
             "twice": f"{node} runs {issue.actual} times",

@@ -15,7 +15,7 @@ from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_server.cli.errors import FAILED, CannotDoError
 from preflight_server.cli.output import say
 
-_VERBS = ("check", "tree", "graph", "trace", "snapshot", "diff", "watch", "rules", "doctor", "lsp")
+_VERBS = ("check", "tree", "graph", "trace", "snapshot", "diff", "watch", "capture", "rules", "doctor", "lsp")
 _SEVERAL_FILES = ("check", "diff")
 """The verbs whose positional arguments are files too, in `launch_args`."""
 _EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"

@@ -1,0 +1,159 @@
+"""`ros-preflight capture`: what the nodes of a running system do, written down"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Edit
+from preflight_analysis.findings.report import place, printable
+from preflight_analysis.graph.annotations import annotation_edit, annotation_text
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.live.capture import Captured, capture, settings_text
+from preflight_analysis.live.model import CannotObserveError, Observation
+from preflight_analysis.live.watcher import Observer, observer
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.workspace.workspace import Analysis
+
+from preflight_server.cli import options
+from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
+from preflight_server.cli.output import print_text, say
+from preflight_server.cli.project import open_project, run_nodes
+
+HELP = "write down what the nodes of a running system do"
+DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID) and prints what
+the nodes of the launch file do there, as annotations for the launch file or as settings: for nodes that cannot be run
+in the sandbox, which are captured where none is named. --no-run executes nothing."""
+_POLL_SECONDS = 0.25
+_NO_NODES = ("test", "process")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's own options."""
+    options.add_running(parser, ("annotations", "settings"))
+    options.add_file(parser)
+    parser.add_argument("--node", metavar="/NAME", action="append", default=[], help="this node; may be repeated")
+    parser.add_argument("--all", action="store_true", help="all nodes of the launch file")
+    parser.add_argument("--write", action="store_true", help="write the annotations into the launch files")
+    parser.add_argument(
+        "--timeout", type=float, default=10.0, metavar="S", help="seconds to wait for the nodes (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--settle",
+        type=float,
+        default=2.0,
+        metavar="S",
+        help="seconds for which nothing may change before it is believed (default: %(default)s)",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print or write what was seen."""
+    if args.write and args.format == "settings":
+        raise CannotDoError("--write is for annotations; settings are printed, for .ros-preflight.yaml")
+    analysis = run_nodes(open_project(args), args)
+    if analysis.graph is None:
+        raise CannotDoError("there is no graph")
+    chosen = _chosen(analysis.tree.nodes, analysis.graph.interfaces, args)
+    if not chosen:
+        say("there is nothing to capture: all nodes could be run, or somebody has described them (--all captures them)")
+        return CLEAN
+    watched = observer(analysis.tree.generation, analysis.environment)
+    try:
+        captured = _captured(watched, analysis.graph, chosen, args)
+    finally:
+        watched.close()
+    for each in captured:
+        if each.interface is None:
+            say(printable(f"{each.node.name} is not captured: {each.reason}"))
+    if args.format == "settings":
+        print_text(settings_text(captured, analysis.tree.nodes))
+    elif args.write:
+        _write(analysis, captured)
+    else:
+        print_text("".join(_lines(analysis, captured)))
+    return FOUND if any(each.interface is None for each in captured) else CLEAN
+
+
+def _chosen(
+    started: Sequence[LaunchNode], interfaces: Sequence[Interface], args: argparse.Namespace
+) -> list[LaunchNode]:
+    nodes = [node for node in started if node.kind not in _NO_NODES]
+    named = {"/" + name.lstrip("/") for name in args.node}
+    if missing := named - {node.name for node in nodes}:
+        there = ", ".join(node.name for node in nodes) or "none"
+        raise CannotDoError(f"the launch file has no node {', '.join(sorted(missing))}; it has: {there}")
+    if named or args.all:
+        return [node for node in nodes if args.all or node.name in named]
+    known = {id(node) for node, interface in zip(started, interfaces, strict=True) if interface.complete}
+    return [node for node in nodes if id(node) not in known]
+
+
+def _captured(
+    watched: Observer, graph: Graph, chosen: Sequence[LaunchNode], args: argparse.Namespace
+) -> list[Captured]:
+    """What the chosen ones do, once all of them are there and nothing changes any more, or the time is over."""
+    began = since = time.monotonic()
+    last: Observation | None = None
+    while True:
+        error = None
+        try:
+            seen = watched.observe()
+        except CannotObserveError as cannot:
+            seen, error = None, cannot
+        now = time.monotonic()
+        if seen != last:
+            last, since = seen, now
+        found = capture(graph, chosen, seen) if seen is not None else []
+        complete = bool(found) and all(each.interface is not None for each in found)
+        over = now - began >= args.timeout or (error is not None and error.final)
+        if (complete and now - since >= args.settle) or over:
+            if error is not None:
+                raise CannotDoError(str(error))
+            return found
+        time.sleep(_POLL_SECONDS)
+
+
+def _lines(analysis: Analysis, captured: Iterable[Captured]) -> Iterable[str]:
+    for each in captured:
+        if each.interface is not None:
+            where = place(node_location(each.node), analysis.documents, os.getcwd())
+            text = annotation_text(each.interface) or "nothing beside what every node has"
+            yield f"{where}: {printable(each.node.name)}\n{text}\n"
+
+
+def _write(analysis: Analysis, captured: Iterable[Captured]) -> None:
+    """Write the annotations; what stands on one tag several times is that of the first node."""
+    edits: dict[str, dict[tuple[int, int], Edit]] = {}
+    for each in captured:
+        if each.interface is None:
+            continue
+        document = analysis.documents.get(each.node.location.file)
+        edit = annotation_edit(each.node, annotation_text(each.interface), document) if document is not None else None
+        if edit is None:
+            say(printable(f"{each.node.name} has an annotation already, or there is nothing to write"))
+            continue
+        span = edit.location.span
+        edits.setdefault(edit.location.file, {}).setdefault((span.start, span.end), edit)
+    for file, found in edits.items():
+        _apply(file, list(found.values()), analysis.documents[file])
+        say(f"{file}: {len(found)} annotation{'' if len(found) == 1 else 's'} written")
+
+
+def _apply(file: str, edits: Sequence[Edit], document: Document) -> None:
+    text = document.text
+    for edit in sorted(edits, key=lambda each: each.location.span, reverse=True):
+        span = edit.location.span
+        text = text[: span.start] + edit.text + text[span.end :]
+    try:
+        if Path(file).read_bytes() != document.text.encode():
+            raise CannotDoError(f"{file} is not plain UTF-8, or was changed meanwhile; print the annotations instead")
+        Path(file).write_bytes(text.encode())
+    except OSError as error:
+        raise CannotDoError(f"{file} cannot be written: {error.strerror}") from None
