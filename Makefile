@@ -74,10 +74,11 @@ test-editors: setup vsix ## the extension in the real VS Code, with screenshots 
 	tests/editors/install.sh vscode
 	$(BIN)/python -m pytest -m vscode
 
-docs: $(READY) ## the rule reference, from the rules, and the schemas of the settings
+docs: $(READY) ## the documentation site, in out/site, with the rule reference from the rules, and the schemas of the settings
 	$(BIN)/python -m preflight_analysis.rules.reference docs/rules
 	$(BIN)/python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json
 	$(BIN)/python -m preflight_server.lsp.contribution vscode-client/package.json
+	$(BIN)/mkdocs build --quiet --config-file .mkdocs.yml
 
 clean:
 	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist vscode-client/server tests/editors/vscode/node_modules

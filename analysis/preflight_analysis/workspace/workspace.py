@@ -179,6 +179,11 @@ class Workspace:
         params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
+    def cannot_run(self, tree: LaunchTree) -> str | None:
+        """What the environment lacks for running any node of the tree."""
+        lacks = tree.generation == 2 and self.environment.ros2_python is None
+        return "there is no rclpy to run it with; ros-preflight doctor shows where it was looked for" if lacks else None
+
     def _ros2_request(self, node: LaunchNode) -> TraceRequest | None:
         """How to run a node of ROS 2: one that is written in Python, where there is a rclpy for it, or a program."""
         path = node.resolved.path

@@ -133,7 +133,8 @@ def run_nodes(
     except KeyboardInterrupt:
         cancel.set()
         raise
-    interfaces = [found.get(i) or not_run(node, "it was not asked for") for i, node in enumerate(nodes)]
+    reason = project.workspace.cannot_run(analysis.tree) or "it was not asked for"
+    interfaces = [found.get(i) or not_run(node, reason) for i, node in enumerate(nodes)]
     return project.workspace.with_interfaces(analysis, interfaces, None)
 
 

@@ -100,7 +100,8 @@ def with_known(
     """The analysis with what is known of its nodes. While the first runs are under way it says nothing of the graph."""
     keys = node_keys(static.tree)
     nodes = zip(keys, static.tree.nodes, strict=True)
-    interfaces = [known.get(key) or not_run(node, why_not_run or PENDING) for key, node in nodes]
+    reason = why_not_run or workspace.cannot_run(static.tree) or PENDING
+    interfaces = [known.get(key) or not_run(node, reason) for key, node in nodes]
     if why_not_run is None and not known and any(r is not None for r in workspace.requests(static)):
         return static
     if all(key in known for key in keys):
