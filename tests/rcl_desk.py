@@ -6,20 +6,21 @@ import functools
 import os
 import shutil
 import subprocess
-import tempfile
 import threading
 from pathlib import Path
 
+from action_package import action_package
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
-from ros2_desk import ROOT, ros2_prefix
+from ros2_desk import ROOT, ros2_prefix, scratch_folder
 
 SOURCE = ROOT / "tests" / "tracing" / "rcl_node.c"
 _LIBRARIES = (
+    "fib__rosidl_typesupport_c",
     "rcl",
     "rcl_action",
     "rcl_lifecycle",
@@ -36,10 +37,16 @@ _LIBRARIES = (
 def rcl_node(distribution: str = "kilted") -> Path:
     """The program, compiled by the first test that asks."""
     prefix = ros2_prefix(distribution)
-    made = Path(tempfile.mkdtemp(prefix="rcl-node-")) / "node"
-    includes = [f"-I{folder}" for folder in (prefix / "include").iterdir()]
+    made = scratch_folder() / "node"
+    action = action_package(distribution)
+    includes = [f"-I{folder}" for folder in (action.folder, *(prefix / "include").iterdir())]
     # The libraries of the wheels are not linked with all that they need.
-    linking = [f"-L{prefix / 'lib'}", "-rdynamic", "-Wl,--unresolved-symbols=ignore-in-shared-libs"]
+    linking = [
+        f"-L{prefix / 'lib'}",
+        f"-L{action.libraries}",
+        "-rdynamic",
+        "-Wl,--unresolved-symbols=ignore-in-shared-libs",
+    ]
     libraries = [f"-l{library}" for library in _LIBRARIES]
     subprocess.run(["cc", "-w", *includes, str(SOURCE), "-o", str(made), *linking, *libraries], check=True)
     return made
@@ -65,7 +72,11 @@ class RclDesk:
         self.program.parent.mkdir(parents=True)
         shutil.copy(rcl_node(distribution), self.program)
         self.launch_file = share / "launch" / "a.launch.xml"
-        libraries = [prefix / "lib", *prefix.glob("lib/python3*/site-packages/ros_*.libs")]
+        libraries = [
+            action_package(distribution).libraries,
+            prefix / "lib",
+            *prefix.glob("lib/python3*/site-packages/ros_*.libs"),
+        ]
         self.variables = {
             "PATH": f"{prefix / 'bin'}:/usr/bin:/bin",
             "HOME": os.environ["HOME"],

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <fib/action/fib.h>
 #include <lifecycle_msgs/msg/transition_event.h>
 #include <lifecycle_msgs/srv/change_state.h>
 #include <lifecycle_msgs/srv/get_available_states.h>
@@ -12,6 +13,7 @@
 #include <lifecycle_msgs/srv/get_state.h>
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
+#include <rcl_action/rcl_action.h>
 #include <rcl_interfaces/msg/parameter_event.h>
 #include <rcl_lifecycle/rcl_lifecycle.h>
 #include <rmw/qos_profiles.h>
@@ -125,6 +127,22 @@ static void wait_for(const char *service) {
   publish(response.success ? "after" : "refused", rmw_qos_profile_default);
 }
 
+static void serve_action(const char *name) {
+  rcl_action_server_t *made = &NEW(rcl_action_server_t, rcl_action_get_zero_initialized_server());
+  rcl_action_server_options_t options = rcl_action_server_get_default_options();
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rcl_clock_t *clock = malloc(sizeof(rcl_clock_t));
+  check(rcl_clock_init(RCL_STEADY_TIME, clock, &allocator));
+  check(rcl_action_server_init(made, &node, clock, ROSIDL_GET_ACTION_TYPE_SUPPORT(fib, Fib), name, &options));
+}
+
+static void wait_for_action(const char *name) {
+  rcl_action_client_t *made = &NEW(rcl_action_client_t, rcl_action_get_zero_initialized_client());
+  rcl_action_client_options_t options = rcl_action_client_get_default_options();
+  check(rcl_action_client_init(made, &node, ROSIDL_GET_ACTION_TYPE_SUPPORT(fib, Fib), name, &options));
+  for (bool there = false; !there; usleep(50000)) check(rcl_action_server_is_available(&node, made, &there));
+}
+
 static void managed(int fail) {
   rcl_lifecycle_state_machine_t machine = rcl_lifecycle_get_zero_initialized_state_machine();
   rcl_lifecycle_state_machine_options_t options = rcl_lifecycle_get_default_state_machine_options();
@@ -197,6 +215,10 @@ int main(int argc, char **argv) {
     wait_for("start");
   } else if (strcmp(mode, "managed") == 0) {
     managed(argc > 2 && strcmp(argv[2], "fail") == 0);
+  } else if (strcmp(mode, "action") == 0) {
+    serve_action("count");
+    wait_for_action("~/other");
+    publish("after", rmw_qos_profile_default);
   } else if (strcmp(mode, "declare") == 0) {
     declare();
   } else if (strcmp(mode, "talk") == 0) {

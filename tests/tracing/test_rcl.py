@@ -70,6 +70,17 @@ def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative
     }
 
 
+def test_actions_are_one_end_each_and_their_servers_are_waited_for(desk: RclDesk) -> None:
+    found = desk.trace("action")
+    assert found.outcome.status == "spinning"
+    assert found.outcome.answers == ("it waits for the action server /n/other, and was told that it is there",)
+    assert {key: (end.type, end.speculative) for key, end in ends(found).items()} == {
+        ("action_server", "count"): ("fib/action/Fib", False),
+        ("action_client", "~/other"): ("fib/action/Fib", False),
+        ("publisher", "after"): ("std_msgs/msg/String", True),
+    }
+
+
 def test_lifecycle_nodes_are_configured_and_activated(desk: RclDesk) -> None:
     found = desk.trace("managed")
     assert (found.outcome.status, found.outcome.answers) == ("spinning", ())

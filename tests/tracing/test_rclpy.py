@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from action_package import action_package
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Range
@@ -355,3 +356,32 @@ def test_rclpy_is_found_where_it_is(tmp_path: Path) -> None:
         made.parent.mkdir(parents=True, exist_ok=True)
         made.touch(0o755)
     assert detect_environment(None, {"PATH": "/bin"}, root=str(root)).ros2_python == str(root / "usr/bin/python3.12")
+
+
+@pytest.mark.parametrize("distribution", ["kilted", "jazzy"])
+def test_actions_are_one_end_each_and_their_servers_are_waited_for(tmp_path: Path, distribution: str) -> None:
+    body = """
+    self.create_publisher(String, 'before', 1)
+    self.server = ActionServer(self, Fib, 'count', print)
+    self.client = ActionClient(self, Fib, '~/other')
+    while not self.client.wait_for_server(timeout_sec=1.0):
+        self.get_logger().info('waiting')
+    self.create_publisher(String, 'after', 1)
+    """
+    imports = ("from rclpy.action import ActionClient, ActionServer", "from fib.action import Fib")
+    desk = Ros2Desk(tmp_path, counter=node_of(body, *imports))
+    package = action_package(distribution)
+    desk.variables |= {
+        "PATH": f"{ros2_prefix(distribution) / 'bin'}:/usr/bin:/bin",
+        "PYTHONPATH": str(package.folder),
+        "LD_LIBRARY_PATH": str(package.libraries),
+    }
+    found = desk.trace("counter")
+    assert (found.outcome.status, found.notes) == ("spinning", found.outcome.answers)
+    assert found.outcome.answers == ("it waits for the action server ~/other, and was told that it is there",)
+    assert {key: (end.type, end.speculative) for key, end in ends(found).items()} == {
+        ("publisher", "before"): ("std_msgs/msg/String", False),
+        ("action_server", "count"): ("fib/action/Fib", False),
+        ("action_client", "~/other"): ("fib/action/Fib", False),
+        ("publisher", "after"): ("std_msgs/msg/String", True),
+    }
