@@ -95,6 +95,9 @@ class _Results:
         tail = tuple(data.get("stderr_tail", ()))
         return CommandResult(data.get("status", "done"), data.get("output", ""), data.get("reason", ""), tail)
 
+    def last_good(self, series: str) -> str | None:
+        return None
+
 
 class _EveryExecutable:
     """Whatever a known package is asked for is there."""

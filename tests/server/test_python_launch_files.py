@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from editor_desk import Desk
-from lsp_desk import editing
+from lsp_desk import Editor, editing
 
 pytestmark = pytest.mark.ros
 
@@ -83,3 +83,78 @@ async def test_beside_the_python_language_server(desk: Desk, outer: Path) -> Non
         editor.change(path, text.replace("node_executable='x'),", "node_exec"))
         await editor.having(path, "LCH001", seconds=60)
         await editor.hover(path, editor.at(path, "Node(package"))
+
+
+RUN = """import os
+from launch import LaunchDescription
+from launch.actions import OpaqueFunction
+from launch_ros.actions import Node
+
+
+def made(context):
+    return [Node(package='made', executable='made', name='made')]
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package='nowhere', executable='first', name='first'),
+        *[Node(package='nowhere', executable=name, name=name) for name in ('second', 'third')],
+        OpaqueFunction(function=made),
+        Node(package='elsewhere', executable='last', name='last'),
+    ])
+"""
+
+
+def said(editor: Editor, path: Path) -> list[tuple[str, str]] | None:
+    """Rule of each finding, and what it is about: known of the newest text only."""
+    found = editor.diagnostics(path)
+    return None if found is None else sorted((str(d.code), editor.covered(path, d.range)) for d in found)
+
+
+async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(desk: Desk, outer: Path) -> None:
+    """What only a run tells (the nodes that a loop or a function makes) does not go when the text is edited, half typed
+    or wrong: all but what it said of the part that was edited."""
+    path = outer.parent / "own.launch.py"
+    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+        editor.open(path, RUN, language="python")
+        packages = [("PKG001", name) for name in ("elsewhere", "made", "nowhere", "nowhere")]
+        whole = await editor.until(lambda: (found := said(editor, path)) and found == packages and found)
+        seen = len(editor.history)
+
+        # A bracket and a quote are missing, lines above moved all the rest.
+        half = RUN.replace("import os\n", "import os\nimport re\nx = ['\n")
+        editor.change(path, half)
+        broken = await editor.until(lambda: said(editor, path))
+        assert [each for each in broken if each[0] != "LCH001"] == whole
+        assert any(each[0] == "LCH001" for each in broken)
+
+        # It parses again, and raises when it is run.
+        editor.change(path, half.replace("x = ['\n", "x = undefined\n"))
+        raising = await editor.having(path, "LCH032")
+        assert editor.covered(path, raising.range) == "x = undefined"
+        assert [each for each in said(editor, path) or () if each[0] != "LCH032"] == whole
+
+        # A package is named anew: what was said of it goes at once, and nothing else.
+        mended = RUN.replace("'elsewhere'", "'robots_not'")
+        editor.change(path, mended)
+        now = await editor.until(
+            lambda: (found := said(editor, path)) is not None and ("PKG001", "robots_not") in found and found
+        )
+        assert [each for each in now if each[1] != "robots_not"] == [each for each in whole if each[1] != "elsewhere"]
+        for told in editor.history[seen:]:
+            kept = [d for d in told.diagnostics if d.code == "PKG001" and "'made'" in d.message]
+            assert kept or told.uri != path.as_uri(), "it flickered"
+
+
+async def test_an_edit_ends_the_run_of_the_text_before(desk: Desk, outer: Path) -> None:
+    path = outer.parent / "own.launch.py"
+    title = "Running the commands of parameters in the sandbox"
+    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+        slow = "import time\ntime.sleep(600)\n"
+        editor.open(path, slow + RUN, language="python")
+        (token,) = await editor.until(lambda: list(editor.progress_of(title)))
+        editor.change(path, slow + RUN.replace("made", "mod"))
+        await editor.until(lambda: editor.progress[token][-1]["kind"] == "end")
+        assert editor.progress[token][-1]["message"] == "cancelled"
+        editor.change(path, RUN)
+        await editor.until(lambda: ("PKG001", "made") in (said(editor, path) or ()))

@@ -10,7 +10,17 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
-from preflight_analysis.evaluation.tree import Arg, Command, Include, LaunchNode, NotTaken, Problem, Unknown, Use
+from preflight_analysis.evaluation.tree import (
+    Arg,
+    Command,
+    Edited,
+    Include,
+    LaunchNode,
+    NotTaken,
+    Problem,
+    Unknown,
+    Use,
+)
 from preflight_analysis.launch.model import NODE_KINDS, Action, ActionAttribute, LaunchFile
 
 MAX_TEXT = 8_000_000
@@ -53,6 +63,7 @@ class Collector:
         self.inputs: dict[str, str] = {}
         self.made: dict[str, Document] = {}
         """Texts that a run of a launch file wrote, by path: they are gone from the disk."""
+        self.edited: dict[str, Edited] = {}
         self._room = [MAX_TEXTS]
         self._digests: dict[str, str] = {}
         self._anonymous: dict[str, int] = {}

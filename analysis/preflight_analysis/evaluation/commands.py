@@ -34,6 +34,9 @@ class Commands(Protocol):
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line, None as long as it has none: it has not been run, or runs right now."""
 
+    def last_good(self, series: str) -> str | None:
+        """Of the runs of a Python launch file with one text or another the last that went well: its line."""
+
 
 class NoResults:
     """Nothing was run."""
@@ -41,5 +44,9 @@ class NoResults:
     placeholder: str | None = None
 
     def result(self, line: str) -> CommandResult | None:
+        """None."""
+        return None
+
+    def last_good(self, series: str) -> str | None:
         """None."""
         return None

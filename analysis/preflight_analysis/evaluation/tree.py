@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.launch.model import Action, ActionAttribute
 
@@ -241,6 +241,19 @@ class Machine:
 
 
 @dataclass(frozen=True, slots=True)
+class Edited:
+    """A Python launch file that stands as its last good run told it. `span` is what was edited since, `wrong` where it
+    is said why the text as it is has no run that went well."""
+
+    span: Span
+    wrong: frozenset[Span]
+
+    def replaces(self, span: Span) -> bool:
+        """Whether what is said of a place was said of another text."""
+        return span not in self.wrong and span.start <= self.span.end and self.span.start <= span.end
+
+
+@dataclass(frozen=True, slots=True)
 class LaunchTree:
     """What the launcher would start from `file`. `inputs` maps every file that was read (launch files, YAML, ...)
     to the digest of its content, "" for a file that was looked for and is not there: an unchanged map means an
@@ -264,8 +277,14 @@ class LaunchTree:
     """In the order in which roslaunch would run them."""
     not_taken: tuple[NotTaken, ...] = ()
     """What would start nodes if a condition were another."""
+    edited: Mapping[str, Edited] = field(default_factory=dict)
+    """Python launch files whose text has no good run yet."""
 
     @property
     def complete(self) -> bool:
         """Whether all that the launcher would start is here: no error cut something off and nothing is unknown."""
-        return not self.unknowns and not any(p.fatal for p in self.problems)
+        return not self.unknowns and not any(p.fatal and not self._is_stood_in_for(p) for p in self.problems)
+
+    def _is_stood_in_for(self, problem: Problem) -> bool:
+        edited = self.edited.get(problem.location.file)
+        return edited is not None and problem.location.span in edited.wrong

@@ -8,8 +8,9 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from functools import cached_property
+from functools import cached_property, lru_cache
 
+from preflight_analysis.documents.change import Change
 from preflight_analysis.documents.span import LineIndex, Span
 
 _CALL = re.compile(r"\b[A-Za-z_][\w.]*\s*\(")
@@ -22,22 +23,34 @@ _TOKEN = re.compile(
 )
 
 
-class PythonSource:
-    """A text as Python, as far as it is. `problem` is why it does not parse, with its place."""
+@lru_cache(maxsize=8)
+def _parsed(text: str) -> ast.Module | Exception:
+    """The syntax tree, or why there is none. One text is asked for several times, and the trees are not changed."""
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        return error
 
-    def __init__(self, text: str, lines: LineIndex) -> None:
+
+class PythonSource:
+    """A text as Python, as far as it is. `problem` is why it does not parse, with its place. Where `since` is what was
+    edited in it since, places are those in the text as it is now."""
+
+    def __init__(self, text: str, lines: LineIndex, since: Change | None = None) -> None:
         self.text, self.lines = text, lines
+        self._since = since
         self._ascii = text.isascii()
         self.problem: tuple[str, Span] | None = None
         self.module: ast.Module | None = None
-        try:
-            self.module = ast.parse(text)
-        except SyntaxError as error:
-            line = max((error.lineno or 1) - 1, 0)
-            start = lines.line_start(line) + max((error.offset or 1) - 1, 0)
-            self.problem = (error.msg or "invalid syntax", Span(min(start, len(text)), min(start + 1, len(text))))
-        except (ValueError, RecursionError, MemoryError) as error:
-            self.problem = (str(error) or type(error).__name__, Span(0, min(1, len(text))))
+        parsed = _parsed(text)
+        if isinstance(parsed, ast.Module):
+            self.module = parsed
+        elif isinstance(parsed, SyntaxError):
+            line = max((parsed.lineno or 1) - 1, 0)
+            start = lines.line_start(line) + max((parsed.offset or 1) - 1, 0)
+            self.problem = (parsed.msg or "invalid syntax", Span(min(start, len(text)), min(start + 1, len(text))))
+        else:
+            self.problem = (str(parsed) or type(parsed).__name__, Span(0, min(1, len(text))))
 
     @cached_property
     def pieces(self) -> tuple[ast.AST, ...]:
@@ -123,6 +136,12 @@ class PythonSource:
 
     def span(self, node: ast.expr | ast.keyword) -> Span:
         """Where a node stands; of a text what is between its quotes."""
+        return self._now(self._span(node))
+
+    def _now(self, span: Span) -> Span:
+        return self._since.moved(span) if self._since is not None else span
+
+    def _span(self, node: ast.expr | ast.keyword) -> Span:
         start = self._offset(node.lineno, node.col_offset)
         end = self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.lineno == node.end_lineno:
@@ -134,20 +153,20 @@ class PythonSource:
 
     def name_span(self, call: ast.Call) -> Span:
         """The name of what is called."""
-        whole = self.span(call.func)
+        whole = self._span(call.func)
         name = last_name(call.func)
-        return Span(max(whole.start, whole.end - len(name)), whole.end)
+        return self._now(Span(max(whole.start, whole.end - len(name)), whole.end))
 
     def keyword_span(self, keyword: ast.keyword) -> Span:
         """The name of a keyword."""
         start = self._offset(keyword.lineno, keyword.col_offset)
-        return Span(start, start + len(keyword.arg or ""))
+        return self._now(Span(start, start + len(keyword.arg or "")))
 
     def line_span(self, line: int) -> Span:
         """A line without the blanks around its text; lines are counted from 1."""
         whole = self.lines.line_span(line - 1)
         text = self.text[whole.start : whole.end]
-        return Span(whole.start + len(text) - len(text.lstrip()), whole.start + len(text.rstrip()))
+        return self._now(Span(whole.start + len(text) - len(text.lstrip()), whole.start + len(text.rstrip())))
 
     def _offset(self, line: int, column: int) -> int:
         start = self.lines.line_start(line - 1)

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.ros2.python_runs import MARK
+from preflight_analysis.evaluation.ros2.python_runs import MARK, good_series
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.tracing.schedule import run_all
@@ -25,6 +25,7 @@ class CommandResults:
         self.placeholder = placeholder
         self._why_not_run = why_not_run
         self._results: Mapping[str, CommandResult] = {}
+        self._last_good: Mapping[str, str] = {}
 
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line, or why it has none."""
@@ -33,6 +34,10 @@ class CommandResults:
             return CommandResult("not-run", reason=why)
         return found
 
+    def last_good(self, series: str) -> str | None:
+        """The line of the last run of a Python launch file that went well, whatever its text was then."""
+        return self._last_good.get(series)
+
     def update(self, results: Mapping[str, CommandResult]) -> None:
         """Take over results."""
         merged = {**self._results, **results}
@@ -40,10 +45,12 @@ class CommandResults:
         for line in runs[:-MAX_LAUNCH_FILES]:  # each text that was typed is another
             del merged[line]
         self._results = merged
+        good = {series: line for line, found in results.items() if (series := good_series(line, found)) is not None}
+        self._last_good = {s: line for s, line in {**self._last_good, **good}.items() if line in merged}
 
     def clear(self) -> None:
         """Forget all results."""
-        self._results = {}
+        self._results, self._last_good = {}, {}
 
 
 def command_lines(tree: LaunchTree) -> tuple[str, ...]:

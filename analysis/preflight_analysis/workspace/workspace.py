@@ -73,7 +73,13 @@ class Analysis:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What all rules say. They are run when this is first asked for: where the graph follows, only with that."""
-        return adjusted(run_rules(self.context), self.severities)
+        found = (each for each in run_rules(self.context) if not self._of_replaced_text(each))
+        return adjusted(found, self.severities)
+
+    def _of_replaced_text(self, finding: Finding) -> bool:
+        """Whether it speaks of what a Python file was, where it was edited since."""
+        edited = self.tree.edited.get(finding.location.file)
+        return edited is not None and edited.replaces(finding.location.span)
 
     @property
     def launch(self) -> Root:

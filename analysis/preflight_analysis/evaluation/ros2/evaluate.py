@@ -86,6 +86,7 @@ def evaluate_ros2(
         state.inputs,
         tuple(state.commands),
         tuple(state.not_taken),
+        state.edited,
     )
 
 

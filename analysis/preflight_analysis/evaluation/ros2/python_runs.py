@@ -11,17 +11,19 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
+from preflight_analysis.documents.change import Change, change
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
-from preflight_analysis.evaluation.tree import Command
+from preflight_analysis.evaluation.tree import Command, Edited
 from preflight_analysis.launch.configurations import substitutions_of
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.per_file import per_file
@@ -75,21 +77,54 @@ def recorded(
     state: Collector, context: Context, launch_file: LaunchFile, chain: Origin
 ) -> tuple[LaunchFile, PythonRun | None]:
     """The launch file as its run tells it, and the run; without one as it can be read."""
-    document = launch_file.document
+    document, whole = launch_file.document, Span(0, 0)
+    run = PythonRun(launch_file.path, document.text, _variables(context), (), _source(document.text))
+    place, unknowns, problems = Place(launch_file.path, chain, run), len(state.unknowns), len(state.problems)
+    told = None
     if document.problems:
         at = Location(launch_file.path, document.problems[0].span)
         state.note_unknown(launch_file.path, "it cannot be run as it is", at)
-        return launch_file, None
-    source = _source(document.text)
-    run = PythonRun(launch_file.path, document.text, _variables(context), (), source)
-    place = Place(launch_file.path, chain, run)
-    whole = Span(0, 0)
-    told = _ask(state, place, run, place.origin(whole), sure=True)
+    else:
+        told = _ask(state, place, run, place.origin(whole), sure=True)
+    if told is None and (last := _last_good(state, run)) is not None:
+        run, told, edited = last
+        wrong = (*(p.span for p in document.problems), *(p.location.span for p in state.problems[problems:]))
+        state.edited[run.file] = Edited(edited, frozenset(wrong))
+        del state.unknowns[unknowns:]
     if told is None or launch_file.root is None:
         return launch_file, None
-    children = _actions(told.output, source, whole)
+    children = _actions(told.output, run.source, whole)
     context.scope.environment.update(_texts(told.values.get("env")) or {})
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
+
+
+def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Told, Span] | None:
+    """The last run of the launch file (or of the same calls in it) that went well, what it told, and what of the text
+    is another one since. It counts until there is one of the text as it is: half typed it cannot be run, and a run
+    takes its time."""
+    line = state.results.last_good(_series(run.file, run.variables, run.calls))
+    result = state.results.result(line) if line is not None else None
+    then = parse_request(line) if line is not None else None
+    if result is None or then is None or result.status != "done":
+        return None
+    changed = change(then["text"], run.text)
+    earlier = replace(run, text=then["text"], source=_source(then["text"], changed), replaced=True)
+    return earlier, _Told(_read(result.output), result.output), changed.after
+
+
+def _series(file: str, variables: Mapping[str, str], calls: Iterable[Mapping[str, Any]]) -> str:
+    return json.dumps([file, dict(variables), list(calls)], sort_keys=True)
+
+
+def good_series(line: str, result: CommandResult) -> str | None:
+    """What `Commands.last_good` knows a run of a Python launch file by; None for a run that did not go well, and the
+    command line of something else."""
+    run = parse_request(line)
+    if run is None or result.status != "done":
+        return None
+    told = _read(result.output)
+    good = isinstance(told, dict) and not isinstance(told.get("error"), dict)
+    return _series(run["file"], run["env"], run["calls"]) if good else None
 
 
 def called(
@@ -112,7 +147,12 @@ def called(
     given = {v for v in configurations.values() if isinstance(v, str)}
     files = {path: document.text for path, document in state.made.items() if path in given}
     run = replace(place.run, calls=(*place.run.calls, call), files={**place.run.files, **files})
+    unknowns, problems = len(state.unknowns), len(state.problems)
     told = _ask(state, place, run, place.origin(at), sure=complete)
+    if told is None and not run.replaced and (last := _last_good(state, run)) is not None:
+        run, told, edited = last
+        state.edited.setdefault(run.file, Edited(edited, frozenset(p.location.span for p in state.problems[problems:])))
+        del state.unknowns[unknowns:]
     if told is None:
         return None
     if what == "perform":
@@ -160,7 +200,8 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
     that its failure is one of the file."""
     line = request(run)
     result = state.results.result(line)
-    state.commands.append(Command(line, "", origin, result, launch_file=True))
+    if not run.replaced:
+        state.commands.append(Command(line, "", origin, result, launch_file=True))
     what = "the launch file" if not run.calls else str(run.calls[-1]["name"])
     if result is None:
         state.note_unknown(what, "it was not run", origin[-1])
@@ -189,8 +230,8 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
 
 
 @lru_cache(maxsize=64)
-def _source(text: str) -> PythonSource:
-    return PythonSource(text, LineIndex(text))
+def _source(text: str, since: Change | None = None) -> PythonSource:
+    return PythonSource(text, LineIndex(text), since)
 
 
 # A file whose functions ask for more runs, one after another, is evaluated again after each of them.
