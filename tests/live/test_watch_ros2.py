@@ -156,6 +156,25 @@ def test_clients_are_seen(system: System, watch: Watching) -> None:
     )
 
 
+def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
+    # What rcl_action knows an action by; there is no package with one to install.
+    parts = node_of(
+        """
+        self.create_publisher(String, 'go/_action/feedback', 10)
+        self.create_publisher(String, 'go/_action/status', 10)
+        self.create_service(Trigger, 'go/_action/send_goal', print)
+        """,
+        "from std_srvs.srv import Trigger",
+    )
+    system.desk.write("pkg/acting.py", parts)
+    system.start("acting")
+    watch.until_told(
+        "/own does not subscribe to /robot/chatter (std_msgs/msg/String)",
+        "/own offers the action /go (std_msgs/msg/String), which was not expected",
+        "/robot/talker is not running",
+    )
+
+
 def test_once_waits_until_the_system_is_as_expected(system: System) -> None:
     launched(system)
     done = preflight(system.environment, "watch", system.file, "--once", "--timeout", "60")

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import contextlib
 import http.client
+import math
 import socket
 import struct
+import time
 import xmlrpc.client
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -25,6 +27,8 @@ DEFAULT_MASTER = "http://localhost:11311"
 _CALLER = "/ros_preflight_watch"
 _TIMEOUT = 3.0
 """Seconds for an answer of the master, of a node or of a service."""
+_ALIVE_SECONDS = 2.0
+"""How long a node that answered is taken to be alive: to ask all of a large robot at each look costs it too much."""
 _WORKERS = 16
 _MAX_HEADER = 64 * 1024
 _FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError, ValueError, TypeError)
@@ -60,6 +64,7 @@ class Ros1Observer:
     def __init__(self, uri: str | None) -> None:
         self.uri = uri or DEFAULT_MASTER
         self._addresses: dict[str, str] = {}
+        self._answered: dict[str, float] = {}
         self._service_types: dict[tuple[str, str], str] = {}
         self._pool = ThreadPoolExecutor(_WORKERS, thread_name_prefix="observe")
 
@@ -108,6 +113,8 @@ class Ros1Observer:
     def _node(self, name: str) -> LiveNode:
         """A node that refuses the connection has ended. One whose address is not known on this machine may live."""
         reason: str | None = None
+        if time.monotonic() - self._answered.get(name, -math.inf) < _ALIVE_SECONDS:
+            return LiveNode(name)
         for known in (self._addresses.get(name), None):
             try:
                 # A node that was started again has another address.
@@ -116,6 +123,7 @@ class Ros1Observer:
                     break
                 self._addresses[name] = address
                 _call(address, "getPid")
+                self._answered[name] = time.monotonic()
                 return LiveNode(name)
             except socket.gaierror:
                 return LiveNode(name)
