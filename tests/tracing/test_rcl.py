@@ -111,15 +111,15 @@ def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None
 
 def test_parameters_are_those_that_the_client_library_publishes(desk: RclDesk) -> None:
     found = desk.trace("declare", "<param name='count' value='3'/>")
-    assert {name: (use.default, use.has_default) for name, use in uses(found).items()} == {
-        "~on": (True, True),
-        "~count": (None, False),  # what is seen is the value that it was given
-        "~rate": (10.0, True),
-        "~frame.id": ('a"b', True),
-        "~gains": ([0.25, 3.0], True),
-        "~frames": (["map", "base"], True),
-        "~typed": (None, False),
-        "~odd": (None, False),
+    assert {name: (use.type, use.default, use.has_default) for name, use in uses(found).items()} == {
+        "~on": ("bool", True, True),
+        "~count": ("integer", None, False),  # what is seen is the value that it was given
+        "~rate": ("double", 10.0, True),
+        "~frame.id": ("string", 'a"b', True),
+        "~gains": ("double array", [0.25, 3.0], True),
+        "~frames": ("string array", ["map", "base"], True),
+        "~typed": (None, None, False),
+        "~odd": ("double", None, False),
     }
     assert isinstance(uses(found)["~rate"].default, float)
     assert [use.name for use in found.params if use.builtin] == ["~use_sim_time"]
@@ -189,8 +189,10 @@ def test_a_trace_wins_over_the_source_which_says_where_things_are_made(tmp_path:
     # Of parameters rcl knows nothing.
     rate = uses(found)["~rate"]
     assert (rate.default, rate.inferred, rate.source_line) == (10.0, True, 8)
-    rate = uses(desk.trace("declare", "<param name='rate' value='2.0'/>"))["~rate"]
+    given = uses(desk.trace("declare", "<param name='rate' value='2.0'/>"))
+    rate, frames = given["~rate"], given["~frames"]
     assert (rate.default, rate.inferred, rate.source_line) == (10.0, False, 8)
+    assert (frames.default, frames.type, frames.source_line) == (["map", "base"], "string array", None)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchT
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import Interface, ParamUse
 from preflight_analysis.tracing.similar import SimilarTraces
 
 _MAX_REMEMBERED = 4096
@@ -100,22 +100,23 @@ def _with_places(node: LaunchNode, interface: Interface, found: Interface | Sour
     params = []
     for use in interface.params:
         said = declared.pop(use.name, None)
-        if said is None:
-            params.append(use)
-            continue
-        default = said if said.has_default and not use.has_default else use
-        params.append(
-            replace(
-                use,
-                default=default.default,
-                has_default=default.has_default,
-                source_file=said.source_file,
-                source_line=said.source_line,
-            )
-        )
+        params.append(use if said is None else _described(use, said))
     if any(use.access == "list" for use in interface.params):
         params += [replace(use, inferred=True) for use in declared.values()]
     return replace(interface, endpoints=tuple(endpoints), params=tuple(params))
+
+
+def _described(use: ParamUse, said: ParamUse) -> ParamUse:
+    """A parameter that was seen, with what the source says of it beyond that."""
+    default = use if use.has_default else said
+    return replace(
+        said,
+        default=default.default,
+        has_default=default.has_default,
+        type=said.type or use.type,
+        builtin=use.builtin,
+        inferred=False,
+    )
 
 
 def _with_more(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:

@@ -319,8 +319,16 @@ class Reader {
   const unsigned char *begin_ = nullptr, *at_, *end_;
 };
 
-// rcl_interfaces/msg/ParameterValue as JSON; empty where it has none, or one that JSON has not.
-std::string value_of(Reader& from) {
+// The types of rcl_interfaces/msg/ParameterType by their number.
+constexpr const char* kTypes[] = {"",           "bool",       "integer",       "double",       "string",
+                                  "byte array", "bool array", "integer array", "double array", "string array"};
+
+struct Value {
+  std::string type, json;  // empty where it has none, or one that JSON has not
+};
+
+// rcl_interfaces/msg/ParameterValue.
+Value value_of(Reader& from) {
   bool whole = true;
   auto boolean = [&] { return std::string(from.value<uint8_t>() != 0 ? "true" : "false"); };
   auto integer = [&] { return std::to_string(from.value<int64_t>()); };
@@ -334,11 +342,11 @@ std::string value_of(Reader& from) {
   auto string = [&] { return quoted(from.string()); };
   auto byte = [&] { return std::to_string(from.value<uint8_t>()); };
   uint8_t type = from.value<uint8_t>();
-  const std::string unset;
-  const std::string values[] = {unset,           boolean(),          integer(),          number(),          string(),
+  const std::string values[] = {"",              boolean(),          integer(),          number(),          string(),
                                 from.list(byte), from.list(boolean), from.list(integer), from.list(number),
                                 from.list(string)};
-  return type < sizeof values / sizeof *values && (whole || (type != 3 && type != 8)) ? values[type] : unset;
+  if (type >= sizeof values / sizeof *values) return {};
+  return {kTypes[type], whole || (type != 3 && type != 8) ? values[type] : ""};
 }
 
 bool starts_with_any(const std::string& text, std::initializer_list<const char*> starts) {
@@ -370,13 +378,15 @@ void tell_declared(const void* message, const Support* support) {
   from.string();
   constexpr size_t kMostValue = 3000;
   for (uint32_t left = from.value<uint32_t>(); left > 0; --left) {
-    std::string name = from.string(), value = value_of(from);
+    std::string name = from.string();
+    Value value = value_of(from);
     bool builtin = name == "use_sim_time" || starts_with_any(name, {"qos_overrides.", "start_type_description_"});
     last_new = now();
     Event event("param");
     event.add("access", std::string("get")).add("name", "~" + name).add("optional", true).add("builtin", builtin);
-    event.add("has_default", !value.empty() && !builtin);
-    if (!value.empty() && value.size() <= kMostValue) event.raw("default", value);
+    event.add("has_default", !value.json.empty() && !builtin);
+    if (!value.json.empty() && value.json.size() <= kMostValue) event.raw("default", value.json);
+    if (!value.type.empty()) event.add("type", value.type);
     event.send();
   }
 }
