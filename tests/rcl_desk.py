@@ -18,7 +18,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from ros2_desk import ROOT, ros2_prefix, scratch_folder
 
-SOURCE = ROOT / "tests" / "tracing" / "rcl_node.c"
+SOURCES = ROOT / "tests" / "tracing"
 _LIBRARIES = (
     "fib__rosidl_typesupport_c",
     "rcl",
@@ -28,13 +28,13 @@ _LIBRARIES = (
     "rmw",
     "rosidl_runtime_c",
     *(f"{package}__rosidl_{kind}" for package in ("std_msgs", "std_srvs", "lifecycle_msgs", "rcl_interfaces")
-      for kind in ("typesupport_c", "generator_c")),
+      for kind in ("typesupport_c", "typesupport_cpp", "generator_c")),
     "pthread",
 )  # fmt: skip
 
 
 @functools.cache
-def rcl_node(distribution: str = "kilted") -> Path:
+def rcl_node(distribution: str = "kilted", source: str = "rcl_node.c") -> Path:
     """The program, compiled by the first test that asks."""
     prefix = ros2_prefix(distribution)
     made = scratch_folder() / "node"
@@ -48,14 +48,17 @@ def rcl_node(distribution: str = "kilted") -> Path:
         "-Wl,--unresolved-symbols=ignore-in-shared-libs",
     ]
     libraries = [f"-l{library}" for library in _LIBRARIES]
-    subprocess.run(["cc", "-w", *includes, str(SOURCE), "-o", str(made), *linking, *libraries], check=True)
+    compiler = "g++" if source.endswith(".cpp") else "cc"
+    subprocess.run(
+        [compiler, "-w", *includes, str(SOURCES / source), "-o", str(made), *linking, *libraries], check=True
+    )
     return made
 
 
 class RclDesk:
     """A workspace with the built package `cpkg`, whose only program is `node`."""
 
-    def __init__(self, folder: Path, distribution: str = "kilted") -> None:
+    def __init__(self, folder: Path, distribution: str = "kilted", source: str = "rcl_node.c") -> None:
         self.folder = folder
         install = folder / "install"
         prefix = ros2_prefix(distribution)
@@ -70,7 +73,7 @@ class RclDesk:
         )
         self.program = install / "lib" / "cpkg" / "node"
         self.program.parent.mkdir(parents=True)
-        shutil.copy(rcl_node(distribution), self.program)
+        shutil.copy(rcl_node(distribution, source), self.program)
         self.launch_file = share / "launch" / "a.launch.xml"
         libraries = [
             action_package(distribution).libraries,

@@ -221,3 +221,14 @@ def test_without_a_compiler_the_source_is_read(tmp_path: Path, monkeypatch: pyte
     found = desk.trace("ends")
     assert found.source == "source"
     assert "there is no C++ compiler to watch rcl nodes with" in (found.outcome.reason or "")
+
+
+@pytest.mark.parametrize("distribution", ["kilted", "jazzy"])
+def test_types_of_cpp_are_known_as_those_of_c(tmp_path: Path, distribution: str) -> None:
+    found = RclDesk(tmp_path, distribution, "rcl_types.cpp").trace("")
+    assert found.outcome.status == "spinning"
+    assert {key: end.type for key, end in ends(found).items()} == {
+        ("client", "start"): "std_srvs/srv/Trigger",
+        ("publisher", "after"): "std_msgs/msg/String",
+    }
+    assert uses(found)["~frames"].default == ["map", "base"]
