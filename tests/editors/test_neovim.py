@@ -53,15 +53,16 @@ def neovim(request: pytest.FixtureRequest) -> Neovim:
     return chosen
 
 
-def drive(neovim: Neovim, desk: Desk, scenario: str) -> dict[str, Any]:
+def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -> dict[str, Any]:
+    file = file or desk.launch_file
     init = desk.home / ".config/nvim/init.lua"
     init.parent.mkdir()
     init.write_text(neovim.set_up())
     result = desk.home / "result.json"
     done = subprocess.run(
-        [neovim.program, "--headless", "-n", "-i", "NONE", str(desk.launch_file), "-c", f"luafile {DRIVER}"],
+        [neovim.program, "--headless", "-n", "-i", "NONE", str(file), "-c", f"luafile {DRIVER}"],
         env={**desk.environment, "PREFLIGHT_SCENARIO": scenario, "PREFLIGHT_RESULT": str(result)},
-        cwd=desk.workspace,
+        cwd=file.parent,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
@@ -112,3 +113,50 @@ def test_the_user_chooses_in_whose_context_a_file_is_shown(neovim: Neovim, untru
     assert seen["offered"] == ["launch/talker_listener.launch"]
     assert seen["default"] == ""
     assert seen["after"] == ["0 includers", "2 nodes", "launched by this file speed:=3"]
+
+
+ROS2 = {
+    "package.xml": """<package format="3"><name>robot</name><version>0.0.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>MIT</license>
+<exec_depend>rclpy</exec_depend><export><build_type>ament_python</build_type></export></package>
+""",
+    "setup.py": """from setuptools import setup
+setup(name="robot", packages=["robot"], data_files=[("share/robot", ["package.xml"]),
+      ("share/robot/launch", ["launch/a.launch.xml", "launch/a.launch.yaml", "launch/a.launch.py"])],
+      entry_points={"console_scripts": ["talker = robot.talker:main"]})
+""",
+    "robot/__init__.py": "",
+    "robot/talker.py": """import rclpy
+from rclpy.node import Node
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Node("talker"))
+""",
+    "launch/a.launch.xml": '<launch>\n  <node pkg="robot" exec="talkr" name="talker"/>\n</launch>\n',
+    "launch/a.launch.yaml": "launch:\n  - node:\n      pkg: robot\n      exec: talkr\n      name: talker\n",
+    "launch/a.launch.py": """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(package='robot', executable='talkr', name='talker')])
+""",
+}
+
+
+@pytest.mark.parametrize(("suffix", "filetype"), [("xml", "roslaunch"), ("yaml", "yaml"), ("py", "python")])
+def test_launch_files_of_ros_2(neovim: Neovim, trusted_desk: Desk, suffix: str, filetype: str) -> None:
+    package = trusted_desk.home / "ros2_ws/src/robot"
+    for name, text in ROS2.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(text)
+    path = package / f"launch/a.launch.{suffix}"
+
+    seen = drive(neovim, trusted_desk, "ros2", path)
+
+    assert seen["filetype"] == filetype
+    assert seen["covered"] == "talkr"
+    assert "talker" in seen["offered"]
+    assert seen["after"] == ROS2[f"launch/a.launch.{suffix}"].replace("talkr", "talker").splitlines()

@@ -145,6 +145,26 @@ function scenarios.root()
   return result
 end
 
+-- A misspelt executable in a launch file of ROS 2: found, completed and mended by the quick fix.
+function scenarios.ros2()
+  local diagnostic = wait_for('the diagnostic', function() return diagnostics_with("'talkr'")[1] end)
+  local result = { covered = covered_text(diagnostic), filetype = vim.bo.filetype, offered = {} }
+  vim.api.nvim_win_set_cursor(0, { diagnostic.lnum + 1, diagnostic.col + 1 })
+  local params = vim.lsp.util.make_position_params(0, 'utf-16')
+  for _, answer in pairs(vim.lsp.buf_request_sync(0, 'textDocument/completion', params, TIMEOUT_MS) or {}) do
+    for _, item in ipairs(answer.result and answer.result.items or {}) do
+      table.insert(result.offered, item.label)
+    end
+  end
+  pick_code_action(diagnostic, 'talker')
+  wait_for('no diagnostics', function()
+    return table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false)):find('talker', 1, true)
+      and #vim.diagnostic.get(0) == 0
+  end)
+  result.after = vim.api.nvim_buf_get_lines(0, 0, -1, false)
+  return result
+end
+
 local ok, result = xpcall(scenarios[vim.env.PREFLIGHT_SCENARIO], function(message)
   return type(message) == 'string' and debug.traceback(message) or vim.inspect(message)
 end)
