@@ -54,7 +54,7 @@ def neovim(request: pytest.FixtureRequest) -> Neovim:
 
 
 def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -> dict[str, Any]:
-    file = file or desk.launch_file
+    folder, file = (desk.workspace, desk.launch_file) if file is None else (file.parent, file)
     init = desk.home / ".config/nvim/init.lua"
     init.parent.mkdir()
     init.write_text(neovim.set_up())
@@ -62,7 +62,7 @@ def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -
     done = subprocess.run(
         [neovim.program, "--headless", "-n", "-i", "NONE", str(file), "-c", f"luafile {DRIVER}"],
         env={**desk.environment, "PREFLIGHT_SCENARIO": scenario, "PREFLIGHT_RESULT": str(result)},
-        cwd=file.parent,
+        cwd=folder,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
