@@ -89,6 +89,38 @@ def test_a_container_that_is_not_there() -> None:
     """)
 
 
+def test_the_only_container_is_meant_where_it_stays_empty() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node_container pkg="p" exec="component_container" name="camera_container" namespace=""/>
+          <load_composable_node target="cam_container">
+                                        ^^^^^^^^^^^^^ warning[LCH034] did you mean '/camera_container'?
+            <composable_node pkg="p" plugin="p::Mapper" name="mapper"/>
+          </load_composable_node>
+        </launch>
+    """)
+
+
+def test_a_lifecycle_node_beside_nodes_that_cannot_activate_it() -> None:
+    launch = """
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+          {expected}
+          <node pkg="p" exec="x" name="x"/>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+        //- interfaces
+        {{"/map_server": {{"services": {{"~/change_state": "lifecycle_msgs/srv/ChangeState"}}}}, "/x": {x}}}
+    """
+    under = " " * len('<node pkg="nav2_map_server" exec="') + "^" * len("map_server")
+    check(launch.format(expected=f"{under} warning[LCH035] /map_server is a lifecycle node", x="{}"))
+    change = '{"clients": {"/map_server/change_state": "lifecycle_msgs/srv/ChangeState"}}'
+    check(launch.format(expected="", x=change))
+
+
 def test_a_lifecycle_node_that_nobody_activates() -> None:
     check("""
         //- /map.launch.xml

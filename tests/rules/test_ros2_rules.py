@@ -1,5 +1,7 @@
 """Rules on ROS 2's XML and YAML launch files."""
 
+import json
+
 from preflight_check import check
 
 
@@ -315,6 +317,31 @@ def test_qos_that_does_not_fit() -> None:
                   "qos": {"map": {"reliability": "reliable", "durability": "transient_local"},
                           "scan": {"reliability": "best_effort"}}}}
     """)
+
+
+def test_what_a_publisher_does_not_promise() -> None:
+    for offered, asked, said in (
+        ({}, {"deadline": 0.5}, "it promises no deadline, and the subscription asks for 0.5 s"),
+        ({"deadline": 0.5}, {"deadline": 0.1}, "its deadline is 0.5 s"),
+        ({}, {"liveliness": "manual_by_topic"}, "its liveliness is automatic"),
+        ({}, {"lease_duration": 2.0}, "it promises no lease duration"),
+        ({"lease_duration": 1.0, "deadline": 0.1}, {"lease_duration": 2.0, "deadline": 0.1}, None),
+    ):
+        plain = {"reliability": "reliable", "durability": "volatile"}
+        interfaces = {
+            "/a": {"publishers": {"x": "std_msgs/msg/String"}, "qos": {"x": {**plain, **offered}}},
+            "/b": {"subscribers": {"x": "std_msgs/msg/String"}, "qos": {"x": {**plain, **asked}}},
+        }
+        expected = "" if said is None else f"\n{'^' * len('<node pkg=.p. exec=.b. name=.b./>')} error[QOS001] {said}"
+        check(
+            "//- /r.launch.xml\n<launch>\n<node pkg='p' exec='a' name='a'/>\n<node pkg='p' exec='b' name='b'/>"
+            f"{expected}\n</launch>\n//- interfaces\n{json.dumps(interfaces)}"
+        )
+    unknown = {"/a": {"publishers": {"x": "T"}}, "/b": {"subscribers": {"x": "T"}, "qos": {"x": {"deadline": 1.0}}}}
+    check(
+        "//- /r.launch.xml\n<launch>\n<node pkg='p' exec='a' name='a'/>\n<node pkg='p' exec='b' name='b'/>\n"
+        f"</launch>\n//- interfaces\n{json.dumps(unknown)}"
+    )
 
 
 def test_comments_of_ours_in_yaml() -> None:

@@ -378,6 +378,25 @@ def test_what_another_version_of_ours_told_is_not_kept(desk: PythonDesk, monkeyp
     assert len(runs) == 1
 
 
+def test_what_is_not_installed_and_what_is_no_container(desk: PythonDesk) -> None:
+    desk.write("setup.py", "from setuptools import setup\nsetup(name='p', data_files=[('share/p', ['package.xml'])])\n")
+    desk.write("config/p.yaml", "n:\n  ros__parameters: {a: 1}\n")
+    path = _described(
+        desk,
+        "Node(package='p', executable='x', name='n', "
+        "parameters=[PathJoinSubstitution([FindPackageShare('p'), 'config', 'p.yaml'])])",
+        "ComposableNodeContainer(package='p', executable='component_container', name='camera_container', namespace='')",
+        "LoadComposableNodes(target_container='cam_container', "
+        "composable_node_descriptions=[ComposableNode(package='p', plugin='p::A', name='a')])",
+    )
+    found = {f.rule: f for f in desk.launch(path).findings if f.rule in ("PKG005", "LCH034")}
+    assert {rule: finding.severity for rule, finding in found.items()} == {"PKG005": "warning", "LCH034": "warning"}
+    span = found["LCH034"].location.span
+    assert path.read_text()[span.start : span.end] == "cam_container"
+    path.write_text(path.read_text().replace("cam_container", "camera_container") + "HERE = __file__\n")
+    assert not {f.rule for f in desk.launch(path).findings} & {"PKG005", "LCH034"}
+
+
 def test_what_a_newer_launch_has(desk: PythonDesk) -> None:
     desk.write("a/b", "")
     path = _described(

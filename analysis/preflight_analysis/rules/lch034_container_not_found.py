@@ -1,8 +1,9 @@
 """LCH034: components for a container that the launch does not start (ROS 2)."""
 
+import re
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.nearest import did_you_mean, likeness
@@ -20,21 +21,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in tree.nodes:
         if node.kind != "composable" or not node.container or node.unknowns or _full(node.container) in nodes:
             continue
-        tag = tags.at(node.location)
-        target = tag.above[0].value("target") if tag is not None and tag.above else None
-        if target is not None:
-            loaded.setdefault((node.container, Location(node.location.file, target.span)), node)
+        loaded.setdefault((node.container, _target(context, tags, node, node.container)), node)
     containers = {name: node for name, node in nodes.items() if node.kind == "container" or _may_load(node)}
+    filled = {_full(node.container) for node in tree.nodes if node.container}
     for (container, location), node in loaded.items():
         full = _full(container)
         leaf = full.rpartition("/")[2]
         near = [name for name in containers if name.rpartition("/")[2] == leaf]
         if not near:
             near = [name for name in containers if (found := likeness(full, name)) is not None and found[0] == "typo"]
+        if not near and len(containers) == 1:
+            near = [name for name in containers if name not in filled]
         near = near[:1] if len(near) == 1 else []
         document = context.documents.get(location.file)
         # What an argument says may be the container of another launch, which includes this file.
-        given = document is None or "$(" in document.text[location.span.start : location.span.end]
+        written = document.text[location.span.start : location.span.end] if document is not None else ""
+        given = "$(" in written or container not in written
         message = f"no node '{full}' is started by this launch, into which components are to be loaded"
         if near and near[0].rpartition("/")[2] == leaf and not container.startswith("/"):
             message += "; a target without a leading slash is below '/', whatever namespace surrounds it"
@@ -50,6 +52,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _target(context: Context, tags: Tags, node: LaunchNode, container: str) -> Location:
+    """Where the container is named. A program names it once, if at all as a whole, or builds the name somewhere."""
+    tag = tags.at(node.location)
+    target = tag.above[0].value("target") if tag is not None and tag.above else None
+    if target is not None:
+        return Location(node.location.file, target.span)
+    document = context.documents.get(node.location.file)
+    quoted = re.findall(rf"['\"]({re.escape(container)})['\"]", document.text) if document is not None else []
+    if document is None or len(quoted) != 1:
+        return node_location(node)
+    start = min(at for quote in "'\"" if (at := document.text.find(quote + container + quote)) >= 0) + 1
+    return Location(node.location.file, Span(start, start + len(container)))
+
+
 def _full(container: str) -> str:
     """launch asks a client of its own node for `<target>/_container/load_node`, which lives in `/`."""
     return container if container.startswith("/") else f"/{container}"
@@ -63,9 +79,9 @@ RULE = Rule(
     id="LCH034",
     name="container-not-found",
     severity="warning",
-    what="Reports a `<load_composable_node>` whose target is no node of the launch. Where there is a container of "
-    "that name in another namespace, or of a name that is nearly the same, it is a warning; otherwise it is but a "
-    "hint, as the container may be started elsewhere (ROS 2).",
+    what="Reports a `<load_composable_node>` (`LoadComposableNodes`) whose target is no node of the launch. Where "
+    "there is a container of that name in another namespace, of nearly that name, or a single one that nothing "
+    "is loaded into, it is a warning; otherwise it is but a hint, as the container may be started elsewhere (ROS 2).",
     why="launch waits for the service of the container, without end, and the components are never loaded.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'

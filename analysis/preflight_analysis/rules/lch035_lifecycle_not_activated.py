@@ -28,6 +28,7 @@ _KNOWN = frozenset(
     }
 )
 """Executables that are lifecycle nodes, in every distribution, and wait to be activated."""
+_CHANGE = "lifecycle_msgs/srv/ChangeState"
 _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine", "function", "timer"})
 
 
@@ -61,12 +62,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     waiting = [node for node in nodes if _waits(node) and node.name not in managed and node.name not in meant]
     if not waiting or not listed or _others_may_act(context):
         return
+    # A launch of such a node alone is for somebody who activates it by hand.
+    alone = len(waiting) < len(nodes) and context.graph is not None and context.graph.seen_through
     for node in waiting:
         who = f"the lifecycle managers have {quoted(list(managed)[:3])}" if managed else "there is no lifecycle manager"
         yield rule.finding(
             f"{node.name} is a lifecycle node, which does nothing until it is activated, and nothing in this launch "
             f"activates it: {who}",
             attribute_location(node, "exec"),
+            severity="warning" if alone else None,
             confidence="likely" if context.tree.complete else "possible",
             related=include_chain(node.origin),
         )
@@ -82,8 +86,11 @@ def _waits(node: LaunchNode) -> bool:
 
 
 def _others_may_act(context: Context) -> bool:
-    """Whether something else may activate nodes: handlers of events, code, a command line."""
+    """Whether something else may activate nodes: handlers of events, code, a command line, a client of the service."""
     if any(node.kind == "process" for node in context.tree.nodes):
+        return True
+    services = context.graph.services.values() if context.graph is not None else ()
+    if any(end.endpoint.type == _CHANGE for channel in services for end in channel.wants):
         return True
     roots = (file.root for file in context.launch_files.values() if file.root is not None)
     return any(action.kind in _ACTING for root in roots for action in root.walk())
@@ -98,9 +105,9 @@ RULE = Rule(
     name="lifecycle-not-activated",
     severity="info",
     what="Points out a lifecycle node, one of the servers of Nav2 for instance, that no `lifecycle_manager` of the "
-    "launch has among its `node_names`, and a name there that no node of the launch has, a warning if one "
-    "has nearly that. Where there are handlers of events, timers or commands that may activate it, "
-    "nothing is said (ROS 2).",
+    "launch has among its `node_names`, and a name there that no node of the launch has, a warning if one has nearly "
+    "that. It is a warning too where all nodes are known, and none of them can activate another. Where there are "
+    "handlers of events, timers or commands that may activate it, nothing is said (ROS 2).",
     why="A lifecycle node starts unconfigured: it publishes nothing and offers only the services to change its state, "
     "until somebody configures and activates it.",
     example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>',

@@ -12,6 +12,8 @@ from preflight_analysis.environment.shares import is_installed, package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.rule import Context, Rule
 
+_IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPackageShare")
+"""A program may name the folder anywhere."""
 _END = re.compile(r"^[ \t]*ament_package\s*\(", re.MULTILINE)
 
 
@@ -33,7 +35,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _by_share(context: Context, location: Location) -> bool:
     """Whether the path is that of a share folder: what is named beside the launch file is found in the source too."""
     document = context.documents.get(location.file)
-    return document is not None and "find-pkg-share" in document.text[location.span.start : location.span.end]
+    if document is None:
+        return False
+    if location.file.endswith(".py"):
+        return "__file__" not in document.text and any(name in document.text for name in _IN_PYTHON)
+    return "find-pkg-share" in document.text[location.span.start : location.span.end]
 
 
 def _fixes(context: Context, package: Package, below: str) -> tuple[Fix, ...]:

@@ -35,12 +35,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _problem(offering: Connection, wanting: Connection) -> str | None:
+    # Of a publisher whose settings are known, those that are not among them are the weakest.
+    known = {"reliability", "durability"} <= offering.endpoint.qos.keys()
     for policy, order in _ORDERS.items():
-        offered, asked = offering.endpoint.qos.get(policy), wanting.endpoint.qos.get(policy)
+        offered, asked = (
+            offering.endpoint.qos.get(policy, order[0] if known else None),
+            wanting.endpoint.qos.get(policy),
+        )
         if offered in order and asked in order and order.index(offered) < order.index(asked):
             return f"its {policy} is {_said(offered)}, and the subscription asks for {_said(asked)}"
     for policy in ("deadline", "lease_duration"):
         offered, asked = offering.endpoint.qos.get(policy), wanting.endpoint.qos.get(policy)
+        if offered is None and known and isinstance(asked, (int, float)):
+            return f"it promises no {policy.replace('_', ' ')}, and the subscription asks for {asked} s"
         if isinstance(offered, (int, float)) and isinstance(asked, (int, float)) and offered > asked:
             return f"its {policy.replace('_', ' ')} is {offered} s, and the subscription asks for {asked} s"
     return None

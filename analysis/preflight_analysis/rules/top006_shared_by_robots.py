@@ -1,0 +1,97 @@
+"""TOP006: the same nodes in two namespaces meet on one topic, as its name is absolute."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import is_transform, may_dangle
+
+_Kind = tuple[str, str]
+"""Package and executable of a node."""
+_Pair = tuple[Connection, Connection]
+_SHARED = ("visualization_msgs/", "diagnostic_msgs/", "rosgraph_msgs/", "std_msgs/Header")
+"""Types whose messages say whose they are."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for channel in context.graph.topics.values() if context.graph is not None else ():
+        if len(channel.offers) < 2 or len(channel.wants) < 2 or channel.external or is_transform(channel.name):
+            continue
+        offers, wants = _twins(channel, channel.offers), _twins(channel, channel.wants)
+        for kind, (mine, theirs) in offers.items():
+            # Who says something on a topic and hears it there too talks to its like.
+            hearing = (
+                None if kind in wants else next((pair for pair in wants.values() if _same(pair, mine, theirs)), None)
+            )
+            if hearing is not None:
+                yield _finding(rule, context, channel, (mine, theirs), hearing)
+                break
+
+
+def _twins(channel: Channel, ends: tuple[Connection, ...]) -> dict[_Kind, _Pair]:
+    """Nodes that are started in two namespaces, of which none is in the other, while the topic is in neither."""
+    first: dict[_Kind, Connection] = {}
+    found: dict[_Kind, _Pair] = {}
+    for end in ends:
+        namespace, kind = end.node.namespace, (end.node.package, end.node.executable)
+        known = may_dangle(channel.name, end.endpoint) or (end.endpoint.type or "").startswith(_SHARED)
+        if namespace == "/" or known or end.action is not None or channel.name.startswith(namespace):
+            continue
+        other = first.setdefault(kind, end)
+        apart = not namespace.startswith(other.node.namespace) and not other.node.namespace.startswith(namespace)
+        if apart and kind not in found:
+            found[kind] = other, end
+    return found
+
+
+def _same(pair: _Pair, mine: Connection, theirs: Connection) -> bool:
+    """Whether these are of the same two robots."""
+    return {end.node.namespace for end in pair} == {mine.node.namespace, theirs.node.namespace}
+
+
+def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hearing: _Pair) -> Finding:
+    mine, theirs = saying
+    listener = next(end for end in hearing if end.node.namespace == mine.node.namespace)
+    names = f"{theirs.node.name} as well as {mine.node.name}"
+    assumed = any(end.endpoint.assumed for end in (*saying, *hearing))
+    related = [related_end(mine, "publishes"), *(related_end(end, "subscribes") for end in hearing)]
+    return rule.finding(
+        f"{listener.node.name} hears {names}: '{channel.name}' is outside of their namespaces, so both robots share it",
+        connection_location(theirs),
+        severity="info" if assumed else None,
+        confidence="likely",
+        related=(*related, *include_chain(theirs.node.origin)),
+        fixes=_fixes(context, theirs),
+        ends=ends_of(*saying, *hearing),
+    )
+
+
+def _fixes(context: Context, end: Connection) -> tuple[Fix, ...]:
+    """The target of the remap without its slash."""
+    if end.remap is None or not end.remap.target.startswith("/"):
+        return ()
+    return rename(context, end.remap.target_location, end.remap.target, end.remap.target.lstrip("/"))
+
+
+RULE = Rule(
+    id="TOP006",
+    name="shared-by-robots",
+    severity="warning",
+    what="Reports a topic outside of the namespaces of two robots on which each of them publishes with one node and "
+    "subscribes with another: the same executables run in two namespaces, and the name of the topic is absolute, in a "
+    "remap or in the code. Transforms, the clock, markers and diagnostics are meant to be shared, and a node that "
+    "subscribes to what it publishes talks to its like.",
+    why="A namespace keeps robots apart as long as names are relative. At an absolute name it is lost: the commands of "
+    "one robot move the other as well.",
+    example='<group>\n  <push_ros_namespace namespace="robot1"/>\n'
+    '  <node pkg="base" exec="driver"><remap from="cmd_vel" to="/cmd_vel"/></node>\n</group>',
+    instead='<group>\n  <push_ros_namespace namespace="robot1"/>\n  <node pkg="base" exec="driver"/>\n</group>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
