@@ -43,6 +43,17 @@ def test_endpoints_have_the_names_that_the_node_gave(desk: RclDesk) -> None:
     assert by_name["subscriber", "/scan"].qos["reliability"] == "best_effort"
 
 
+def test_nodes_are_seen_the_same_with_each_way_to_isolate(tmp_path: Path, each_backend: str) -> None:
+    desk = RclDesk(tmp_path)
+    found = desk.trace("ends")
+    if each_backend == "landlock":  # which leaves the middleware no socket: nothing is known then, and nothing is said
+        assert (found.source, found.outcome.status) == ("none", "not-run")
+        assert "the middleware may need what the sandbox by landlock refuses" in (found.outcome.reason or "")
+        return
+    assert (found.outcome.status, found.notes, set(ends(found))) == ("spinning", (), set(ALL))
+    assert set(ends(desk.trace("managed"))) == {("publisher", "made"), ("subscriber", "active")}
+
+
 @pytest.mark.parametrize("mode", ["ends", "poll", "thread", "sleep"])
 def test_event_loops(desk: RclDesk, mode: str) -> None:
     found = desk.trace(mode)

@@ -114,6 +114,10 @@ class Tracer:
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
             observed = replace(observed, interface=noted)
+        if status.narrow and request.generation == 2 and _is_refused(observed.interface):
+            return _not_run(
+                f"it ended before it was up; the middleware may need what the sandbox by {status.backend} refuses"
+            )
         if status.narrow and observed.interface.outcome.status == "crashed":
             observed = replace(observed, lasting=False, interface=_perhaps_refused(observed.interface, status))
         if self.cache is not None and observed.lasting:
@@ -138,6 +142,11 @@ def _unbuilt(found: Interface, environment: Environment) -> str | None:
     missing = _MISSING_MODULE.search(found.outcome.reason or "") if found.outcome.status == "crashed" else None
     package = environment.packages.get(missing[1]) if missing is not None else None
     return package.name if package is not None and package.generation == 2 else None
+
+
+def _is_refused(found: Interface) -> bool:
+    """Whether a node of ROS 2 may have failed for its middleware alone, which needs sockets and shared memory."""
+    return found.outcome.status == "crashed" and all(each.builtin for each in found.endpoints)
 
 
 def _perhaps_refused(found: Interface, status: sandbox.SandboxStatus) -> Interface:
