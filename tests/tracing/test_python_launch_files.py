@@ -321,13 +321,13 @@ def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(desk: PythonDesk)
     path = _described(
         desk,
         f"SetLaunchConfiguration('params', Rewritten(TextSubstitution(text={str(params)!r}),"
-        " {'frame': TextSubstitution(text='y')}))",
+        " {'frame': TextSubstitution(text='base')}))",
         "IncludeLaunchDescription(PythonLaunchDescriptionSource([ThisLaunchFileDir(), '/inner.launch.py']),"
         " launch_arguments={'params': LaunchConfiguration('params')}.items())",
         before=CUSTOM.replace("class Twice(Action)", "class Twice"),
     )
     (node,) = desk.launch(path).tree.nodes
-    assert {p.name: p.value for p in node.params} == {"rate": "7", "frame": "y"}
+    assert {p.name: p.value for p in node.params} == {"rate": "7", "frame": "base"}
 
 
 def test_a_file_that_the_build_makes(desk: PythonDesk) -> None:
