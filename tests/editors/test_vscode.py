@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from editor_desk import ROOT, Desk
+from editor_launch_files import lay_formats, lay_robot
 
 pytestmark = [pytest.mark.editor, pytest.mark.vscode]
 
@@ -64,6 +65,56 @@ def test_finding_is_seen_and_fixed(trusted_desk: Desk) -> None:
     assert "chatter" in seen["quickFix"]
     assert seen["fixed"] == original.replace('to="chater"', 'to="chatter"')
     assert trusted_desk.sandbox_starts() > 0
+
+
+def test_tree_leads_to_the_files_and_names_are_renamed_across_them(trusted_desk: Desk) -> None:
+    folder = lay_robot(trusted_desk)
+
+    seen = drive(trusted_desk, "tree")
+
+    assert seen["tree"] == [
+        "base/",
+        "  odometry preflight_demo/talker.py",
+        "left/",
+        "  driver preflight_demo/talker.py",
+        "  monitor preflight_demo/listener.py",
+        "right/",
+        "  driver preflight_demo/talker.py",
+        "  monitor preflight_demo/listener.py",
+        "Includes 2",
+        "  launch/arm.launch 2 nodes  rate:=5",
+        "  launch/arm.launch 2 nodes  rate:=20",
+        "Shared parameters 1",
+        "Not started 2",
+        "  group if $(arg sim) is false",
+        "    simulator",
+        "  include $(dirname)/gripper.launch if $(eval rate > 10) is False",
+    ]
+    assert seen["badges"] == 2
+    assert 'name="frequency" default="1"' in (folder / "arm.launch").read_text()
+    robot = (folder / "robot.launch").read_text()
+    assert robot.count('name="frequency"') == 2
+    assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in robot
+
+
+def test_each_format_of_ros_2_shows_its_finding(trusted_desk: Desk) -> None:
+    lay_formats(trusted_desk)
+
+    seen = drive(trusted_desk, "formats")
+
+    assert set(seen["problems"]) == {"first.launch.xml", "second.launch.yaml", "third.launch.py"}
+    for problems in seen["problems"].values():
+        assert "argument 'sped' is not declared; did you mean 'speed'?" in problems[0]
+
+
+def test_server_is_installed_where_there_is_none(desk_without_server: Desk) -> None:
+    desk_without_server.environment["PIP_FIND_LINKS"] = str(ROOT / "out/tools/wheels")
+
+    seen = drive(desk_without_server, "installs")
+
+    python, *arguments = seen["command"]
+    assert python.startswith(str(desk_without_server.home))
+    assert arguments == ["-I", "-m", "preflight_server", "lsp"]
 
 
 def test_untrusted_workspace_says_why_and_trust_needs_no_restart(untrusted_desk: Desk) -> None:

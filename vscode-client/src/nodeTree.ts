@@ -6,6 +6,7 @@ import {
   type FileDecoration,
   type FileDecorationProvider,
   MarkdownString,
+  Range,
   ThemeColor,
   type TextDocument,
   ThemeIcon,
@@ -128,7 +129,8 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
     }
     if (item.location !== null && this.client !== undefined) {
       const { uri, range } = this.client.protocol2CodeConverter.asLocation(item.location);
-      made.command = { command: "vscode.open", title: "Open", arguments: [uri, { selection: range, preview: true }] };
+      const selection = new Range(range.start, range.start);
+      made.command = { command: "vscode.open", title: "Open", arguments: [uri, { selection, preview: true }] };
     }
     return made;
   }

@@ -26,7 +26,7 @@ const squiggle = () => workbench.page.locator(".squiggly-warning").first();
 const noSquiggle = () => squiggle().waitFor({ state: "detached" });
 
 // The server of this editor, and no other: the process whose home is the desk's.
-function serverProcess() {
+function processes() {
   const servers = readdirSync("/proc").filter((pid) => {
     try {
       const words = readFileSync(`/proc/${pid}/cmdline`, "utf8").split("\0");
@@ -36,10 +36,15 @@ function serverProcess() {
       return false; // not a process, or one that has just ended
     }
   });
+  return servers.map(Number);
+}
+
+function serverProcess() {
+  const servers = processes();
   if (servers.length !== 1) {
     throw new Error(`one server was expected, not ${servers.length}`);
   }
-  return Number(servers[0]);
+  return servers[0];
 }
 
 async function killServer() {
@@ -88,6 +93,93 @@ const scenarios = {
       await workbench.parkMouse();
       await picture("5-after");
     });
+  },
+
+  // The tree of nodes, and from there into the files; go to include, rename across files, an annotation that is inserted.
+  async tree() {
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    const page = workbench.page;
+    await step("open the launch file", () => workbench.openFile("robot.launch"));
+    await step("show the tree", () => workbench.command("ROS Preflight: Show Node Tree"));
+    await step("node in the tree", () => workbench.treeLine("odometry").waitFor());
+    await step("findings in the tree", async () => {
+      await workbench.badge("monitor").first().waitFor();
+      seen.badges = await workbench.badge("monitor").count();
+    });
+    await step("everything is up to date", () => workbench.idle());
+    seen.tree = await step("lines of the tree", () => workbench.treeLines());
+    await step("picture of the tree", async () => {
+      await workbench.parkMouse();
+      await picture("11-tree");
+    });
+    await step("to a node that is left out", async () => {
+      await workbench.treeLine("simulator").click();
+      await workbench.status("Ln 17,").waitFor();
+    });
+    await step("to a node of an included file", async () => {
+      await workbench.treeLine("monitor").first().click();
+      await workbench.activeTab("arm.launch").waitFor();
+      await workbench.status("Ln 6,").waitFor();
+    });
+    await step("menu of the status bar", async () => {
+      await workbench.status("ROS Preflight").first().click();
+      await page.locator(".quick-input-list .monaco-list-row", { hasText: "Doctor" }).waitFor();
+      await picture("12-menu");
+      await page.keyboard.press("Escape");
+    });
+    await step("go to the include", async () => {
+      await workbench.openFile("robot.launch");
+      await workbench.goTo("arm.launch", "arm.launch");
+    });
+    await step("rename", async () => {
+      await workbench.rename('"rate"', "rate", "frequency");
+      await page.locator(".view-line", { hasText: "frequency" }).first().waitFor();
+      await workbench.command("File: Save All Files");
+      const robot = path.join(path.dirname(desk.launchFile), "robot.launch");
+      await until("the renamed argument on disk", () => contents(robot).includes('name="frequency" value="20"'));
+    });
+    await step("insert an annotation", async () => {
+      await workbench.openFile("robot.launch");
+      await workbench.putCursorOn("odometry");
+      const entry = await workbench.quickFix("with its traced interface");
+      await picture("13-annotate");
+      await workbench.choose(entry);
+      await workbench.line("<topics>").waitFor();
+      await page.keyboard.press("Control+s");
+      await until("the annotation on disk", () =>
+        contents(path.join(path.dirname(desk.launchFile), "robot.launch")).includes('class="pub"'),
+      );
+    });
+  },
+
+  // Each format of ROS 2 shows its finding.
+  async formats() {
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    seen.problems = {};
+    for (const name of ["first.launch.xml", "second.launch.yaml", "third.launch.py"]) {
+      await step(`open ${name}`, () => workbench.openFile(name));
+      await step(`squiggle in ${name}`, () => workbench.page.locator(".squiggly-error").first().waitFor());
+      seen.problems[name] = await step(`problem of ${name}`, async () => {
+        const all = await workbench.problems("sped");
+        return all.filter((row) => row.includes("sped"));
+      });
+      await step(`picture of ${name}`, () => picture(`14-${name.split(".")[0]}`));
+      await step(`close ${name}`, () => workbench.command("View: Close All Editors"));
+    }
+  },
+
+  // The extension installs the server that it brings along, and uses it the next time.
+  async installs() {
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
+    await step("status of the installation", () => workbench.status("installing").waitFor());
+    await step("picture of the installation", () => picture("15-installing"));
+    await step("squiggle of the installed server", () => squiggle().waitFor());
+    const first = serverProcess();
+    await step("Restart Server", () => workbench.command("ROS Preflight: Restart Server"));
+    await step("another server", () => until("another server", () => processes().length === 1 && processes()[0] !== first));
+    await step("squiggle of the restarted server", () => squiggle().waitFor());
+    seen.command = readFileSync(`/proc/${serverProcess()}/cmdline`, "utf8").split("\0").filter(Boolean);
   },
 
   // Nothing is run and the reason is shown; once trust is granted, the finding comes without a restart.

@@ -206,7 +206,58 @@ export class Workbench {
 
   /** A line of the tree of nodes that holds a text. */
   treeLine(text) {
-    return this.page.locator(".pane-body .monaco-list-row", { hasText: text });
+    return this.page.locator(".customview-tree .monaco-list-row", { hasText: text });
+  }
+
+  /** What all lines of the tree say, by how deep they are. */
+  async treeLines() {
+    const rows = await this.page.locator(".customview-tree .monaco-list-row").all();
+    return Promise.all(
+      rows.map(async (row) => {
+        const level = Number(await row.getAttribute("aria-level"));
+        const words = await row.locator(".label-name, .label-description").allTextContents();
+        return "  ".repeat(level - 1) + words.join(" ").replaceAll("\u00a0", " ");
+      }),
+    );
+  }
+
+  /** The lines of the tree that hold a text and are marked with findings. */
+  badge(text) {
+    const mark = this.page.locator("[class*='monaco-decoration-itemBadge']");
+    return this.treeLine(text).filter({ has: mark });
+  }
+
+  /** Waits until the server has nothing left to do. */
+  idle() {
+    return this.page.locator(".statusbar-item:has(.codicon-check)", { hasText: "ROS Preflight" }).waitFor();
+  }
+
+  /** The tab of the editor that is in front. */
+  activeTab(name) {
+    return this.page.locator(".tab.active", { hasText: name });
+  }
+
+  /** Goes from a text to the definition of what it names, which is in another file. */
+  async goTo(text, file) {
+    await until(`the definition of ${text}`, async () => {
+      await this.putCursorOn(text);
+      await this.page.keyboard.press("F12");
+      return appears(this.activeTab(file));
+    });
+  }
+
+  /** Renames what stands in a text. */
+  async rename(text, old, name) {
+    const box = this.page.locator(".rename-box input");
+    await until(`the box to rename ${text}`, async () => {
+      await this.putCursorOn(text);
+      await this.page.keyboard.press("F2");
+      return appears(box);
+    });
+    await until(`'${old}' to be renamed`, async () => (await box.inputValue()) === old);
+    await box.fill(name);
+    await this.page.keyboard.press("Enter");
+    await box.waitFor({ state: "hidden" });
   }
 
   /** Changes settings as an edit of settings.json would. Those of the scopes `machine*` count in `Machine` alone. */
