@@ -36,16 +36,18 @@ lint: $(READY) ## ruff and mypy
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## editing and completion latency, a large workspace and the time of a trace and of a command, as ratios
+bench: setup ## editing and completion latency, a large workspace and the time of a trace, of a command and of a Python launch file, as ratios
 	$(BIN)/python bench/editing.py
 	$(BIN)/python bench/completion.py
 	$(BIN)/python bench/index.py
 	$(BIN)/python bench/trace.py
 	$(BIN)/python bench/fleet.py
 	$(BIN)/python bench/commands.py
+	$(BIN)/python bench/launch_files.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
 corpus: CORPUS2 = $(realpath ../shared/corpus/ros2)
+corpus: SOURCES2 = $(realpath ../.mirror)
 corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch and ros2 launch have them, values and errors
 	@mkdir -p out
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
@@ -53,6 +55,7 @@ corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch a
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS2)/jobs-xml-yaml.jsonl > out/ros2.jsonl
 	$(PYTHON) ../shared/tools/compare_ros2.py --root $(CORPUS2) $(CORPUS2)/expected-xml-yaml.jsonl out/ros2.jsonl > out/ros2.txt; \
 	tail -n 3 out/ros2.txt; grep -qE '^(19[5-9]|2[0-9][0-9]) of 223 equal' out/ros2.txt  # the others need what the corpus lacks
+	$(BIN)/python tests/ros2_python_corpus.py --corpus $(CORPUS2) --sources "$(SOURCES2)" --compare ../shared/tools/compare_ros2.py --show 0
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages
