@@ -50,8 +50,16 @@ def test_what_may_be_missing_is_for_information() -> None:
     assert told([source_only], live({"/a": []})) == [
         "(/a does not publish /x (std_msgs/String); it may not do so in each case)"
     ]
+    on_demand = node("/a", replace(end("publisher", "/x", certain=False), on_demand=True))
+    assert told([on_demand], live({"/a": []})) == []
+    assert told([on_demand], live({"/a": [("publisher", "/x", STRING)]})) == []
     assert told([replace(node("/a"), certain=False)], live({})) == ["(/a is not running, which may be right)"]
     assert told([replace(node("/a"), ends_itself=True)], live({})) == ["(/a is not running, which may be right)"]
+
+
+def test_why_a_node_that_is_missing_ended_in_the_sandbox_is_told() -> None:
+    crashed = replace(node("/a", complete=False), reason="it ended with exit code 1")
+    assert told([crashed], live({})) == ["/a is not running; in the sandbox it ended with exit code 1"]
 
 
 def test_a_node_that_died_is_no_node_with_missing_ends() -> None:
@@ -140,7 +148,7 @@ def test_actions_of_ros1_are_one_thing() -> None:
     assert told([expected], running("/go", types | own)) == []
     assert told([expected], running("/goo", types | own)) == [
         "/a does not use the action /go (pkg/GoAction); it uses the action /goo",
-        "/a uses the action /goo (pkg/GoAction), which was not expected",
+        "(/a uses the action /goo (pkg/GoAction), which was not expected)",
     ]
     other = {t: kind.replace("Go", "Come", 1) for t, kind in own.items()}
     assert told([expected], running("/go", types | other)) == [

@@ -1,7 +1,8 @@
 """The running system beside the expected one.
 
 What is not known is not held against the system: of a node of which nothing is known only its presence is judged, an
-end that is not sure to be made may be missing, and an end is extra only where all ends of its node are known.
+end that is not sure to be made may be missing, and an end is extra only where all ends of its node are known, and then
+for information.
 """
 
 from __future__ import annotations
@@ -155,7 +156,8 @@ def _with_tokens(node: ExpectedNode, tokens: Mapping[str, str]) -> ExpectedNode:
 
 def _of_node(node: ExpectedNode, running: LiveNode | None) -> Issue | None:
     if running is None:
-        return Issue("missing", "node", node.name, counts=node.certain and not node.ends_itself, place=node.place)
+        sure = node.certain and not node.ends_itself
+        return Issue("missing", "node", node.name, actual=node.reason, counts=sure, place=node.place)
     if running.dead is not None:
         return Issue("dead", "node", node.name, actual=running.dead, counts=not node.ends_itself, place=node.place)
     if running.count > 1:
@@ -212,6 +214,8 @@ def _of_ends(
         there = [ends.get(key, []) for key in end.parts or ((end.role, end.name),)]
         if not all(there):
             states.say(end.role, end.name, "missing" if end.certain else "unsure")
+            if end.on_demand:
+                continue
             missing.append(
                 Issue("missing", end.role, node.name, end.name, expected=end.type, similar=_similar(end, extra),
                       counts=end.certain, place=end.place, source=end.source)
@@ -226,7 +230,8 @@ def _of_ends(
         states.say(found.role, found.name, "extra")
         if complete:
             place = nodes[0].place
-            yield Issue("extra", found.role, owner, found.name, actual=found.type, place=place)
+            # Tools subscribe to whatever is there: what is wrong with it is told by what is missing.
+            yield Issue("extra", found.role, owner, found.name, actual=found.type, counts=False, place=place)
 
 
 def _similar(end: ExpectedEnd, extra: Sequence[LiveEnd]) -> str | None:

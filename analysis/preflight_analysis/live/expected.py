@@ -64,6 +64,7 @@ def _node(
         _place(node_location(node), documents),
         certain,
         ended,
+        interface.outcome.reason if interface.outcome.status in ("exited", "crashed") else None,
         manager,
     )
 
@@ -94,6 +95,7 @@ def _end(connection: Connection, generation: int, documents: Mapping[str, Docume
         end.type,
         end.qos,
         not end.uncertain,
+        end.on_demand,
         topic_ends(end.role, connection.name) if is_action and generation == 1 else (),
         _place(connection_location(connection), documents),
         Place(end.source_file, end.source_line) if end.source_file and end.source_line else None,

@@ -62,14 +62,16 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class ExpectedEnd:
-    """`certain`: whether the node makes it in any case; one that is found by reading the source, after a made-up answer
-    or on demand may well be missing. `parts`: of an action of ROS 1, its topics by role."""
+    """`certain`: whether the node makes it in any case; one that is found by reading the source, or after a made-up
+    answer, may well be missing, and one that is made on demand is when nobody asks for it. `parts`: of an action of
+    ROS 1, its topics by role."""
 
     role: Role
     name: str
     type: str | None
     qos: Mapping[str, Any] = field(default_factory=dict)
     certain: bool = True
+    on_demand: bool = False
     parts: tuple[tuple[Role, str], ...] = ()
     place: Place | None = None
     """The remap that gave it its name, else the node's own line."""
@@ -80,7 +82,8 @@ class ExpectedEnd:
 @dataclass(frozen=True, slots=True)
 class ExpectedNode:
     """A node that the launch starts. `complete`: all its ends are known, so that another one is extra. `ends_itself`:
-    it has done its work and ends, so that it need not be there. `by` of a nodelet: the node that makes its ends."""
+    it has done its work and ends, so that it need not be there. `reason`: why it ended in the sandbox. `by` of a
+    nodelet: the node that makes its ends."""
 
     name: str
     ends: tuple[ExpectedEnd, ...]
@@ -89,6 +92,7 @@ class ExpectedNode:
     certain: bool = True
     """Whether it is sure to be started under this name."""
     ends_itself: bool = False
+    reason: str | None = None
     by: str | None = None
 
 

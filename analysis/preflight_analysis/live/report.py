@@ -33,8 +33,9 @@ def message(issue: Issue) -> str:
     """One sentence, without the place."""
     node, name = issue.node, issue.name
     if issue.what == "node":
+        sandbox = f"; in the sandbox {issue.actual}" if issue.actual else ""
         return {
-            "missing": f"{node} is not running" if issue.counts else f"{node} is not running, which may be right",
+            "missing": f"{node} is not running{sandbox if issue.counts else ', which may be right'}",
             "extra": f"{node} runs and is not in the launch file",
             "dead": f"{node} is registered and does not answer: {issue.actual}",
             "twice": f"{node} runs {issue.actual} times",

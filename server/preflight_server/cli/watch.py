@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="without --once, a difference is told once it has lasted so many seconds (default: %(default)s)",
     )
-    parser.add_argument("--allow-extra", action="store_true", help="nodes and ends beyond the expected do not count")
+    parser.add_argument("--allow-extra", action="store_true", help="nodes beyond the expected do not count")
 
 
 def run(args: argparse.Namespace) -> int:
