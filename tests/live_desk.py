@@ -195,7 +195,7 @@ class Watching:
 
 def differences(state: dict[str, Any]) -> list[str]:
     """What counts."""
-    return sorted(issue["message"] for issue in state["issues"] if issue["counts"])
+    return sorted(issue["message"] for issue in state.get("issues", ()) if issue["counts"])
 
 
 @dataclass(frozen=True)

@@ -89,6 +89,7 @@ def test_what_each_node_has_is_not_extra() -> None:
         ("publisher", "/rosout", "rosgraph_msgs/Log"),
         ("service", "/a/get_loggers", None),
         ("subscriber", "/clock", "rosgraph_msgs/Clock"),
+        ("publisher", "/a/bond", "bond/Status"),
     ]
     assert told([node("/a")], live({"/a": own})) == []
     own = [

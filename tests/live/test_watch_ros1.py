@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import http.server
 import json
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from live_desk import Done, Ros1System, Watching, preflight, until
+from live_desk import Done, Ros1System, Watching, differences, preflight, until
+from preflight_analysis.live.model import CannotObserveError
+from preflight_analysis.live.observe_ros1 import Ros1Observer
 
 pytestmark = pytest.mark.ros
 
@@ -121,6 +125,12 @@ def test_the_stream_tells_of_a_start_a_death_an_extra_node_and_a_new_master(
     assert (issue["kind"], issue["place"]) == ("dead", {"file": str(file), "line": 3, "column": 1})
     assert (dead["nodes"]["/robot/talker"], dead["topics"]) == ("dead", {"/robot/chatter": "dead"})
 
+    listener = system.pid(next(name for name in dead["nodes"] if name.startswith("/listener_")))
+    os.kill(listener, signal.SIGSTOP)
+    watch.until(lambda event: any("no answer within" in message for message in differences(event)))
+    os.kill(listener, signal.SIGCONT)
+    watch.until_told("/robot/talker is registered and does not answer: connection refused")
+
     extra = system.start(system.package / "talker.py", "__name:=other")
     watch.until_told(
         "/robot/talker is registered and does not answer: connection refused",
@@ -145,3 +155,44 @@ def test_a_master_that_is_not_there_is_told(system: Ros1System) -> None:
     assert "does not answer: connection refused" in done.err
     done = preflight({**system.environment, "ROS_MASTER_URI": "robot:11311"}, "watch", file, "--once", "--no-run")
     assert (done.code, done.out) == (2, "")
+
+
+GARBAGE = [
+    b"",
+    b"no XML",
+    b"<methodResponse/>",
+    b"<methodResponse><params><param><value><struct><member><value/></member></struct></value></param></params>"
+    b"</methodResponse>",
+    b"<methodResponse><params><param><value><array><data><value><int>1</int></value><value>ok</value>"
+    b"<value><int>7</int></value></data></array></value></param></params></methodResponse>",
+    b"<methodResponse><params><param><value><array><data><value><int>1</int></value><value>ok</value>"
+    b"<value><array><data><value>abc</value></data></array></value></data></array></value></param></params>"
+    b"</methodResponse>",
+    b"<methodResponse><params><param><value><int>x</int></value></param></params></methodResponse>",
+    b"<methodResponse><params><param>" + b"<value><array><data>" * 3000,
+    b"<methodResponse></value></data></array></member></methodResponse>",
+]
+
+
+@pytest.mark.parametrize("answer", GARBAGE)
+def test_what_is_no_master_is_told(answer: bytes) -> None:
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            self.send_response(200)
+            self.send_header("Content-Length", str(len(answer)))
+            self.end_headers()
+            self.wfile.write(answer)
+
+        def log_message(self, *args: object) -> None:
+            pass
+
+    server = http.server.HTTPServer(("127.0.0.1", 0), Handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    observer = Ros1Observer(f"http://127.0.0.1:{server.server_port}/")
+    try:
+        with pytest.raises(CannotObserveError, match="does not answer"):
+            observer.observe()
+    finally:
+        observer.close()
+        server.shutdown()
+        server.server_close()

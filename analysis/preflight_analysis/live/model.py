@@ -157,6 +157,8 @@ _BUILTIN_SERVICES = {
     ),
 }
 _BUILTIN_TOPICS = {1: {"/rosout", "/clock"}, 2: {"/rosout", "/parameter_events", "/clock"}}
+_OF_LIBRARIES = {1: "/bond", 2: "/transition_event"}
+"""Topics of nodelets and their manager, and of lifecycle nodes."""
 
 
 def is_builtin(generation: int, role: Role, name: str) -> bool:
@@ -164,4 +166,4 @@ def is_builtin(generation: int, role: Role, name: str) -> bool:
     subscribes to `/clock`."""
     if role in ("service", "client"):
         return _BUILTIN_SERVICES[generation].search(name) is not None
-    return name in _BUILTIN_TOPICS[generation] or (generation == 2 and name.endswith("/transition_event"))
+    return name in _BUILTIN_TOPICS[generation] or name.endswith(_OF_LIBRARIES[generation])

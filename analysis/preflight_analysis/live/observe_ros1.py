@@ -31,8 +31,9 @@ _ALIVE_SECONDS = 2.0
 """How long a node that answered is taken to be alive: to ask all of a large robot at each look costs it too much."""
 _WORKERS = 16
 _MAX_HEADER = 64 * 1024
-_FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError, ValueError, TypeError)
-"""What asking a server leads to that is not there, or is something else."""
+_FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError, ValueError, TypeError, LookupError,
+             AttributeError, RecursionError)  # fmt: skip
+"""What asking a server leads to that is not there, or is something else: xmlrpc takes what it gets for right."""
 
 
 class _Transport(xmlrpc.client.Transport):
