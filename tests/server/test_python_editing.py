@@ -11,6 +11,7 @@ import pytest
 from editor_desk import Desk
 from lsp_desk import Editor, capabilities, editing, position
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 
 pytestmark = pytest.mark.ros
 T = TypeVar("T")
@@ -379,3 +380,35 @@ async def test_values_of_a_file_that_was_run(desk: Desk, package: Path) -> None:
         found = await answered(lambda: editor.hints(inner), lambda found: "= true" in [hint.label for hint in found])
         lines = [hint.position.line + 1 for hint in found if hint.label == "= true"]
         assert lines == [line(text, "name=LaunchConfiguration"), line(text, "condition=")]
+
+
+async def test_a_container_of_a_python_file_is_renamed_where_it_is_named(desk: Desk, package: Path) -> None:
+    path = package / "launch/load.launch.py"
+    text = (
+        HEAD.replace("import ComposableNodeContainer, Node", "import ComposableNodeContainer, LoadComposableNodes")
+        + """def generate_launch_description():
+    two = ComposableNode(package='robot', plugin='robot::Two', name='two')
+    return LaunchDescription([
+        ComposableNodeContainer(
+            package='rclcpp_components', executable='component_container', name='box', namespace='',
+            composable_node_descriptions=[ComposableNode(package='robot', plugin='robot::One', name='one')],
+        ),
+        LoadComposableNodes(target_container='box', composable_node_descriptions=[two]),
+    ])
+"""
+    )
+    async with editing(desk, folder=package.parents[1]) as editor:
+        editor.open(path, text, language="python")
+        where = editor.at(path, "name='box'", 7)
+        with pytest.raises(JsonRpcException, match="not known as long as it is not run"):
+            await editor.rename(path, where, "crate")
+        editor.trust()
+
+        async def renamed() -> types.WorkspaceEdit | None:
+            try:
+                return await editor.rename(path, where, "crate")
+            except JsonRpcException:  # as long as it was not run
+                return None
+
+        editor.apply(await answered(renamed, lambda edit: edit is not None))
+        assert editor.texts[path] == text.replace("'box'", "'crate'")

@@ -219,3 +219,30 @@ async def ask_everything(editor: Editor, path: Path, where: types.Position) -> N
         editor.hierarchy(path, where),
         editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("t")),
     )
+
+
+async def test_a_node_and_what_names_it(desk: Desk, package: Path) -> None:
+    """A container is named by those who load into it, a node by the keys of its parameter file."""
+    path = package / "load.launch.xml"
+    inner, params = package / "inner.launch.yaml", package / "params.yaml"
+    path.write_text(
+        """<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="box" namespace=""/>
+  <load_composable_node target="box">
+    <composable_node pkg="robot" plugin="robot::One" name="one"/>
+  </load_composable_node>
+  <load_composable_node target="/box">
+    <composable_node pkg="robot" plugin="robot::Two" name="two"/>
+  </load_composable_node>
+</launch>
+"""
+    )
+    inner.write_text(INNER.replace("name: $(var name)\n      namespace", "name: talker\n      namespace"))
+    async with editing(desk, folder=package.parents[1]) as editor:
+        text = editor.open(path)
+        editor.apply(await editor.rename(path, editor.at(path, '"box"', 2), "crate"))
+        assert editor.texts[path] == text.replace("box", "crate")
+        yaml = editor.open(inner, language="yaml")
+        editor.apply(await editor.rename(inner, editor.at(inner, "name: talker", 7), "speaker"))
+        assert editor.texts[inner] == yaml.replace("name: talker", "name: speaker")
+        assert editor.texts[params] == PARAMS.replace("/ns/talker", "/ns/speaker")

@@ -130,6 +130,8 @@ class LaunchNode(NamedTuple):
     """Values of this node that could not be known: it is then not run, and findings about it are less sure."""
     named: bool = True
     container: str | None = None
+    container_location: Location | None = None
+    """Where a composable node that is loaded names its container; None for one in the container's own tag."""
     plugin: str | None = None
     params: tuple[Param, ...] = ()
     """ROS 2: the parameters that it gets, each from the last source that has it. Those of ROS 1 are the tree's."""

@@ -53,8 +53,10 @@ def mentions_of(scene: Scene, trees: Iterable[LaunchTree], wanted: frozenset[str
             yield from _in_arguments(owner, wanted)
             if owner.name in wanted:
                 yield from _in_parameter_files(scene, tree, owner, wanted)
-            if owner.container in wanted and not _is_inside(tree, owner):
-                yield NodeMention(owner.location, None)
+            if owner.container and owner.container_location is not None:
+                full, place = f"/{owner.container.lstrip('/')}", owner.container_location
+                if full in wanted:
+                    yield NodeMention(place, _moved(_part(scene.text(place), full, full), place.span.start))
 
 
 def remap_ends(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
@@ -163,17 +165,6 @@ def _in_parameter_files(
             written = document.text[key.start : key.end] if document is not None else ""
             exact = written == name or written.endswith(f"/{name}")
             yield NodeMention(Location(path, key), Span(key.end - len(name), key.end) if exact and not others else None)
-
-
-def _is_inside(tree: LaunchTree, component: LaunchNode) -> bool:
-    """Whether a composable node stands in the tag of its container, which it need not name then."""
-    place = component.location
-    return any(
-        node.name == component.container
-        and node.location.file == place.file
-        and node.action.span.contains(place.span.start)
-        for node in tree.nodes
-    )
 
 
 def _in_arguments(owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:

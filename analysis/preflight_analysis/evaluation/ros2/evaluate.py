@@ -476,7 +476,7 @@ class _Walk:
             evaluate_composable(performer, action.children, name, applies, deferred=self._deferred)
         elif target is not None:
             name = performer.value(target).text
-            evaluate_composable(performer, action.children, name, applies, deferred=self._deferred)
+            evaluate_composable(performer, action.children, name, applies, deferred=self._deferred, target=target.span)
 
     def _executable(self, performer: Performer, action: Action) -> None:
         evaluate_executable(performer, action, deferred=self._deferred)

@@ -140,8 +140,9 @@ def evaluate_composable(
     applies: Callable[[Performer, Action], bool],
     *,
     deferred: bool,
+    target: Span | None = None,
 ) -> None:
-    """The `<composable_node>`s of a container or of a `<load_composable_node>`."""
+    """The `<composable_node>`s of a container or of a `<load_composable_node>`, whose `target` names the container."""
     state, scope, place = performer.state, performer.context.scope, performer.place
     for action in actions:
         if action.kind != "composable_node" or not applies(performer, action):
@@ -172,6 +173,7 @@ def evaluate_composable(
                 Executable(None),
                 named=name is not None,
                 container=container,
+                container_location=place.origin(target)[-1] if target is not None else None,
                 plugin=plugin_name.text,
                 params=to.effective(),
                 param_sources=tuple(to.found),
