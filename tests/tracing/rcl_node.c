@@ -30,6 +30,7 @@ void *PyExc_RuntimeError, *_Py_TrueStruct;
 
 static rcl_context_t context;
 static rcl_node_t node;
+static rcl_service_t *own_service;
 
 static void check(rcl_ret_t result) {
   if (result == RCL_RET_OK) return;
@@ -64,6 +65,7 @@ static void serve(const rosidl_service_type_support_t *type, const char *name) {
   rcl_service_t *made = &NEW(rcl_service_t, rcl_get_zero_initialized_service());
   rcl_service_options_t options = rcl_service_get_default_options();
   check(rcl_service_init(made, &node, type, name, &options));
+  own_service = made;
 }
 
 static void start(int argc, char **argv, const char *name, const char *space) {
@@ -93,6 +95,11 @@ static void turn(const rcl_service_t *service, const rcl_client_t *asking, int64
 }
 
 static void *spin(void *unused) {
+  (void)unused;
+  for (;;) turn(own_service, NULL, -1);
+}
+
+static void *watch_graph(void *unused) {
   (void)unused;
   for (;;) turn(NULL, NULL, -1);
 }
@@ -213,6 +220,10 @@ int main(int argc, char **argv) {
   start(argc, argv, "own", strcmp(mode, "elsewhere") == 0 ? "/there" : "");
   if (strcmp(mode, "wait") == 0) {
     wait_for("start");
+  } else if (strcmp(mode, "watch") == 0) {
+    pthread_t watcher;
+    pthread_create(&watcher, NULL, watch_graph, NULL);
+    wait_for("start");
   } else if (strcmp(mode, "managed") == 0) {
     managed(argc > 2 && strcmp(argv[2], "fail") == 0);
   } else if (strcmp(mode, "action") == 0) {
@@ -242,8 +253,8 @@ int main(int argc, char **argv) {
     turn(NULL, NULL, 20);
     publish("late", rmw_qos_profile_default);
   }
+  pthread_t thread;
   if (strcmp(mode, "thread") == 0) {
-    pthread_t thread;
     pthread_create(&thread, NULL, spin, NULL);
     pthread_join(thread, NULL);
   }

@@ -68,8 +68,9 @@ def test_a_node_in_a_namespace_of_its_own_has_full_names(desk: RclDesk) -> None:
     assert ("publisher", "/there/chatter") in ends(desk.trace("elsewhere", attributes=""))
 
 
-def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative(desk: RclDesk) -> None:
-    found = desk.trace("wait")
+@pytest.mark.parametrize("mode", ["wait", "watch"])
+def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative(desk: RclDesk, mode: str) -> None:
+    found = desk.trace(mode)
     assert found.outcome.status == "spinning"
     assert set(found.outcome.answers) == {
         "it asks for the service /start again and again, and was told that it is there",
@@ -103,6 +104,8 @@ def test_lifecycle_nodes_are_configured_and_activated(desk: RclDesk) -> None:
 def test_a_lifecycle_node_that_refuses_to_be_configured_is_left_alone(desk: RclDesk) -> None:
     found = desk.trace("managed fail")
     assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "made")})
+    assert found.outcome.answers == ("it was asked to configure, as a manager of lifecycle nodes would, and did not",)
+    assert not found.complete
 
 
 def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None:
@@ -156,11 +159,15 @@ def test_check_says_which_topics_of_two_nodes_do_not_meet(desk: RclDesk, topic: 
     assert all("did you mean '/chatter', published by /talker" in f["message"] for f in findings)
 
 
-def test_a_trace_is_kept_until_the_name_or_the_program_changes(desk: RclDesk) -> None:
+def test_a_trace_is_kept_until_the_name_a_parameter_or_the_program_changes(desk: RclDesk) -> None:
     desk.cache = TraceCache(desk.folder / "cache")
     assert not desk.trace("talk a").cached
     assert desk.trace("talk a", "<remap from='a' to='b'/>").cached
     assert not desk.trace("talk a", attributes="name='m'").cached
+    # rcl does not tell which parameters the node looks at.
+    assert not desk.trace("talk a", "<param name='rate' value='1.0'/>").cached
+    assert desk.trace("talk a", "<param name='rate' value='1.0'/>").cached
+    assert not desk.trace("talk a", "<param name='rate' value='2.0'/>").cached
     with desk.program.open("ab") as file:
         file.write(b"more")
     assert not desk.trace("talk a").cached

@@ -251,6 +251,27 @@ def main():
     assert found.outcome.status == "spinning"
 
 
+def test_a_lifecycle_node_that_refuses_to_be_configured_is_not_known_to_the_end(tmp_path: Path) -> None:
+    body = """
+import rclpy
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from std_msgs.msg import String
+
+class Own(LifecycleNode):
+    def on_configure(self, state):
+        self.create_lifecycle_publisher(String, 'made', 1)
+        return TransitionCallbackReturn.FAILURE
+
+def main():
+    rclpy.init()
+    rclpy.spin(Own('own'))
+"""
+    found = Ros2Desk(tmp_path, managed=body).trace("managed")
+    assert set(ends(found)) == {("publisher", "made")}
+    assert found.outcome.answers == ("it was asked to configure, as a manager of lifecycle nodes would, and did not",)
+    assert not found.complete
+
+
 @pytest.mark.parametrize(
     "loop",
     [

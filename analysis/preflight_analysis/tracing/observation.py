@@ -75,6 +75,7 @@ _ANSWERS = {
     "transform": "it waits for the transform {}, and was given the identity",
     "transforms": "it asks for the transform {} again and again, and was given the identity",
     "clock": "it waits for simulated time on {}, and was given the time of day",
+    "transition": "it was asked to {}, as a manager of lifecycle nodes would, and did not",
 }
 _WAITS = {
     "service": "the service {}",
@@ -194,7 +195,10 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         not d.given and d.access != "search" and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
     )
     watched = found.woven and (recipe.python or recipe.preload is not None)
-    if request.generation == 2 and outcome.status in ("crashed", "exited"):
+    if request.generation == 2 and recipe.preload is not None:
+        # Which it takes without declaring them is not seen.
+        param_dependencies.append(ParamDependency("list", "/", given=False))
+    if request.generation == 2 and (recipe.preload is not None or outcome.status in ("crashed", "exited")):
         # What is wrong with its parameters may stop it before it declares one.
         param_dependencies += [ParamDependency("get", name, given=False) for name in request.params]
     if not watched or unexplained or _is_named(endpoints, params, request.node):

@@ -98,6 +98,14 @@ struct ChangeState {
   size_t size = 0, capacity = 1;
 };
 
+// rcl_wait_set_t.
+struct WaitSet {
+  struct Entities {
+    const void* entities;
+    size_t count;
+  } subscriptions, guard_conditions, timers, clients, services, events;
+};
+
 // MessageMembers of rosidl_typesupport_introspection, up to what is not the same in all distributions.
 struct Members {
   const char *space, *name;
@@ -430,18 +438,22 @@ void pause(double seconds) {
 
 // The event loop
 
-std::atomic<int> busy{0};  // lifecycle nodes that are on their way
+std::atomic<int> busy{0};  // lifecycle nodes that are on their way, and calls that are going to be answered
 std::mutex turns_mutex;
-std::string held;  // the state that is to be told once they are there
+std::string held;  // the state that is to be told once they are through
 std::set<std::string> told_states;
 
 void tell_state(const std::string& state, bool main) {
   Event("state").add("state", state).raw("threads", main ? "0" : "1").send();
 }
 
-void tell_turn(int64_t timeout) {
+void tell_turn(const WaitSet* waited_for, int64_t timeout) {
   static std::atomic<int> turns{0};
   bool main = in_main_thread();
+  bool works = waited_for->subscriptions.count + waited_for->timers.count + waited_for->clients.count +
+                   waited_for->services.count >
+               0;
+  if (!main && !works) return;  // rclcpp has a thread that looks for changes of the graph
   // Whoever waits without end in the main thread is there. Else it may be a wait before more is made.
   std::string state = main && (timeout < 0 || turns.fetch_add(1) > 0) ? "looped" : "idle";
   std::lock_guard<std::mutex> locked(turns_mutex);
@@ -454,12 +466,17 @@ void tell_turn(int64_t timeout) {
   tell_state(state, main);
 }
 
-// The node gets an answer: whatever loop it is in, it may leave now, and has to show one again.
-void tell_answered(const char* kind, const std::string& name) {
+// Whatever loop the node is in, it may leave soon, and has to show one again.
+void tell_moving(const char* seconds = "0.3") {
   std::lock_guard<std::mutex> locked(turns_mutex);
-  Event("answered").add("kind", std::string(kind)).add("name", name).send();
-  Event("state").add("state", std::string("fed")).raw("seconds", "0.3").send();
+  Event("state").add("state", std::string("fed")).raw("seconds", seconds).send();
   told_states.clear();
+}
+
+void tell_answered(const char* kind, const std::string& name) {
+  Event("answered").add("kind", std::string(kind)).add("name", name).send();
+  // The middleware has to bring it, and the machine may be busy.
+  tell_moving("1.0");
 }
 
 void tell_answered_here(const char* kind, const std::string& name) {
@@ -470,7 +487,9 @@ void tell_answered_here(const char* kind, const std::string& name) {
 
 void no_longer_busy() {
   std::lock_guard<std::mutex> locked(turns_mutex);
-  if (--busy == 0 && !held.empty()) tell_state(held, true);
+  if (--busy != 0 || held.empty()) return;
+  tell_state(held, true);
+  held.clear();
 }
 
 // Lifecycle nodes
@@ -511,7 +530,12 @@ void bring_up(const Handle* node, std::shared_ptr<Managed> managed) {
     if (!while_up([&] { available(node, &managed->client, &there); })) break;
   }
   bool configured = there && (state_of(managed->machine) != kUnconfigured || changed(*managed, kConfigure));
-  if (configured && state_of(managed->machine) == kInactive) changed(*managed, kActivate);
+  bool active = configured && (state_of(managed->machine) != kInactive || changed(*managed, kActivate));
+  if (!active) {
+    // What it would have made is not known.
+    Event event("answered");
+    event.add("kind", std::string("transition")).add("name", std::string(configured ? "activate" : "configure")).send();
+  }
   no_longer_busy();
 }
 
@@ -531,22 +555,33 @@ void manage(const Handle* node, const Machine* machine) {
 
 // Waits for services
 
+// Seconds.
+double grace() { return answered || answered_here ? 0.1 : 0.3; }
+
 struct Wanted {
   const Handle* node;
   const Support* support;
   std::string name;
   int asked = 0;
   double since = 0;
-  bool made = false;
+  bool made = false, offered = false;
+
+  // Whether whoever asks again and again has waited long enough.
+  bool is_over() {
+    if (made) return true;
+    if (asked++ == 0) since = now();
+    if (asked >= kAsked && now() - since >= grace()) return true;
+    if (asked <= kAsked) tell_moving();
+    return false;
+  }
+
+  static constexpr int kAsked = 3;
 };
 std::mutex clients_mutex;
 std::map<const Handle*, Wanted>& clients() {
   static auto* all = new std::map<const Handle*, Wanted>;  // never destroyed: nodes end in any order
   return *all;
 }
-
-// Seconds.
-double grace() { return answered || answered_here ? 0.1 : 0.3; }
 
 // A message, as its own type support makes it.
 class Message {
@@ -597,6 +632,7 @@ void serve(std::shared_ptr<Handle> service, const ServiceMembers* members, const
       Message response(members->response);
       response.agree();
       send(service.get(), header, response.get());
+      no_longer_busy();
     }
     reset_error();
   };
@@ -624,16 +660,18 @@ bool gives_service(const Handle* client, bool (*ready)(const Handle* node, const
     auto known = clients().find(client);
     if (known == clients().end()) return;
     Wanted& wanted = known->second;
-    if (wanted.asked++ == 0) wanted.since = now();
-    if (!wanted.made && (wanted.asked < 3 || now() - wanted.since < grace())) return;
-    give = true;
-    if (wanted.made) return;
+    give = wanted.is_over();
+    if (!give || wanted.made) return;
     wanted.made = true;
     Wanted copy = wanted;
     locked.unlock();
     std::string full = expanded(copy.node, copy.name, true);
     tell_answered_here("services", full);
     if (!offer(copy, full)) return;
+    locked.lock();
+    known = clients().find(client);
+    if (known != clients().end()) known->second.offered = true;
+    locked.unlock();
     for (double until = now() + 0.5; !ready(copy.node, client) && now() < until;) pause(0.002);
   });
   return give;
@@ -646,10 +684,8 @@ bool gives_action(const Handle* node, const Handle* client) {
     auto* name = REAL_IF_ANY("rcl_action_client_get_action_name", const char*(const Handle*));
     std::lock_guard<std::mutex> locked(clients_mutex);
     Wanted& wanted = clients()[client];
-    if (wanted.asked++ == 0) wanted.since = now();
-    if (!wanted.made && (wanted.asked < 3 || now() - wanted.since < grace())) return;
-    give = true;
-    if (wanted.made) return;
+    give = wanted.is_over();
+    if (!give || wanted.made) return;
     wanted.made = true;
     if (name != nullptr) tell_answered_here("action", expanded(node, text(name(client)), true));
   });
@@ -842,9 +878,18 @@ HOOK int rcl_action_server_is_available(const Handle* node, const Handle* client
   return result;
 }
 
-HOOK int rcl_wait(void* wait_set, int64_t timeout) {
-  if (depth == 0) quietly([&] { tell_turn(timeout); });
-  return REAL("rcl_wait", int(void*, int64_t))(wait_set, timeout);
+HOOK int rcl_send_request(const Handle* self, const void* request, int64_t* sequence) {
+  quietly([&] {
+    std::lock_guard<std::mutex> locked(clients_mutex);
+    auto known = clients().find(self);
+    if (known != clients().end() && known->second.offered) ++busy;
+  });
+  return REAL("rcl_send_request", int(const Handle*, const void*, int64_t*))(self, request, sequence);
+}
+
+HOOK int rcl_wait(WaitSet* wait_set, int64_t timeout) {
+  if (depth == 0 && wait_set != nullptr) quietly([&] { tell_turn(wait_set, timeout); });
+  return REAL("rcl_wait", int(WaitSet*, int64_t))(wait_set, timeout);
 }
 
 HOOK int rcl_shutdown(void* context) {

@@ -306,8 +306,11 @@ def _activate() -> None:
     waiting, _nodes[:] = list(_nodes), []
     for node in waiting:
         if hasattr(node, "trigger_configure") and hasattr(node, "trigger_activate"):
-            node.trigger_configure()
-            node.trigger_activate()
+            for transition in ("configure", "activate"):
+                if getattr(getattr(node, f"trigger_{transition}")(), "name", "SUCCESS") != "SUCCESS":
+                    # What it would have made is not known.
+                    channel.send("answered", kind="transition", name=transition)
+                    break
 
 
 def _spins(flush: Callable[[], None]) -> Callable[..., Any]:
