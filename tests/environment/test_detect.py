@@ -220,6 +220,16 @@ def test_workspace_of_a_file(tmp_path: Path) -> None:
     assert workspace_of(str(launch)) == str(tmp_path / "ws")
 
 
+def test_a_folder_inside_of_a_package_is_not_taken_for_the_workspace(tmp_path: Path) -> None:
+    """Editors that know of no project name the folder of the file that was opened first."""
+    launch = tmp_path / "ws" / "robot" / "launch"
+    launch.mkdir(parents=True)
+    (launch.parent / "package.xml").write_text("<package><name>robot</name></package>")
+    assert "robot" in detect(str(launch)).packages
+    assert detect(str(launch.parent)).workspace == str(launch.parent)
+    assert detect(str(tmp_path / "ws")).workspace == str(tmp_path / "ws")
+
+
 def test_this_process_s_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package(tmp_path / "p")
     monkeypatch.setenv("ROS_PREFLIGHT_TEST", "here")

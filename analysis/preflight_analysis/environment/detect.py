@@ -37,9 +37,15 @@ class _Python:
 
 
 def detect(place: str | None, package_path: Sequence[str] | None = None) -> Environment:
-    """The environment of this process's own variables for a workspace folder, or for the workspace of a file."""
-    workspace = workspace_of(place) if place and os.path.isfile(place) else place
-    return detect_environment(workspace, os.environ, package_path)
+    """The environment of this process's own variables for a workspace folder, or for the workspace of a file.
+
+    A folder inside of a package, as editors take that of the first file for one, is no workspace: it is like a file.
+    """
+    if place and os.path.isfile(place):
+        place = workspace_of(place)
+    elif place and any(map(_is_package, _with_parents(os.path.dirname(os.path.abspath(place))))):
+        place = workspace_of(os.path.join(place, "any.launch"))
+    return detect_environment(place, os.environ, package_path)
 
 
 def workspace_of(file: str) -> str:
