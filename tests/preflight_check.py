@@ -41,7 +41,7 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse, Range, Role
+from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, MadeNode, Outcome, ParamUse, Range, Role
 from preflight_analysis.workspace.sources import Sources
 
 _FILE = re.compile(r"//- (\S+)\s*\Z")
@@ -208,7 +208,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `status`, `exit_code`, `reason`, `stderr`, `notes`, `answers`; `md5` `{name: sum}`;
     `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and `on_demand`, lists of
-    names."""
+    names; `nodes`, those that the process makes, with the fields of `MadeNode`."""
     made = data.get("made", {})
     endpoints = [
         Endpoint(
@@ -243,7 +243,8 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         answers=tuple(data.get("answers", ())),
     )
     source = "none" if outcome.status == "not-run" else "trace"
-    return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())))
+    nodes = tuple(MadeNode(**node) for node in data.get("nodes", ()))
+    return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())), nodes=nodes)
 
 
 def _described(data: Mapping[str, Any], name: str) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import preload, preload_compile
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import MadeNode
 from preflight_analysis.tracing.preload import Library
 from rcl_desk import RclDesk
 from ros2_desk import ends, uses
@@ -31,6 +32,7 @@ def desk(request: pytest.FixtureRequest, tmp_path: Path) -> RclDesk:
 def test_endpoints_have_the_names_that_the_node_gave(desk: RclDesk) -> None:
     found = desk.trace("ends", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
     assert (found.source, found.outcome.status, found.outcome.answers, found.notes) == ("trace", "spinning", (), ())
+    assert found.nodes == (MadeNode("n", "own", "", renamed=True),)
     by_name = ends(found)
     assert {key: end.type for key, end in by_name.items()} == ALL
     assert by_name["publisher", "~/state"].qos == {
@@ -65,7 +67,9 @@ def test_what_is_made_after_a_short_wait_is_seen(desk: RclDesk) -> None:
 
 
 def test_a_node_in_a_namespace_of_its_own_has_full_names(desk: RclDesk) -> None:
-    assert ("publisher", "/there/chatter") in ends(desk.trace("elsewhere", attributes=""))
+    found = desk.trace("elsewhere", attributes="")
+    assert ("publisher", "/there/chatter") in ends(found)
+    assert [(node.name, node.space) for node in found.nodes] == [("own", "/there")]
 
 
 @pytest.mark.parametrize("mode", ["wait", "watch"])

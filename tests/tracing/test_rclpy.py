@@ -406,3 +406,59 @@ def test_actions_are_one_end_each_and_their_servers_are_waited_for(tmp_path: Pat
         ("action_client", "~/other"): ("fib/action/Fib", False),
         ("publisher", "after"): ("std_msgs/msg/String", True),
     }
+
+
+TWO = """
+import rclpy
+from rclpy.node import Node
+
+
+def main():
+    rclpy.init()
+    nodes = [Node('front'), Node('rear'), Node('kept', cli_args=['--ros-args', '-r', '__node:=kept'])]
+    print([node.get_name() for node in nodes])
+    executor = rclpy.executors.SingleThreadedExecutor()
+    for node in nodes:
+        executor.add_node(node)
+    executor.spin()
+"""
+
+
+@pytest.mark.parametrize(("attributes", "told"), [("name='scanner'", True), ("", False)])
+def test_a_name_for_a_process_with_several_nodes(tmp_path: Path, attributes: str, told: bool) -> None:
+    analysis = Ros2Desk(tmp_path, both=TWO).check(f"<node pkg='pkg' exec='both' {attributes}/>")
+    assert analysis.graph is not None
+    (interface,) = analysis.graph.interfaces
+    assert [(node.given, node.name) for node in interface.nodes] == [
+        ("front", "scanner" if told else "front"),
+        ("rear", "scanner" if told else "rear"),
+        ("kept", "kept"),
+    ]
+    found = [finding for finding in analysis.findings if finding.rule == "LCH037"]
+    assert [f.message.partition(":")[0] for f in found] == (
+        ["this process has the nodes 'front' and 'rear', and 'name' is for each of them"] if told else []
+    )
+
+
+def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, talker=node_of("self.declare_parameter('rate', 1.0)"))
+    own = desk.write("own.yaml", "/there/own:\n  ros__parameters: {rate: 2.5, rat: 1}\n")
+    other = desk.write("other.yaml", "/there/talker:\n  ros__parameters: {rate: 2.5}\n")
+    analysis = desk.check(
+        f"<node pkg='pkg' exec='talker' namespace='there'><param from='{own}'/></node>"
+        f"<node pkg='pkg' exec='talker' namespace='there'><param from='{other}'/></node>"
+        "<node pkg='pkg' exec='talker' namespace='elsewhere'/>"
+    )
+    assert analysis.graph is not None
+    first, second, _ = analysis.tree.nodes
+    assert [node.name for node in analysis.graph.tree.nodes] == ["/there/own", "/there/own", "/elsewhere/own"]
+    assert ([p.value for p in first.params], second.params) == ([2.5, 1], ())
+    said = sorted(
+        {(f.rule, f.message.partition(":")[0]) for f in analysis.findings if f.severity in ("warning", "error")}
+    )
+    assert said == [
+        ("LCH016", "there is another node with the name '/there/own'"),
+        ("PRM011", "'/there/talker' is no node that gets this file"),
+        ("PRM011", "the file has nothing for /there/own, which therefore ignores it; it is for '/there/talker'"),
+        ("PRM013", "/there/own declares no parameter 'rat'"),
+    ]

@@ -129,6 +129,8 @@ class LaunchNode(NamedTuple):
     unknowns: tuple[Unknown, ...] = ()
     """Values of this node that could not be known: it is then not run, and findings about it are less sure."""
     named: bool = True
+    told: bool = False
+    """ROS 2: whether the launch file gives it no name, and a run told the one that its own code does."""
     container: str | None = None
     container_location: Location | None = None
     """Where a composable node that is loaded names its container; None for one in the container's own tag."""

@@ -47,7 +47,7 @@ def _node(
 ) -> ExpectedNode:
     connections = list(connections)
     name, certain = node.name, "$(" not in node.name
-    if not node.named:
+    if not (node.named or node.told):
         found = _own_name(connections)
         name, certain = (found, True) if found is not None else (name, False)
     loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if generation == 1 else None

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.tree import LaunchNode, Problem
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.places import node_location
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -29,6 +31,28 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=(Related("the first one", first),),
             fixes=() if twice else _fixes(context, problem, taken),
         )
+    yield from _of_own_names(rule, context)
+
+
+def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Nodes of ROS 2 whose own code gives them the name that another one has."""
+    nodes = context.graph.tree.nodes if context.graph is not None else ()
+    if not any(node.told for node in nodes):
+        return
+    first: dict[str, LaunchNode] = {}
+    for node in sorted(nodes, key=lambda node: node.told):
+        if not (node.named or node.told) or node.unknowns:
+            continue
+        other = first.setdefault(node.name, node)
+        if node.told and other is not node:
+            yield rule.finding(
+                f"there is another node with the name '{node.name}': the code of this one calls it so, as it has no "
+                "'name' here",
+                Location(node.location.file, node.action.kind_span),
+                severity="warning",
+                confidence="likely",
+                related=(Related("the first one", node_location(other)), *include_chain(node.origin)),
+            )
 
 
 def _fixes(context: Context, problem: Problem, taken: set[str]) -> tuple[Fix, ...]:
@@ -48,7 +72,8 @@ RULE = Rule(
     severity="error",
     what="Reports a second node with the same full name, in this file or in one that is included.",
     why="`roslaunch` stops: names are unique in the graph, a second node would shut the first one down. "
-    "`ros2 launch` only warns: both run, and what asks for one of them by its name may get the other.",
+    "`ros2 launch` only warns: both run, and what asks for one of them by its name may get the other. Of nodes without "
+    "a `name` it does not even know.",
     example='<node pkg="laser" type="driver" name="laser"/>\n<node pkg="laser" type="driver" name="laser"/>',
     instead='<node pkg="laser" type="driver" name="laser_front"/>\n<node pkg="laser" type="driver" name="laser_rear"/>',
     check=_check,

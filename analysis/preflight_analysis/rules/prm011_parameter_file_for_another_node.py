@@ -32,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lost = [s for s in sections if not any(s.fits(name) for name in names)]
         for node, location in nodes:
             # One that the launch file does not name may have any of the names in the file.
-            if not node.named or any(section.fits(node.name) for section in sections):
+            if not (node.named or node.told) or any(section.fits(node.name) for section in sections):
                 continue
             shared = len(nodes) > 1
             yield from _about(rule, context, node, location, path, sections, lost, shared=shared)

@@ -20,7 +20,7 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.agents.params import ParamTree
-from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, Outcome, ParamUse, Range
+from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, MadeNode, Outcome, ParamUse, Range
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
@@ -275,4 +275,5 @@ def _decode(data: Mapping[str, Any]) -> Interface:
         tuple(_param(use) for use in data["params"]),
         notes=tuple(data["notes"]),
         frames=tuple(Frame(**frame) for frame in data["frames"]),
+        nodes=tuple(MadeNode(**node) for node in data["nodes"]),
     )

@@ -108,6 +108,17 @@ class Frame:
 
 
 @dataclass(frozen=True, slots=True)
+class MadeNode:
+    """A node of ROS 2 that the process made: `given` is the name that its code gave it, `space` the namespace, "" for
+    none; `name` what it then had, and `renamed` whether that is the one that the launch gave to the process."""
+
+    name: str
+    given: str
+    space: str = ""
+    renamed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Outcome:
     """How the run ended. `reason` is one sentence for the user where the status is not `spinning`."""
 
@@ -151,6 +162,8 @@ class Interface:
 
     frames: tuple[Frame, ...] = ()
     """What it was seen to broadcast; other frames may follow."""
+    nodes: tuple[MadeNode, ...] = ()
+    """ROS 2: those that the process was seen to make; what its libraries make in C++ alone is not among them."""
     elsewhere: Elsewhere | None = None
     """Where what is `similar` was seen."""
 

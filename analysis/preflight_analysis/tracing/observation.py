@@ -20,6 +20,7 @@ from preflight_analysis.tracing.interface import (
     Endpoint,
     Frame,
     Interface,
+    MadeNode,
     Outcome,
     ParamUse,
     Range,
@@ -33,6 +34,7 @@ from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, Ra
 MAX_ENDPOINTS = 2_000
 MAX_PARAMS = 5_000
 MAX_FRAMES = 500
+MAX_NODES = 100
 MAX_FILES = 10_000
 MAX_ANSWERS = 20
 MAX_DEPTH = 20
@@ -137,6 +139,7 @@ class _Gathered:
     files: dict[str, None] = field(default_factory=dict)
     asked: set[str] = field(default_factory=set)
     frames: dict[Frame, None] = field(default_factory=dict)
+    nodes: dict[MadeNode, None] = field(default_factory=dict)
     wrote: dict[str, None] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
     answers: dict[str, None] = field(default_factory=dict)
@@ -203,7 +206,15 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         param_dependencies += [ParamDependency("get", name, given=False) for name in request.params]
     if not watched or unexplained or _is_named(endpoints, params, request.node):
         asked |= {"name", "remaps"} if recipe.remapped else {"name"}
-    interface = Interface("trace", outcome, endpoints, params, notes=_notes(found), frames=tuple(sorted(found.frames)))
+    interface = Interface(
+        "trace",
+        outcome,
+        endpoints,
+        params,
+        notes=_notes(found),
+        frames=tuple(sorted(found.frames)),
+        nodes=tuple(found.nodes),
+    )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
     return Observation(interface, dependencies, lasting=not raw.killed and not raw.cancelled)
 
@@ -260,6 +271,12 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
             if parent is None or child is None or len(found.frames) >= MAX_FRAMES:
                 return False
             found.frames[Frame(parent, child, record.get("static") is True)] = None
+        case "node":
+            name, given = _text(record.get("name"), _NAME), _text(record.get("given"), _NAME)
+            space = _text(record.get("space"), _NAME) or ""
+            if name is None or given is None or len(found.nodes) >= MAX_NODES:
+                return False
+            found.nodes[MadeNode(name, given, space, record.get("renamed") is True)] = None
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":

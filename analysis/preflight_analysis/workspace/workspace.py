@@ -33,6 +33,7 @@ from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.own_names import with_own_names
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
     from_settings,
@@ -219,6 +220,9 @@ class Workspace:
 
         `why_not_run` says why nothing was executed, None where it was.
         """
+        tree = with_own_names(analysis.tree, interfaces, analysis.documents)
+        if tree is not analysis.tree:
+            analysis = replace(analysis, tree=tree, context=replace(analysis.context, tree=tree))
         project = self._project_settings()
         interfaces = from_settings(analysis.tree, interfaces, project.nodes)
         interfaces = self._nodl.fill_in(analysis.tree, interfaces)

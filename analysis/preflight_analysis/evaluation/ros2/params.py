@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import yaml
 
-from preflight_analysis.documents.document import SpannedText
+from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
-from preflight_analysis.evaluation.ros2.param_files import EVERY, Section, read_flat_file, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import EVERY, ParamFile, Section, read_flat_file, read_param_file
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
-from preflight_analysis.evaluation.tree import Param, ParamSource
+from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.schema_ros2 import PARAM_TYPES
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
@@ -161,6 +162,25 @@ def file_source(
         message, span = file.problem
         at, fatal = (*origin, Location(path, span)), to.composable or substitute
         state.problem("bad-yaml", at, fatal=fatal, message=message, path=path)
+    return _of_file(file, text, path, origin, to, substituted=substitute)
+
+
+def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document]) -> LaunchNode:
+    """A node that the launch file does not name, under the name that its own code gives it: parameter files may have
+    something for that."""
+    to = Sources(name)
+    for source in node.param_sources:
+        document = documents.get(source.path) if source.path is not None else None
+        if source.path is None or document is None or "$(" in document.text:
+            to.add(source)  # a value of the launch file, or one that was read after its substitutions were made
+        else:
+            file = read_param_file(document.text)
+            to.add(_of_file(file, document.text, source.path, source.origin, to, substituted=False))
+    return node._replace(name=name, told=True, params=to.effective(), param_sources=tuple(to.found))
+
+
+def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources, *, substituted: bool) -> ParamSource:
+    """What of a file reaches a node."""
     reaching = [s for s in file.sections if s.reaches(to.node, composable=to.composable)]
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
@@ -169,7 +189,7 @@ def file_source(
     params, keys = [], []
     for section in reaching:
         for param in section.params:
-            place = Location(path, Span(0, 0) if substitute else param.name_span)
+            place = Location(path, Span(0, 0) if substituted else param.name_span)
             value = param.by_launch if to.composable else param.value
             params.append(Param(param.name, value, (*origin, place), to.owner, place))
             keys.append(section.key)

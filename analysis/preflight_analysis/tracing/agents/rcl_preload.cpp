@@ -718,7 +718,16 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
   quietly([&] {
     // The client library asks for the node's name all the time: that the node does so itself cannot be told apart.
     Event("asked").add("what", std::string("name")).send();
-    if (result == kOk) Event("state").add("state", std::string("init")).send();
+    if (result != kOk) return;
+    std::string expected = text(getenv("PREFLIGHT_NODE"));
+    std::string given_by_launch = expected.substr(expected.rfind('/') + 1);
+    Event("node")
+        .add("name", node_name(self))
+        .add("given", text(name))
+        .add("space", text(space))
+        .add("renamed", node_name(self) == given_by_launch)
+        .send();
+    Event("state").add("state", std::string("init")).send();
   });
   return result;
 }

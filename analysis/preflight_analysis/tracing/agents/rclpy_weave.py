@@ -274,6 +274,14 @@ def _constructed(original: Callable[..., Any]) -> Callable[..., Any]:
     @_quiet
     def tell(node: Any, arguments: dict[str, Any]) -> None:
         _nodes.append(node)
+        name = str(node.get_name())
+        channel.send(
+            "node",
+            name=name,
+            given=str(arguments.get("node_name")),
+            space=str(arguments.get("namespace") or ""),
+            renamed=name == os.environ.get(EXPECTED, "").rpartition("/")[2],
+        )
         options = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
         if any(arguments.get(option) for option in options):
             channel.send("param", access="list", name="/", optional=True)

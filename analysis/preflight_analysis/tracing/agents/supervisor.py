@@ -30,7 +30,20 @@ MASTER_PORT = 11311
 MAX_LINE = 64_000
 MAX_EVENTS = 20_000
 EVENTS = frozenset(
-    ("endpoint", "frame", "param", "asked", "answered", "feed", "state", "files", "wrote", "woven", "weave-failed")
+    (
+        "endpoint",
+        "frame",
+        "node",
+        "param",
+        "asked",
+        "answered",
+        "feed",
+        "state",
+        "files",
+        "wrote",
+        "woven",
+        "weave-failed",
+    )
 )
 _SET_SECCOMP = 22
 TICK = 0.02

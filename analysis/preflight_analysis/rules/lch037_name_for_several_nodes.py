@@ -1,0 +1,52 @@
+"""LCH037: a name for a process that has several nodes (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
+        if not node.named or len(interface.nodes) < 2:
+            continue
+        renamed = [each for each in interface.nodes if each.renamed]
+        given = list(dict.fromkeys(each.given for each in renamed))
+        if len(given) < 2:
+            continue
+        value = node.action.value("name")
+        span = value.span if value is not None else node.action.kind_span
+        leaf = node.name.rpartition("/")[2]
+        spaces = {names.canonicalize(f"/{each.space}") for each in renamed} if node.namespace == "/" else {""}
+        same = len(spaces) < len(renamed)
+        what = f"all of them have the name '{node.name}'" if same and len(spaces) == 1 else f"all are called '{leaf}'"
+        yield rule.finding(
+            f"this process has the nodes {quoted(given)}, and 'name' is for each of them: {what}, and what is meant "
+            f"for one by its own name does not reach it; leave 'name' out, and rename one by a remap from "
+            f"'{given[0]}:__node' to '{leaf}'",
+            Location(node.location.file, span),
+            severity=None if same else "info",
+            confidence="certain" if interface.source == "trace" else "likely",
+            related=include_chain(node.origin),
+        )
+
+
+RULE = Rule(
+    id="LCH037",
+    name="name-for-several-nodes",
+    severity="warning",
+    what="Reports a `name` in the tag of a process that makes several nodes, of which a run showed that they take it "
+    "(ROS 2). Nodes that choose their name themselves whatever the launch says are not counted.",
+    why="launch passes `-r __node:=name` to the process, which renames each node in it. They then share one name: "
+    "their parameters, their services and their lifecycle are mixed up, and keys of parameter files with their own "
+    "names fit none of them.",
+    example='<!-- makes the nodes front and rear -->\n<node pkg="scanners" exec="both" name="scanner"/>',
+    instead='<node pkg="scanners" exec="both">\n  <remap from="front:__node" to="scanner"/>\n</node>',
+    generations=(2,),
+    check=_check,
+    needs_graph=True,
+)

@@ -1,0 +1,39 @@
+"""Nodes of ROS 2 that the launch file does not name, under the names that their own code gave them in a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.params import of_name
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.tracing.interface import Interface
+
+
+def with_own_names(tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document]) -> LaunchTree:
+    """The tree with the real names where a run told them; the same one where there is nothing to change."""
+    if tree.generation != 2 or all(node.named for node in tree.nodes):
+        return tree
+    changed = False
+    nodes = list(tree.nodes)
+    for at, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
+        name = _own_name(node, interface)
+        if name is not None:
+            nodes[at] = of_name(node, name, documents)
+            changed = True
+    return replace(tree, nodes=tuple(nodes)) if changed else tree
+
+
+def _own_name(node: LaunchNode, interface: Interface) -> str | None:
+    """None where it is not known, or where the process has several: which of them is meant nobody can tell."""
+    if node.named or node.unknowns or node.kind not in ("node", "lifecycle"):
+        return None
+    made = {(each.name, each.space) for each in interface.nodes if not each.given.startswith("_")}
+    if len(made) != 1:
+        return None
+    ((name, space),) = made
+    if node.namespace != "/":
+        space = node.namespace
+    return names.canonicalize(f"/{space}/{name}")
