@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+import xmlrpc.client
 from pathlib import Path
 from typing import Any
 
 import pytest
 from editor_desk import ROOT, Desk
 from editor_launch_files import lay_formats, lay_robot
+from live_desk import Ros1System, until
 
 pytestmark = [pytest.mark.editor, pytest.mark.vscode]
 
@@ -19,7 +21,7 @@ VSIX = ROOT / "out/ros-preflight.vsix"
 SCREENSHOTS = ROOT / "out/screenshots"
 
 
-def drive(desk: Desk, scenario: str) -> dict[str, Any]:
+def drive(desk: Desk, scenario: str, **more: Any) -> dict[str, Any]:
     if not (HERE / "node_modules/.installed").exists():
         pytest.fail("code-server is missing: run tests/editors/install.sh")
     if not VSIX.exists():
@@ -38,6 +40,7 @@ def drive(desk: Desk, scenario: str) -> dict[str, Any]:
         "chromium": chromium,
         "log": str(log),
         "server": str(desk.server),
+        **more,
     }
     done = subprocess.run(
         ["node", str(HERE / "drive.mjs"), scenario, json.dumps(given)],
@@ -115,6 +118,45 @@ def test_server_is_installed_where_there_is_none(desk_without_server: Desk) -> N
     python, *arguments = seen["command"]
     assert python.startswith(str(desk_without_server.home))
     assert arguments == ["-I", "-m", "preflight_server", "lsp"]
+
+
+def test_tree_shows_what_the_running_robot_does(trusted_desk: Desk, tmp_path: Path) -> None:
+    system = Ros1System(tmp_path, elsewhere=trusted_desk.workspace)
+    trusted_desk.environment["ROS_MASTER_URI"] = system.environment["ROS_MASTER_URI"]
+    trusted_desk.environment["ROS_IP"] = "127.0.0.1"
+    try:
+        system.launch(trusted_desk.launch_file)
+        victims: list[int] = []
+        until(lambda: registered(system, "/talker") and registered(system, "/listener", victims))
+
+        seen = drive(trusted_desk, "watch", victim=victims[0])
+    finally:
+        system.close()
+
+    assert "as it should be" in seen["healthy"]
+    assert "/listener" in seen["broken"]
+
+
+def registered(system: Ros1System, name: str, pids: list[int] | None = None) -> bool:
+    """Whether a node can be asked; its process is added to `pids`."""
+    try:
+        pid = system.pid(name)
+    except (OSError, xmlrpc.client.Error, TypeError, IndexError):
+        return False
+    if pids is not None:
+        pids.append(pid)
+    return True
+
+
+def test_set_ups_are_sourced(trusted_desk: Desk) -> None:
+    setup = trusted_desk.home / "overlay.bash"
+    setup.write_text("echo sourcing\nexport ROS_PACKAGE_PATH=/opt/of/the/overlay\n")
+
+    seen = drive(trusted_desk, "setups", setup=str(setup))
+
+    assert "does not exist" in seen["missing"]
+    assert f"{setup}, sourced" in seen["doctor"]
+    assert "/opt/of/the/overlay" in seen["doctor"]
 
 
 def test_untrusted_workspace_says_why_and_trust_needs_no_restart(untrusted_desk: Desk) -> None:

@@ -10,7 +10,8 @@ import {
   workspace,
 } from "vscode";
 import { launchFiles } from "./documents";
-import { choosePython, clearCache, DOCTOR, nodesOf, setServerPath, trace } from "./maintenance";
+import { type Live, watched } from "./live";
+import { choosePython, clearCache, DOCTOR, nodesOf, setServerPath, trace, watch } from "./maintenance";
 import { showMenu } from "./menu";
 import type { NodeItem } from "./nodeItems";
 import { NodeTreeView } from "./nodeTree";
@@ -27,10 +28,20 @@ export function activate(context: ExtensionContext): void {
   const log = window.createOutputChannel("ROS Preflight", { log: true });
   const tree = new NodeTreeView((document) => languages.match(launchFiles, document) > 0);
   let statusBar: StatusBar | undefined;
+  let watching: string | undefined;
+  const showLive = (told: Live) => {
+    watching = told.event === "state" ? watching : told.to;
+    tree.showLive(watched(told, watching));
+    void commands.executeCommand("setContext", "rosPreflight.watching", told.event !== "stopped");
+  };
   const server = new ServerSession(context, log, {
     changed: (life, status) => statusBar?.update(life, status),
-    connected: (client) => tree.connect(client),
+    connected: (client) => {
+      showLive({ event: "stopped" }); // a new server watches nothing
+      tree.connect(client);
+    },
     analysed: () => tree.refresh(),
+    live: showLive,
   });
   session = server;
   const command = (name: string, perform: (...given: never[]) => unknown) =>
@@ -59,6 +70,11 @@ export function activate(context: ExtensionContext): void {
       const which = window.activeTextEditor ? nodesOf(window.activeTextEditor, true) : tree.shown && { uri: tree.shown };
       return which && server.withClient((client) => trace(client, which));
     }),
+    command("watch", () => {
+      const uri = tree.shown ?? window.activeTextEditor?.document.uri.toString();
+      return uri && server.withClient((client) => watch(client, uri, true));
+    }),
+    command("stopWatching", () => server.withClient((client) => watch(client, tree.shown ?? "", false))),
     command("clearCache", () => server.withClient(clearCache)),
     command("choosePython", () => choosePython(log)),
     command("setServerPath", setServerPath),

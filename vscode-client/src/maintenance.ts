@@ -30,6 +30,16 @@ export async function trace(client: LanguageClient, { uri, node, position }: Whi
   }
 }
 
+/** Starts or ends the comparison of the running system with what a file's launch starts. */
+export async function watch(client: LanguageClient, uri: string, on: boolean): Promise<void> {
+  const answer = await client.sendRequest<{ message: string | null }>("rosPreflight/watch", { uri, watch: on });
+  if (answer.message !== null) {
+    void window.showWarningMessage(`ROS Preflight: ${answer.message}`);
+  } else if (on) {
+    await commands.executeCommand("rosPreflight.nodes.focus");
+  }
+}
+
 /** Forgets what runs of nodes told. */
 export async function clearCache(client: LanguageClient): Promise<void> {
   const { entries, bytes } = await client.sendRequest<{ entries: number; bytes: number }>("rosPreflight/clearCache", {});

@@ -18,6 +18,7 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
     [
       { label: "$(list-selection) Select Root and Arguments", description: "in whose context the file is shown", command: "rosPreflight.selectRoot" },
       { label: "$(list-tree) Show Node Tree", description: "what the launch starts", command: "rosPreflight.showNodeTree" },
+      { label: "$(eye) Watch Running System", description: "compare it with the launch", command: "rosPreflight.watch" },
       { label: "$(type-hierarchy) Show Graph", description: "who talks to whom", command: "rosPreflight.showGraph" },
     ],
   ],

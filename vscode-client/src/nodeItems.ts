@@ -1,4 +1,5 @@
 import type { Location } from "vscode-languageserver-types";
+import type { LiveState } from "./live";
 
 /** A line of the tree of nodes, in the server's own words (`rosPreflight/tree`). */
 export interface NodeItem {
@@ -25,9 +26,6 @@ export interface NodeTree {
   readonly items: readonly NodeItem[];
 }
 
-/** What a node is doing on the running robot: for who watches it. */
-export type LiveState = "running" | "missing" | "unexpected";
-
 /** The colours of launch files, by names that every theme has. The root file has the first. */
 const COLOURS = ["charts.blue", "charts.orange", "charts.green", "charts.purple", "charts.yellow", "charts.red"] as const;
 
@@ -36,13 +34,31 @@ export function colourOf(file: number | null): string | undefined {
   return file === null ? undefined : COLOURS[file % COLOURS.length];
 }
 
+const LIVE_ICONS: Readonly<Record<LiveState, string>> = {
+  present: "pass-filled",
+  missing: "error",
+  dead: "debug-disconnect",
+  extra: "add",
+  "wrong-type": "warning",
+  unsure: "question",
+};
+
+/** The nodes that run and that the launch file does not start, as lines below the others. */
+export function extras(live: ReadonlyMap<string, LiveState>): NodeItem[] {
+  const plain = { detail: "", location: null, file: null, note: "", severity: null, findings: 0, children: [] };
+  const names = [...live].filter(([, state]) => state === "extra").map(([name]) => name);
+  const children = names.sort().map((name): NodeItem => ({ ...plain, kind: "node", label: name, name }));
+  const section = { ...plain, kind: "section", label: "Running, not launched", detail: String(names.length), name: "", children } as const;
+  return names.length > 0 ? [section] : [];
+}
+
 /** The icon of a line, by its name in the product's icon font. */
 export function iconOf(item: NodeItem, live: LiveState | undefined): string {
   switch (item.kind) {
     case "namespace":
       return "symbol-namespace";
     case "node":
-      return live === undefined ? "circle-large-filled" : { running: "pass-filled", missing: "error", unexpected: "question" }[live];
+      return live === undefined ? "circle-large-filled" : LIVE_ICONS[live];
     case "param":
       return "symbol-parameter";
     case "remap":

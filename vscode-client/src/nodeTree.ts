@@ -19,7 +19,8 @@ import {
   workspace,
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import { colourOf, decorationOf, iconOf, identified, type LiveState, type NodeItem, type NodeTree } from "./nodeItems";
+import { UNWATCHED, type Watched } from "./live";
+import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem, type NodeTree } from "./nodeItems";
 
 const SCHEME = "ros-preflight-node";
 
@@ -37,7 +38,7 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   private client: LanguageClient | undefined;
   private uri: string | undefined;
   private tree: NodeTree | undefined;
-  private live: ReadonlyMap<string, LiveState> = new Map();
+  private live = UNWATCHED;
   private asking = false;
   private askAgain = false;
 
@@ -68,9 +69,10 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
     return this.uri;
   }
 
-  /** Shows what nodes do on the running robot, by full name; an empty map when nobody watches it. */
-  showLive(states: ReadonlyMap<string, LiveState>): void {
-    this.live = states;
+  /** Shows what nodes do on the running robot. */
+  showLive(live: Watched): void {
+    this.live = live;
+    this.view.message = live.message ?? "";
     this.changed.fire(undefined);
   }
 
@@ -106,7 +108,10 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   }
 
   getChildren(line?: Line): Line[] {
-    return line === undefined ? identified(this.tree?.items ?? []) : identified(line.item.children, line.id);
+    if (line !== undefined) {
+      return identified(line.item.children, line.id);
+    }
+    return this.tree === undefined ? [] : identified([...this.tree.items, ...extras(this.live.states)]);
   }
 
   getTreeItem({ id, item }: Line): TreeItem {
@@ -116,7 +121,7 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
     made.contextValue = item.kind;
     const colour = colourOf(item.file);
     made.iconPath = new ThemeIcon(
-      iconOf(item, this.live.get(item.name)),
+      iconOf(item, this.live.states.get(item.name)),
       item.kind === "not-taken"
         ? new ThemeColor("disabledForeground")
         : colour === undefined || item.kind === "param" || item.kind === "remap"
@@ -199,7 +204,7 @@ function fold(item: NodeItem): TreeItemCollapsibleState {
   if (item.children.length === 0) {
     return TreeItemCollapsibleState.None;
   }
-  const unfolded = item.kind === "namespace" || item.kind === "not-taken" || item.kind === "include" || item.label === "Includes" || item.label === "Not started";
+  const unfolded = item.kind === "namespace" || item.kind === "not-taken" || item.kind === "include" || (item.kind === "section" && item.label !== "Shared parameters");
   return unfolded ? TreeItemCollapsibleState.Expanded : TreeItemCollapsibleState.Collapsed;
 }
 

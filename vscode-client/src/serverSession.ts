@@ -4,6 +4,7 @@ import { commands, type ExtensionContext, type LogOutputChannel, ProgressLocatio
 import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
 import { createClient, workspaceTrust } from "./client";
 import { findServer, type ServerCommand, ServerNotFound } from "./findServer";
+import type { Live } from "./live";
 import { install, installed, InstallFailed } from "./privateServer";
 import { RestartPolicy } from "./restartPolicy";
 import type { Life, ServerStatus } from "./serverStatus";
@@ -12,6 +13,7 @@ import { isExecutable, pythons, surroundings } from "./surroundings";
 
 const statusChanged = new NotificationType<ServerStatus>("rosPreflight/status");
 const analysed = new NotificationType<object>("rosPreflight/analysed");
+const live = new NotificationType<Live>("rosPreflight/live");
 
 /** Who is told what becomes of the server. */
 export interface Listener {
@@ -21,6 +23,8 @@ export interface Listener {
   connected(client: LanguageClient | undefined): void;
   /** There is something newer to be shown. */
   analysed(): void;
+  /** The running system, which is watched, is not what it was. */
+  live(told: Live): void;
 }
 
 type Action = [label: string, perform: () => unknown];
@@ -115,6 +119,7 @@ export class ServerSession {
       }
     });
     client.onNotification(analysed, () => this.listener.analysed());
+    client.onNotification(live, (told) => this.listener.live(told));
     // Not awaited: a server that never answers must not keep "Restart Server" waiting.
     client.start().then(
       () => {

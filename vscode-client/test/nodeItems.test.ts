@@ -1,6 +1,6 @@
 import * as assert from "node:assert/strict";
 import { describe, it } from "node:test";
-import { colourOf, decorationOf, iconOf, identified, type NodeItem } from "../src/nodeItems";
+import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem } from "../src/nodeItems";
 
 function item(kind: NodeItem["kind"], label: string, more: Partial<NodeItem> = {}): NodeItem {
   return { kind, label, detail: "", name: "", location: null, file: null, note: "", severity: null, findings: 0, children: [], ...more };
@@ -15,8 +15,14 @@ describe("a line of the tree", () => {
 
   it("shows what the running robot does", () => {
     const node = item("node", "talker");
-    const icons = [undefined, "running", "missing", "unexpected"] as const;
-    assert.equal(new Set(icons.map((live) => iconOf(node, live))).size, 4);
+    const states = [undefined, "present", "missing", "dead", "extra", "wrong-type", "unsure"] as const;
+    assert.equal(new Set(states.map((live) => iconOf(node, live))).size, states.length);
+  });
+
+  it("is there for what runs and was not launched", () => {
+    const [section] = extras(new Map([["/b", "extra"], ["/ok", "present"], ["/a", "extra"]]));
+    assert.deepEqual(section?.children.map(({ name }) => name), ["/a", "/b"]);
+    assert.deepEqual(extras(new Map([["/ok", "present"]])), []);
   });
 
   it("is marked by the worst of its findings, and a namespace by those of its nodes", () => {

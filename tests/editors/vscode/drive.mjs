@@ -168,6 +168,48 @@ const scenarios = {
     }
   },
 
+  // The nodes of the tree are those of the running robot, and one of them dies.
+  async watch() {
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
+    await step("squiggle", () => squiggle().waitFor());
+    await step("watch", () => workbench.command("ROS Preflight: Watch Running System"));
+    const message = workbench.page.locator(".tree-explorer-viewlet-tree-view > .message");
+    const healthy = message.filter({ hasText: "as it should be" });
+    seen.healthy = await step("the system is as it should be", () => healthy.innerText());
+    process.kill(desk.victim, "SIGKILL");
+    const broken = message.filter({ hasText: "difference" });
+    seen.broken = await step("a node is missed", () => broken.innerText());
+    const marked = ".codicon-error, .codicon-debug-disconnect";
+    await step("its line", () => workbench.treeLine("listener").filter({ has: workbench.page.locator(marked) }).waitFor());
+    await step("picture of the running system", async () => {
+      await workbench.parkMouse();
+      await picture("16-watch");
+    });
+    await step("stop", () => workbench.command("ROS Preflight: Stop Watching Running System"));
+    await step("nothing is watched", () => broken.waitFor({ state: "hidden" }));
+  },
+
+  // A set-up that is not there is told; one that is there is what the server runs in.
+  async setups() {
+    workbench.settings = { "rosPreflight.environment.setup": ["/no/such/setup.bash"] };
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
+    seen.missing = await step("message about the set-up", () => workbench.message("/no/such/setup.bash").innerText());
+    await step("squiggle without it", () => squiggle().waitFor());
+    const before = serverProcess();
+    workbench.configure({ "rosPreflight.environment.setup": [desk.setup] });
+    await step("another server", () => until("another server", () => processes().length === 1 && processes()[0] !== before));
+    await step("the doctor's page", async () => {
+      await workbench.idle();
+      await workbench.command("ROS Preflight: Doctor");
+      await workbench.activeTab("Doctor").waitFor();
+      await workbench.line("/opt/of/the/overlay").first().waitFor();
+    });
+    seen.doctor = (await workbench.page.locator(".view-line").allTextContents()).join("\n").replaceAll("\u00a0", " ");
+    await step("picture of the doctor's page", () => picture("17-doctor"));
+  },
+
   // The extension installs the server that it brings along, and uses it the next time.
   async installs() {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));

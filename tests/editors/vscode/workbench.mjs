@@ -34,6 +34,8 @@ export const PATIENCE = 60_000;
 /** One code-server and one browser page on it. */
 export class Workbench {
   #ends = [];
+  /** Those that the workbench starts with, of the machine. */
+  settings = {};
 
   /**
    * @param {{home: string, vsix: string, workspace: string, log: string, chromium: string}} desk
@@ -51,7 +53,7 @@ export class Workbench {
     const { home, vsix, workspace, log } = this.desk;
     const folders = ["--user-data-dir", path.join(home, "data"), "--extensions-dir", path.join(home, "extensions")];
     this.configure(USER_SETTINGS, "User");
-    this.configure({});
+    this.configure(this.settings);
 
     const output = createWriteStream(log);
     this.#ends.push(() => output.end());

@@ -1,0 +1,48 @@
+/** What is the case with a node of the launch, or with one that the launch file does not start, on the running robot. */
+export type LiveState = "present" | "missing" | "extra" | "dead" | "wrong-type" | "unsure";
+
+/** What `rosPreflight/live` tells of the running system; the server's `protocol.py` has the whole of it. */
+export interface Live {
+  readonly event: "waiting" | "attached" | "restarted" | "state" | "stopped";
+  /** Why the system cannot be asked, or why nothing is watched any more. */
+  readonly reason?: string | null;
+  /** What is watched. */
+  readonly to?: string;
+  readonly same?: boolean;
+  readonly nodes?: Readonly<Record<string, LiveState>>;
+  readonly issues?: readonly { readonly counts: boolean; readonly message: string }[];
+}
+
+/** What is shown of the running system. */
+export interface Watched {
+  readonly states: ReadonlyMap<string, LiveState>;
+  /** One line; undefined while nothing is watched. */
+  readonly message: string | undefined;
+}
+
+export const UNWATCHED: Watched = { states: new Map(), message: undefined };
+
+/** What is shown after one more event; `to` is what the one before told to be watched. */
+export function watched(live: Live, to: string | undefined): Watched {
+  switch (live.event) {
+    case "stopped":
+      // Without a reason it was the user who ended it.
+      return live.reason ? { states: new Map(), message: `Not watched any more: ${live.reason}` } : UNWATCHED;
+    case "waiting":
+      return { states: new Map(), message: `Waiting for the running system: ${live.reason ?? ""}` };
+    case "attached":
+    case "restarted":
+      return { states: new Map(), message: `Watching ${live.to ?? "the running system"}` };
+    case "state": {
+      const differences = (live.issues ?? []).filter(({ counts }) => counts);
+      const said =
+        differences.length === 0
+          ? "as it should be"
+          : `${differences.length} difference${differences.length === 1 ? "" : "s"}, first: ${differences[0]?.message}`;
+      return {
+        states: new Map(Object.entries(live.nodes ?? {})),
+        message: `${to === undefined ? "Running system" : to}: ${said}`,
+      };
+    }
+  }
+}
