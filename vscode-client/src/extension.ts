@@ -109,7 +109,9 @@ function registerDoctor(server: ServerSession): Disposable {
       await server.withClient(async (client) => {
         ({ text } = await client.sendRequest<{ text: string }>("rosPreflight/doctor", {}));
       });
-      return [...server.facts, text].join("\n");
+      // In the columns that the server's lines have.
+      const width = /^\S.*?\s{2,}/.exec(text)?.[0].length ?? 10;
+      return [...server.facts.map(([what, value]) => what.padEnd(width) + value), text].join("\n");
     },
   });
   const opened = commands.registerCommand("rosPreflight.doctor", async () => {

@@ -38,10 +38,10 @@ export function watched(live: Live, to: string | undefined): Watched {
       const said =
         differences.length === 0
           ? "as it should be"
-          : `${differences.length} difference${differences.length === 1 ? "" : "s"}, first: ${differences[0]?.message}`;
+          : `${differences.length} difference${differences.length === 1 ? "" : "s"}. ${differences[0]?.message}`;
       return {
         states: new Map(Object.entries(live.nodes ?? {})),
-        message: `${to === undefined ? "Running system" : to}: ${said}`,
+        message: `Watching ${to ?? "the running system"}: ${said}`,
       };
     }
   }

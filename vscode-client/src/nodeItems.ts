@@ -30,7 +30,10 @@ export interface NodeTree {
 const COLOURS = ["charts.blue", "charts.orange", "charts.green", "charts.purple", "charts.yellow", "charts.red"] as const;
 
 /** The colour of what comes from a file; there are more files than colours in a large launch. */
-export function colourOf(file: number | null): string | undefined {
+export function colourOf(file: number | null, live?: LiveState): string | undefined {
+  if (live === "missing" || live === "dead") {
+    return "list.errorForeground";
+  }
   return file === null ? undefined : COLOURS[file % COLOURS.length];
 }
 

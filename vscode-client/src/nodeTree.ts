@@ -119,9 +119,10 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
     made.id = id;
     made.description = item.detail;
     made.contextValue = item.kind;
-    const colour = colourOf(item.file);
+    const live = this.live.states.get(item.name);
+    const colour = colourOf(item.file, live);
     made.iconPath = new ThemeIcon(
-      iconOf(item, this.live.states.get(item.name)),
+      iconOf(item, live),
       item.kind === "not-taken"
         ? new ThemeColor("disabledForeground")
         : colour === undefined || item.kind === "param" || item.kind === "remap"

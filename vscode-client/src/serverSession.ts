@@ -27,6 +27,7 @@ export interface Listener {
   live(told: Live): void;
 }
 
+type Fact = readonly [what: string, value: string];
 type Action = [label: string, perform: () => unknown];
 
 /** The one server of this window: found or installed, started, started again when it dies, stopped. */
@@ -40,8 +41,8 @@ export class ServerSession {
   private life: Life = { state: "stopped" };
   private status: ServerStatus | undefined;
   private saidThatItDied = false;
-  /** Where the server was found and what was sourced for it, a line each, for the doctor's page. */
-  readonly facts: string[] = [];
+  /** Where the server was found and what was sourced for it, for the doctor's page. */
+  readonly facts: Fact[] = [];
 
   constructor(
     private readonly context: ExtensionContext,
@@ -104,7 +105,7 @@ export class ServerSession {
     }
     const environment = await this.environment();
     this.log.info(`Starting ${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`);
-    this.facts.push(`server                ${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`);
+    this.facts.push(["server", `${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`]);
     let started = false;
     const client = createClient(server, environment, this.log, () => {
       if (started && client === this.client) {
@@ -199,17 +200,17 @@ export class ServerSession {
       // Sourcing a file is running it, and what it sources in turn may be the workspace's.
       if (files.length > 0 && !workspace.isTrusted) {
         this.log.info("The set-ups of the settings are sourced once the workspace is trusted.");
-        this.facts.push("set-ups               not sourced: the workspace is not trusted");
+        this.facts.push(["set-ups", "not sourced: the workspace is not trusted"]);
         return process.env;
       }
       const environment = await this.setups.environment(files, process.env, (line) => this.log.info(line));
-      this.facts.push(...files.map((file) => `set-up                ${file}, sourced`));
+      this.facts.push(...files.map((file): Fact => ["set-up", `${file}, sourced`]));
       return environment;
     } catch (error) {
       if (!(error instanceof SetupFailed)) {
         throw error;
       }
-      this.facts.push(`set-ups               not sourced: ${error.message}`);
+      this.facts.push(["set-ups", `not sourced: ${error.message}`]);
       this.report(
         error.message,
         ["Show Log", () => this.log.show()],
