@@ -431,3 +431,13 @@ class Ends(unittest.TestCase):
     analysis = desk.launch(path)
     assert [node.name for node in analysis.tree.nodes] == ["/n"]
     assert [finding.message for finding in analysis.findings if finding.rule == "LCH032"] == []
+
+
+def test_an_include_that_raises_and_is_never_executed(desk: PythonDesk) -> None:
+    """launch looks into it for required arguments, and says nothing of what it raises."""
+    desk.write("launch/broken.launch.py", "def generate_launch_description():\n    raise ValueError('no')\n")
+    include = "IncludeLaunchDescription([FindPackageShare('p'), '/launch/broken.launch.py']"
+    path = _described(desk, f"{include}, condition=IfCondition('false'))")
+    assert not desk.launch(path).tree.problems
+    path = _described(desk, f"{include})")
+    assert [problem.kind for problem in desk.launch(path).tree.problems] == ["python-exception"]

@@ -438,7 +438,10 @@ class _Walk:
         found = self._state.read_launch_file(located(self._state.environment, path))
         if isinstance(found, Unreadable):
             return None
-        found, _ = self._as_run(found, (Location(file, value.span),))
+        if found.path.endswith(PYTHON_SUFFIX):
+            # Whether it is executed at all is not known yet: launch keeps to itself what it raises now.
+            quiet.commands, quiet.inputs = self._state.commands, self._state.inputs
+            found, _ = recorded(quiet, self._context, found, (Location(file, value.span),))
         return None if found.partial else found
 
     def _too_deep(self, place: Place, action: Action) -> bool:
