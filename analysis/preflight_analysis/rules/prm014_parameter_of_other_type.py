@@ -30,13 +30,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not node.params:
             continue
         declared = {u.name.removeprefix("~"): u for u in interface.params if u.access == "get" and not u.dynamic}
-        files = {s.path for s in node.param_sources if s.path is not None}
         for param in node.params:
             use = declared.get(param.name)
             wanted = _declared_type(use, interface) if use is not None else None
-            if use is None or wanted is None:
-                continue
-            place = name_place(param)
+            if use is None or wanted is None or (wanted != "string" and _TYPES.get(type(param.value)) == wanted):
+                continue  # most are as they should be, and only texts change on their way
+            place, files = name_place(param), {s.path for s in node.param_sources}
             passed = param.value if place.file in files or node.container else as_passed(param.value)
             message = _wrong(param, passed, wanted, node)
             if message is None or (place, message) in told:

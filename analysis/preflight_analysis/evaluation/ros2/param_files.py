@@ -52,6 +52,8 @@ class Section:
 
     def fits(self, node: str) -> bool:
         """Whether the node of this full name gets them."""
+        if "*" not in self.pattern:
+            return self.pattern == node
         return _compiled(self.pattern).fullmatch(node) is not None
 
     def reaches(self, node: str, *, composable: bool) -> bool:
