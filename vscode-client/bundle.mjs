@@ -1,5 +1,5 @@
-// Bundles the extension into dist/extension.js, with the licences of what is bundled in dist/THIRD_PARTY_NOTICES.txt.
-import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+// Bundles the extension into dist/extension.js, with the page of the graph view in dist/view and the licences of what is bundled in dist/THIRD_PARTY_NOTICES.txt.
+import { cpSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
 const { metafile } = await build({
@@ -27,3 +27,6 @@ const notices = [...packages].sort().map((folder) => {
   return `${name} ${version} (${license})\n\n${readFileSync(`${folder}/${file}`, "utf8").trim()}\n`;
 });
 writeFileSync("dist/THIRD_PARTY_NOTICES.txt", notices.join(`\n${"-".repeat(80)}\n\n`));
+
+// The same page as that of `ros-preflight graph --format html`.
+cpSync("../analysis/preflight_analysis/view/page", "dist/view", { recursive: true });

@@ -175,3 +175,19 @@ def test_server_is_asked_for_and_started_again_when_it_dies(desk_without_server:
     assert "No matching distribution found" in seen["missing"]
     assert {"Show Log", "Choose Python", "Set Path"} <= set(seen["buttons"])
     assert seen["told"] == 1
+
+
+def test_the_graph_is_shown_leads_to_lines_and_follows(trusted_desk: Desk) -> None:
+    seen = drive(trusted_desk, "graph")
+
+    assert seen["shown"] == [
+        "node /listener",
+        "node /talker",
+        "topic /chater, warning",
+        "topic /chatter, warning",
+    ]
+    assert "std_msgs/String" in seen["hover"]
+    assert "TOP001" in seen["hover"]
+    assert [label.split(",")[0] for label in seen["followed"]] == ["node /listener", "node /talker", "topic /chatter"]
+    assert "<text" in seen["saved"]
+    assert seen["restored"] == "listener"

@@ -10,6 +10,7 @@ import {
   workspace,
 } from "vscode";
 import { launchFiles } from "./documents";
+import { GraphView } from "./graphView";
 import { type Live, watched } from "./live";
 import { choosePython, clearCache, DOCTOR, nodesOf, setServerPath, trace, watch } from "./maintenance";
 import { showMenu } from "./menu";
@@ -26,7 +27,8 @@ let session: ServerSession | undefined;
 
 export function activate(context: ExtensionContext): void {
   const log = window.createOutputChannel("ROS Preflight", { log: true });
-  const tree = new NodeTreeView((document) => languages.match(launchFiles, document) > 0);
+  const tree = new NodeTreeView(isLaunchFile);
+  const graph = new GraphView(context, isLaunchFile);
   let statusBar: StatusBar | undefined;
   let watching: string | undefined;
   const showLive = (told: Live) => {
@@ -39,8 +41,12 @@ export function activate(context: ExtensionContext): void {
     connected: (client) => {
       showLive({ event: "stopped" }); // a new server watches nothing
       tree.connect(client);
+      graph.connect(client);
     },
-    analysed: () => tree.refresh(),
+    analysed: () => {
+      tree.refresh();
+      graph.refresh();
+    },
     live: showLive,
   });
   session = server;
@@ -49,10 +55,12 @@ export function activate(context: ExtensionContext): void {
   context.subscriptions.push(
     log,
     tree,
+    graph,
     command("restartServer", () => server.restart()),
     command("showOutput", () => log.show()),
     command("showMenu", showMenu),
     command("showNodeTree", () => commands.executeCommand("rosPreflight.nodes.focus")),
+    command("showGraph", () => graph.show()),
     command("selectRoot", (uri?: string) => {
       const file = uri ?? window.activeTextEditor?.document.uri.toString();
       return file === undefined ? undefined : server.withClient((client) => selectRoot(client, file));
@@ -127,9 +135,12 @@ function registerDoctor(server: ServerSession): Disposable {
   };
 }
 
+function isLaunchFile(document: TextDocument): boolean {
+  return languages.match(launchFiles, document) > 0;
+}
+
 /** Calls back once, when a launch file is or comes to be open: an XML file of another kind needs no server. */
 function onFirstLaunchFile(callback: () => void): Disposable {
-  const isLaunchFile = (document: TextDocument) => languages.match(launchFiles, document) > 0;
   if (workspace.textDocuments.some(isLaunchFile)) {
     callback();
     return { dispose: () => undefined };

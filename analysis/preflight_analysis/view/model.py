@@ -197,7 +197,7 @@ class _Builder:
             channel,
             endpoint.role,
             endpoint.type,
-            {policy: json_value(value) for policy, value in endpoint.qos.items()},
+            {policy: json_value(value) for policy, value in endpoint.qos.items() if value is not None},
             endpoint.name if end.remap is not None else None,
             (*source, self._place(launch)),
             endpoint.builtin,

@@ -2,6 +2,7 @@
 // Prints what was seen as JSON; a step that fails is named on standard error, with a picture of the moment.
 import { readdirSync, readFileSync } from "node:fs";
 import path from "node:path";
+import { walkThroughGraph } from "./graph.mjs";
 import { contents, until, Workbench } from "./workbench.mjs";
 
 const [scenario, deskText] = process.argv.slice(2);
@@ -222,6 +223,14 @@ const scenarios = {
     await step("another server", () => until("another server", () => processes().length === 1 && processes()[0] !== first));
     await step("squiggle of the restarted server", () => squiggle().waitFor());
     seen.command = readFileSync(`/proc/${serverProcess()}/cmdline`, "utf8").split("\0").filter(Boolean);
+  },
+
+  // The graph view: lines to go to, live, saved, restored.
+  async graph() {
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
+    await step("squiggle", () => squiggle().waitFor());
+    await walkThroughGraph({ workbench, desk, step, picture, seen });
   },
 
   // Nothing is run and the reason is shown; once trust is granted, the finding comes without a restart.

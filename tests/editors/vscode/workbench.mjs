@@ -102,7 +102,7 @@ export class Workbench {
   /** Opens a file of the workspace by its name. */
   async openFile(name) {
     await this.#pick("Control+p", name, name);
-    await this.page.locator(".editor-instance .view-lines").waitFor();
+    await this.page.locator(".editor-instance .view-lines").first().waitFor();
   }
 
   // Commands are contributed one by one while the workbench starts, so the list may have to be asked again.

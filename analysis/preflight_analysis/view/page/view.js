@@ -29,7 +29,9 @@
   let graph;
   let svg;
   let pictures = {};
+  /** As the user set it; else all of it is shown, down to what can be read. */
   let zoom = saved.zoom;
+  let least = 0.55;
   let selected = saved.selected;
   /** Maps a coordinate of the layout to where it is drawn. */
   let drawn = { x: (value) => value, y: (value) => value, width: 0, height: 0 };
@@ -61,16 +63,12 @@
     }
     legend();
     arrange();
-    if (zoom === undefined || first) {
-      zoom ??= fitting(0.55);
-      scale();
-    }
     select(graph.items.has(selected) ? selected : undefined, false);
     graph.items.get(held)?.focus({ preventScroll: true });
     if (first) {
       // At the left, where messages come from; above it there may be nothing.
       const begin = graph.boxes.reduce((a, b) => (b.x < a.x ? b : a), graph.boxes[0]);
-      canvas.scrollTo(saved.left ?? 0, saved.top ?? (begin ? begin.y * zoom - canvas.clientHeight / 2 : 0));
+      canvas.scrollTo(saved.left ?? 0, saved.top ?? (begin ? begin.y * magnification() - canvas.clientHeight / 2 : 0));
     }
   }
 
@@ -192,13 +190,13 @@
     graph.shown = { boxes, routes };
     scale();
     const count = (list) => list.filter((each) => each === 2).length;
-    const plural = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
     const nodes = count(shown.node);
     const channels = count(shown.channel);
     filter.classList.toggle("nothing", nodes + channels === 0 && !shown.all);
-    element("status").textContent = shown.all && isAll
-      ? `${plural(nodes, "node")}, ${plural(channels, "topic")}${graph.channels.some((c) => c.kind !== "topic") ? ", services and actions" : ""}`.replace(/topics?, services/, "topics, services")
-      : `${nodes} of ${plural(graph.nodes.length, "node")}, ${channels} of ${graph.channels.length} topics, services and actions`;
+    const of = (shownOnes, all, what) => `${shown.all && isAll ? "" : `${shownOnes} of `}${all} ${what}`;
+    const named = graph.channels.every((channel) => channel.kind === "topic") ? "topics" : "topics, services and actions";
+    element("status").textContent =
+      `${of(nodes, graph.nodes.length, "nodes")}, ${of(channels, graph.channels.length, named)}`.replace(/\b1 (node|topic)s\b/g, "1 $1");
     walkable();
   }
 
@@ -273,12 +271,20 @@
 
   // Zoom
 
-  const fitting = (least) =>
-    Math.min(1.25, Math.max(least, Math.min((canvas.clientWidth - 4) / drawn.width, (canvas.clientHeight - 4) / drawn.height)));
+  const magnification = () =>
+    zoom ?? Math.min(1.25, Math.max(least, Math.min((canvas.clientWidth - 4) / drawn.width, (canvas.clientHeight - 4) / drawn.height)));
 
   function scale() {
-    svg.setAttribute("width", drawn.width * (zoom ?? 1));
-    svg.setAttribute("height", drawn.height * (zoom ?? 1));
+    const by = magnification();
+    svg.setAttribute("width", drawn.width * by);
+    svg.setAttribute("height", drawn.height * by);
+  }
+
+  function fit() {
+    zoom = undefined;
+    least = 0.08;
+    scale();
+    remember();
   }
 
   function zoomTo(next, at) {
@@ -540,11 +546,11 @@
       filter.focus();
       filter.select();
     } else if (event.key === "+" || event.key === "=") {
-      zoomTo(zoom * 1.25);
+      zoomTo(magnification() * 1.25);
     } else if (event.key === "-") {
-      zoomTo(zoom / 1.25);
+      zoomTo(magnification() / 1.25);
     } else if (event.key === "0") {
-      zoomTo(fitting(0.08));
+      fit();
     } else if (item && event.key.startsWith("Arrow")) {
       walkTo(step(item, event.key));
     } else if (item && event.key === "Enter") {
@@ -612,10 +618,10 @@
   canvas.addEventListener("wheel", (event) => {
     if (event.ctrlKey || event.metaKey) {
       event.preventDefault();
-      zoomTo(zoom * Math.exp(-event.deltaY / 400), { x: event.clientX, y: event.clientY });
+      zoomTo(magnification() * Math.exp(-event.deltaY / 400), { x: event.clientX, y: event.clientY });
     }
   }, { passive: false });
-  canvas.addEventListener("scroll", () => remember());
+  canvas.addEventListener("scrollend", () => remember());
 
   // The rest of the page
 
@@ -671,15 +677,9 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   }
 
-  let remembering;
   function remember() {
-    if (editor !== undefined && remembering === undefined) {
-      remembering = setTimeout(() => {
-        remembering = undefined;
-        const boxes = Object.fromEntries(["show-topic", "show-service", "show-action", "problems", "builtin"].map((id) => [id, element(id).checked]));
-        editor.setState({ ...editor.getState(), filter: filter.value, boxes, zoom, selected, left: canvas.scrollLeft, top: canvas.scrollTop });
-      }, 200);
-    }
+    const boxes = Object.fromEntries(["show-topic", "show-service", "show-action", "problems", "builtin"].map((id) => [id, element(id).checked]));
+    editor?.setState({ ...editor.getState(), filter: filter.value, boxes, zoom, selected, left: canvas.scrollLeft, top: canvas.scrollTop });
   }
 
   filter.addEventListener("input", () => {
@@ -700,9 +700,10 @@
       editor.postMessage({ type: "builtin", shown: element("builtin").checked });
     }
   });
-  element("zoom-in").addEventListener("click", () => zoomTo(zoom * 1.25));
-  element("zoom-out").addEventListener("click", () => zoomTo(zoom / 1.25));
-  element("fit").addEventListener("click", () => zoomTo(fitting(0.08)));
+  element("zoom-in").addEventListener("click", () => zoomTo(magnification() * 1.25));
+  element("zoom-out").addEventListener("click", () => zoomTo(magnification() / 1.25));
+  element("fit").addEventListener("click", fit);
+  addEventListener("resize", () => svg && scale());
   element("save").addEventListener("click", save);
   element("theme").addEventListener("click", () => {
     const isDark = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim() !== "#ffffff";

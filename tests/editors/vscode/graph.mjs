@@ -1,0 +1,75 @@
+// The graph view in VS Code, as a user walks through it.
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { contents, until } from "./workbench.mjs";
+
+/** @param the means of drive.mjs: the workbench, its desk, what names a step and takes a picture, and what is told. */
+export async function walkThroughGraph({ workbench, desk, step, picture, seen }) {
+  const graph = () => workbench.page.frameLocator("iframe.webview.ready").frameLocator("iframe#active-frame");
+  const item = (label) => graph().locator(`[aria-label^="${label}"]`).first();
+  const labels = () => graph().locator("[data-node], [data-channel]").evaluateAll((all) => all.map((each) => each.getAttribute("aria-label")).sort());
+  const cursor = (text) => workbench.page.locator(".statusbar-item", { hasText: text }).first().waitFor();
+
+  await step("shown", async () => {
+    await workbench.command("Show Graph");
+    await item("topic /chater, warning").waitFor();
+    seen.shown = await labels();
+  });
+  await picture("20-graph");
+  await step("hover", async () => {
+    await item("topic /chater").hover();
+    await graph().locator("#hint", { hasText: "std_msgs/String" }).waitFor();
+    await picture("21-graph-hover");
+    seen.hover = await graph().locator("#hint").innerText();
+  });
+  await step("click on a node", async () => {
+    await item("node /listener").click();
+    await cursor(/Ln 6, Col 3/);
+    await picture("22-graph-click");
+  });
+  await step("click on a topic", async () => {
+    // To the line of the source that publishes it.
+    await item("topic /chatter").click();
+    await workbench.page.locator(".tab.active", { hasText: "talker.py" }).waitFor();
+    await workbench.openFile("talker_listener.launch");
+  });
+  await step("Enter on a node", async () => {
+    await item("node /talker").focus();
+    await item("node /talker").press("Enter");
+    await cursor(/Ln 3, Col 3/);
+  });
+  await step("followed", async () => {
+    writeFileSync(desk.launchFile, contents(desk.launchFile).replace('to="chater"', 'to="chatter"'));
+    await item("topic /chater").waitFor({ state: "detached" });
+    seen.followed = await labels();
+  });
+  await step("saved", async () => {
+    await graph().locator("#save").click();
+    const box = workbench.page.locator(".quick-input-widget input[type=text]");
+    await box.waitFor();
+    const target = path.join(desk.workspace, "robot.svg");
+    await until("the picture on the disk", async () => {
+      if (await box.isVisible()) {
+        await box.fill(target);
+        await workbench.page.keyboard.press("Enter");
+      }
+      return existsSync(target) && readFileSync(target, "utf8").endsWith("</svg>\n");
+    });
+    seen.saved = readFileSync(target, "utf8");
+  });
+  await step("restored", async () => {
+    await graph().locator("#filter").fill("listener");
+    await item("node /listener").click();
+    await cursor(/Ln 6, Col 3/);
+    // Another tab in its place ends the page; it comes back as it was, for the file that is looked at by then.
+    const tab = workbench.page.locator(".tab", { hasText: "Graph:" });
+    await tab.click();
+    await workbench.openFile("fixed.launch");
+    await workbench.page.locator("iframe.webview.ready").waitFor({ state: "hidden" });
+    await tab.click();
+    await item("node /listener").waitFor();
+    await tab.filter({ hasText: "fixed.launch" }).waitFor();
+    await picture("23-graph-restored");
+    seen.restored = await graph().locator("#filter").inputValue();
+  });
+}

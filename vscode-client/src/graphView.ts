@@ -1,0 +1,221 @@
+import { randomBytes } from "node:crypto";
+import { readFileSync } from "node:fs";
+import {
+  type Disposable,
+  type ExtensionContext,
+  Position,
+  Range,
+  type TextDocument,
+  Uri,
+  ViewColumn,
+  type WebviewPanel,
+  window,
+  workspace,
+} from "vscode";
+import type { LanguageClient } from "vscode-languageclient/node";
+import { graphPage, utf16Column } from "./graphPage";
+
+const VIEW_TYPE = "rosPreflight.graph";
+
+interface Place {
+  readonly file: string;
+  readonly line: number;
+  readonly column: number;
+}
+
+/** What of the server's answer is looked at here; the page knows the rest. */
+interface Graph {
+  readonly title: string;
+  readonly nodes: readonly { readonly places: readonly Place[] }[];
+  readonly edges: readonly { readonly places: readonly Place[] }[];
+}
+
+type Answer = { readonly digest: string; readonly graph: Graph | null } | null;
+
+/** What the page sends. */
+type Message =
+  | { readonly type: "ready"; readonly builtin: boolean }
+  | { readonly type: "builtin"; readonly shown: boolean }
+  | { readonly type: "save"; readonly svg: string }
+  | ({ readonly type: "open" } & Place);
+
+/** The picture of who talks to whom, beside the launch file that was last looked at, and always up to date. */
+export class GraphView implements Disposable {
+  private panel: WebviewPanel | undefined;
+  private client: LanguageClient | undefined;
+  private uri: string | undefined;
+  private builtin = false;
+  private isReady = false;
+  private known: string | null = null;
+  /** The files that the shown graph leads to, and no others are opened for the page. */
+  private files: ReadonlySet<string> = new Set();
+  private asking = false;
+  private again = false;
+  private readonly subscriptions: Disposable[];
+
+  constructor(
+    private readonly context: ExtensionContext,
+    private readonly isLaunchFile: (document: TextDocument) => boolean,
+  ) {
+    this.subscriptions = [
+      window.onDidChangeActiveTextEditor((editor) => {
+        if (this.panel !== undefined && editor !== undefined && isLaunchFile(editor.document)) {
+          this.look(editor.document.uri.toString());
+        }
+      }),
+      window.registerWebviewPanelSerializer(VIEW_TYPE, {
+        deserializeWebviewPanel: async (panel, state: { uri?: string } | undefined) => {
+          this.uri ??= state?.uri;
+          this.adopt(panel);
+        },
+      }),
+    ];
+  }
+
+  dispose(): void {
+    this.panel?.dispose();
+    this.subscriptions.forEach((each) => each.dispose());
+  }
+
+  /** A server runs and can be asked, or there is none any more. */
+  connect(client: LanguageClient | undefined): void {
+    this.client = client;
+    this.refresh();
+  }
+
+  /** Shows the graph of the launch file in the active editor, or the one that was shown last. */
+  show(): void {
+    const document = window.activeTextEditor?.document;
+    if (document !== undefined && this.isLaunchFile(document)) {
+      this.uri = document.uri.toString();
+    }
+    if (this.uri === undefined) {
+      void window.showInformationMessage("ROS Preflight: open a launch file to see its graph.");
+      return;
+    }
+    if (this.panel === undefined) {
+      const where = { viewColumn: ViewColumn.Beside, preserveFocus: false };
+      this.adopt(window.createWebviewPanel(VIEW_TYPE, "ROS Graph", where, {}));
+    } else {
+      this.panel.reveal();
+      this.refresh();
+    }
+  }
+
+  /** Asks for the graph, if it is seen; what did not change is not sent. */
+  refresh(): void {
+    if (this.panel?.visible && this.isReady) {
+      this.again = true;
+      void this.ask();
+    }
+  }
+
+  private look(uri: string): void {
+    this.uri = uri;
+    this.refresh();
+  }
+
+  private adopt(panel: WebviewPanel): void {
+    this.panel = panel;
+    this.isReady = false;
+    panel.webview.options = { enableScripts: true, localResourceRoots: [] };
+    panel.webview.onDidReceiveMessage((message: Message) => this.received(message));
+    panel.onDidChangeViewState(() => this.refresh());
+    panel.onDidDispose(() => {
+      if (this.panel === panel) {
+        this.panel = undefined;
+        this.isReady = false;
+      }
+    });
+    const read = (file: string) =>
+      readFileSync(Uri.joinPath(this.context.extensionUri, "dist", "view", file).fsPath, "utf8");
+    panel.webview.html = graphPage(read, randomBytes(16).toString("base64"));
+  }
+
+  // One request at a time: while somebody types, only the newest answer is of interest.
+  private async ask(): Promise<void> {
+    if (this.asking) {
+      return;
+    }
+    this.asking = true;
+    try {
+      while (this.again && this.client !== undefined && this.uri !== undefined) {
+        this.again = false;
+        const { uri, builtin, known } = this;
+        const answer = await this.client.sendRequest<Answer>("rosPreflight/graph", { uri, builtin, known });
+        if (uri === this.uri && builtin === this.builtin && known === this.known) {
+          this.answered(answer);
+        } else {
+          this.again = true;
+        }
+      }
+    } catch {
+      // The server went away or is busy with what it says itself; the next analysis asks again.
+    } finally {
+      this.asking = false;
+    }
+  }
+
+  private answered(answer: Answer): void {
+    if (this.panel === undefined) {
+      return;
+    }
+    if (answer === null && this.known === null) {
+      const reason = "Open the launch file to see its graph.";
+      void this.panel.webview.postMessage({ type: "nothing", reason });
+    }
+    if (answer === null || answer.graph === null) {
+      return;
+    }
+    this.known = answer.digest;
+    const places = [...answer.graph.nodes, ...answer.graph.edges].flatMap((each) => each.places);
+    this.files = new Set(places.map((place) => place.file));
+    this.panel.title = `Graph: ${answer.graph.title.split("/").at(-1) ?? answer.graph.title}`;
+    void this.panel.webview.postMessage({ type: "graph", graph: answer.graph, uri: this.uri });
+  }
+
+  private async received(message: Message): Promise<void> {
+    switch (message.type) {
+      case "ready":
+        this.isReady = true;
+        this.known = null;
+        this.builtin = message.builtin;
+        this.refresh();
+        break;
+      case "builtin":
+        this.builtin = message.shown;
+        this.refresh();
+        break;
+      case "save":
+        await save(message.svg);
+        break;
+      case "open":
+        if (this.files.has(message.file)) {
+          await open(message);
+        }
+        break;
+    }
+  }
+}
+
+async function open(place: Place): Promise<void> {
+  try {
+    const document = await workspace.openTextDocument(Uri.file(place.file));
+    const line = Math.min(document.lineCount, place.line) - 1;
+    const at = new Position(line, utf16Column(document.lineAt(line).text, place.column));
+    await window.showTextDocument(document, { viewColumn: ViewColumn.One, selection: new Range(at, at) });
+  } catch (error) {
+    void window.showWarningMessage(`ROS Preflight: ${place.file} cannot be shown: ${String(error)}`);
+  }
+}
+
+async function save(svg: string): Promise<void> {
+  const folder = workspace.workspaceFolders?.[0]?.uri;
+  const target = await window.showSaveDialog({
+    filters: { "SVG picture": ["svg"] },
+    ...(folder === undefined ? {} : { defaultUri: Uri.joinPath(folder, "graph.svg") }),
+  });
+  if (target !== undefined) {
+    await workspace.fs.writeFile(target, Buffer.from(svg, "utf8"));
+  }
+}
