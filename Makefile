@@ -44,6 +44,7 @@ bench: setup ## editing and completion latency, a large workspace and the time o
 	$(BIN)/python bench/fleet.py
 	$(BIN)/python bench/commands.py
 	$(BIN)/python bench/launch_files.py
+	$(BIN)/python bench/graph.py
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
 corpus: CORPUS2 = $(realpath ../shared/corpus/ros2)

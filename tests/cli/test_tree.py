@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -139,3 +140,42 @@ def test_batch_and_file_exclude_each_other(desk: Desk, preflight: Run) -> None:
     assert preflight("tree", desk.launch_file, "--batch", "jobs.jsonl").code == 2
     assert preflight("tree").code == 2
     assert preflight("tree", "--batch", "missing.jsonl").code == 2
+
+
+def test_the_page(launch: Path, preflight: Run) -> None:
+    done = preflight("tree", launch, "need:=x", "--format", "html", "--no-run")
+    assert (done.code, done.err) == (0, "")
+    assert done.out.startswith("<!doctype html>\n")
+    assert "preflight_demo/talker.py" in done.out
+
+
+def test_text_is_coloured_by_file_on_a_terminal_that_wants_it(desk: Desk) -> None:
+    robot = desk.launch_file.with_name("robot.launch")
+    robot.write_text(
+        '<launch><include file="$(dirname)/talker_listener.launch"/>'
+        '<node pkg="preflight_demo" type="talker.py" name="other"/></launch>'
+    )
+
+    def shown(**environment: str) -> str:
+        # A terminal of its own, from util-linux.
+        done = subprocess.run(
+            ["script", "-qec", f"{desk.server} tree {robot} --no-run", "/dev/null"],
+            env={**desk.environment, "TERM": "xterm", **environment},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=True,
+        )
+        return done.stdout
+
+    coloured = shown()
+    assert "\x1b[33m  node /talker  preflight_demo/talker.py\x1b[0m" in coloured
+    assert "\x1b[34m  node /other  preflight_demo/talker.py\x1b[0m" in coloured
+    assert "\x1b[" not in shown(NO_COLOR="1")
+    assert "\x1b[" not in shown(TERM="dumb")
+
+
+def test_text_holds_no_control_characters(desk: Desk, preflight: Run) -> None:
+    desk.launch_file.write_text('<launch><node pkg="p" type="t" name="n" args="&#x9b;31m\x7f"/></launch>')
+    assert "\x9b" not in preflight("tree", desk.launch_file, "--no-run").out

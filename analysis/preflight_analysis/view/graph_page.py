@@ -1,19 +1,16 @@
-"""The picture as one page that needs nothing else, and may fetch nothing else."""
+"""The picture as one page that needs nothing else."""
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import json
 from collections.abc import Mapping
 from html import escape
-from importlib.resources import files
 from typing import Any
 
 from preflight_analysis.findings.report import printable, relative
 from preflight_analysis.view.layout import lay_out
 from preflight_analysis.view.model import GraphView
-from preflight_analysis.view.svg import drawing_style
+from preflight_analysis.view.page_parts import part, policy, template
 from preflight_analysis.view.view_json import view_json
 
 
@@ -25,36 +22,19 @@ def graph_page(view: GraphView, base: str | None) -> str:
         "plain": view_json(plain, lay_out(plain), base),
         "builtin": view_json(view, lay_out(view), base) if has_builtin else None,
     }
-    return _page(f"{relative(view.root, base)} – ROS graph", data)
-
-
-def _page(title: str, data: Mapping[str, Any]) -> str:
-    """Only the scripts and styles of the page itself count, known by their digests: no name can add another one."""
-    drawing, style, script = drawing_style(), _part("view.css"), _part("view.js")
-    policy = (
-        f"default-src 'none'; style-src {_digest(drawing)} {_digest(style)}; script-src {_digest(script)}; "
-        "base-uri 'none'; form-action 'none'"
+    drawing, style, script = part("drawing.css"), part("view.css"), part("view.js")
+    return template(
+        "page.html",
+        {
+            "POLICY": policy((drawing, style), (script,)),
+            "TITLE": escape(printable(f"{relative(view.root, base)} – ROS graph")),
+            "NONCE": "",
+            "DRAWING": drawing,
+            "STYLE": style,
+            "SCRIPT": script,
+            "DATA": _script_json(data),
+        },
     )
-    parts = {
-        "POLICY": policy,
-        "TITLE": escape(printable(title)),
-        "NONCE": "",
-        "DRAWING": drawing,
-        "STYLE": style,
-        "SCRIPT": script,
-        "DATA": _script_json(data),
-    }
-    first, *rest = _part("page.html").split("%")
-    # `%NAME%` at every other place: what is put in is not looked at again.
-    return first + "".join(parts[text] if i % 2 == 0 else text for i, text in enumerate(rest))
-
-
-def _part(name: str) -> str:
-    return files(__package__).joinpath("page").joinpath(name).read_text(encoding="utf-8")
-
-
-def _digest(text: str) -> str:
-    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
 def _script_json(data: Mapping[str, Any]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from importlib.resources import files
 from math import hypot
 from xml.sax.saxutils import escape, quoteattr
 
@@ -21,6 +20,7 @@ from preflight_analysis.view.layout import (
     node_texts,
 )
 from preflight_analysis.view.model import TOWARDS_CHANNEL, GraphView, Kind, ViewChannel, ViewNode
+from preflight_analysis.view.page_parts import part
 
 COLOURS = 8
 """How many launch files have a colour of their own; the next one begins anew."""
@@ -42,13 +42,8 @@ def svg(view: GraphView, layout: Layout) -> str:
 def standalone_svg(view: GraphView, layout: Layout, base: str | None) -> str:
     """The picture as a file: with a legend and its style, light or dark as the reader's system is."""
     lines, width = _legend(view, layout.height, base)
-    style = f"<style>{drawing_style()}</style>"
+    style = f"<style>{part('drawing.css')}</style>"
     return _document(view, layout, layout.height + 44 * bool(lines), max(layout.width, width), style, lines)
-
-
-def drawing_style() -> str:
-    """The style sheet of the picture."""
-    return files(__package__).joinpath("page").joinpath("drawing.css").read_text(encoding="utf-8")
 
 
 def _document(view: GraphView, layout: Layout, height: float, width: float, head: str, foot: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,7 +26,7 @@ from preflight_server.cli import options
 from preflight_server.cli.changes import changed_since, touched
 from preflight_server.cli.errors import CLEAN, CannotDoError
 from preflight_server.cli.launches import Launches, launches
-from preflight_server.cli.output import print_json, print_text, say
+from preflight_server.cli.output import colours, print_json, print_text, say
 from preflight_server.cli.progress import Progress
 from preflight_server.cli.project import run_nodes
 
@@ -181,5 +180,4 @@ def _print(report: Report, failing: Sequence[Finding], checked: Sequence[str], f
             print_text(to_github(report, base))
         case _:
             # Empty counts as not set: https://no-color.org
-            colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-            print_text(to_text(report, base=base, colour=colour))
+            print_text(to_text(report, base=base, colour=colours()))

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import os
 import signal
-import sys
 from contextlib import ExitStack
 from types import FrameType
 
@@ -14,7 +12,7 @@ from preflight_analysis.snapshot.difference import difference
 
 from preflight_server.cli import options
 from preflight_server.cli.errors import CannotDoError
-from preflight_server.cli.output import print_json, print_text
+from preflight_server.cli.output import colours, print_json, print_text
 from preflight_server.cli.side import sides, snapshot_of_side
 
 HELP = "what is not the same in two launch configurations"
@@ -50,8 +48,7 @@ def run(args: argparse.Namespace) -> int:
     elif args.format == "markdown":
         print_text(report.to_markdown(found, both[0].title, both[1].title))
     else:
-        colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
-        print_text(report.to_text(found, both[0].title, both[1].title, colour=colour))
+        print_text(report.to_text(found, both[0].title, both[1].title, colour=colours()))
     return int(not found.same)
 
 

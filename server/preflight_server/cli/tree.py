@@ -9,13 +9,16 @@ from pathlib import Path
 
 from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.evaluation.tree_json import json_value, tree_json
-from preflight_analysis.findings.report import place
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.report import place, printable
+from preflight_analysis.queries.node_tree import node_tree
+from preflight_analysis.view.tree_page import tree_page
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
 from preflight_server.cli.batch import answer_all
 from preflight_server.cli.errors import CannotDoError
-from preflight_server.cli.output import print_json, print_text
+from preflight_server.cli.output import colours, print_json, print_text
 from preflight_server.cli.project import exit_code, open_project, say_errors
 
 HELP = "what a launch file would start"
@@ -24,11 +27,13 @@ No node is run; the commands that parameters come from are, in a sandbox, unless
 --batch many launch files are answered in one process, one line of JSON each."""
 _SHOWN = 500
 """Characters of a value in text; a robot description has thousands of lines."""
+_COLOURS = (34, 33, 32, 35, 31, 36, 94, 93)
+"""Of the launch files in text, in order of first appearance; the next one begins anew."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
-    options.add_common(parser)
+    options.add_common(parser, ("text", "json", "html"))
     options.add_file(parser, optional=True)
     parser.add_argument(
         "--batch", metavar="JOBS.jsonl", type=Path, help="one job a line; the exit code is 0 if all were answered"
@@ -46,34 +51,55 @@ def run(args: argparse.Namespace) -> int:
     analysis = open_project(args).analysis
     if args.format == "json":
         print_json(tree_json(analysis.tree, analysis.documents, analysis.findings))
+    elif args.format == "html":
+        print_text(tree_page(node_tree(analysis, _by_file(analysis)), analysis.documents, os.getcwd()))
+        say_errors(analysis)
     else:
-        print_text("\n".join(_lines(analysis)) + "\n")
+        print_text("".join(f"{line}\n" for line in _painted(analysis, colour=colours())))
         say_errors(analysis)
     return exit_code(analysis, args.fail_on)
 
 
-def _lines(analysis: Analysis) -> Iterator[str]:
+def _by_file(analysis: Analysis) -> dict[str, list[Finding]]:
+    found: dict[str, list[Finding]] = {}
+    for finding in analysis.findings:
+        found.setdefault(finding.location.file, []).append(finding)
+    return found
+
+
+def _painted(analysis: Analysis, *, colour: bool) -> Iterator[str]:
+    """The lines, those of a node in the colour of the launch file that it comes from."""
+    files = {file: i for i, file in enumerate(analysis.tree.files)}
+    for line, file in _lines(analysis):
+        text = printable(line)
+        index = files.get(file) if file is not None else None
+        yield f"\x1b[{_COLOURS[index % len(_COLOURS)]}m{text}\x1b[0m" if colour and index is not None else text
+
+
+def _lines(analysis: Analysis) -> Iterator[tuple[str, str | None]]:
+    """Each line, with the launch file that it comes from if it has its colour."""
     tree = analysis.tree
-    yield tree.file
+    yield tree.file, tree.file
     for name, arg in tree.args.items():
-        yield f"  arg {name} = {'(required, not given)' if arg.value is None else arg.value}"
+        yield f"  arg {name} = {'(required, not given)' if arg.value is None else arg.value}", None
     for node in tree.nodes:
-        yield f"  {node.kind} {node.name}  {node.package}/{node.executable}"
+        yield f"  {node.kind} {node.name}  {node.package}/{node.executable}", node.location.file
         if node.args:
-            yield f"    args {node.args}"
+            yield f"    args {node.args}", None
         for remap in node.remaps:
-            yield f"    remap {remap.source} -> {remap.target}"
+            yield f"    remap {remap.source} -> {remap.target}", None
         for name, value in node.env:
-            yield f"    env {name}={value}"
+            yield f"    env {name}={value}", None
         for name in _private(tree, node.name):
-            yield f"    param {name.removeprefix(node.name + '/')} = {_value(tree.params[name])}"
-        yield f"    from {' < '.join(place(step, analysis.documents, os.getcwd()) for step in reversed(node.origin))}"
+            yield f"    param {name.removeprefix(node.name + '/')} = {_value(tree.params[name])}", None
+        steps = " < ".join(place(step, analysis.documents, os.getcwd()) for step in reversed(node.origin))
+        yield f"    from {steps}", node.location.file
     owned = {name for node in tree.nodes for name in _private(tree, node.name)}
     for name, param in tree.params.items():
         if name not in owned:
-            yield f"  param {name} = {_value(param)}"
+            yield f"  param {name} = {_value(param)}", None
     for unknown in tree.unknowns:
-        yield f"  not known: {unknown.what} ({unknown.reason})"
+        yield f"  not known: {unknown.what} ({unknown.reason})", None
 
 
 def _value(param: Param) -> str:

@@ -45,16 +45,18 @@ export async function walkThroughGraph({ workbench, desk, step, picture, seen })
   });
   await step("saved", async () => {
     await graph().locator("#save").click();
+    // The box proposes a name, once it has looked at the folder.
     const box = workbench.page.locator(".quick-input-widget input[type=text]");
-    await box.waitFor();
-    const target = path.join(desk.workspace, "robot.svg");
-    await until("the picture on the disk", async () => {
-      if (await box.isVisible()) {
-        await box.fill(target);
-        await workbench.page.keyboard.press("Enter");
+    const target = path.join(desk.workspace, "graph.svg");
+    await until("the name to be taken", async () => {
+      if (/graph\.svg$/.test(await box.inputValue())) {
+        await box.press("Enter");
+        // Not pressed again while it closes: that would be typed into the launch file.
+        return box.waitFor({ state: "hidden", timeout: 10_000 }).then(() => true, () => false);
       }
-      return existsSync(target) && readFileSync(target, "utf8").endsWith("</svg>\n");
+      return false;
     });
+    await until("the picture on the disk", () => existsSync(target) && readFileSync(target, "utf8").endsWith("</svg>\n"));
     seen.saved = readFileSync(target, "utf8");
   });
   await step("restored", async () => {

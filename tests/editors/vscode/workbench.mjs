@@ -111,12 +111,9 @@ export class Workbench {
     const row = this.page.locator(".quick-input-list .monaco-list-row", { hasText: label }).first();
     await until(`'${label}' in the list of ${chord}`, async () => {
       await this.page.keyboard.press(chord);
-      if (await appears(box)) {
-        await box.fill(text);
-        if (await appears(row)) {
-          await row.click();
-          return true;
-        }
+      // What was clicked just before may take the focus only now, which closes the list again.
+      if ((await appears(box)) && (await happens(box.fill(text, { timeout: 3000 }))) && (await appears(row))) {
+        return happens(row.click({ timeout: 3000 }));
       }
       await this.page.keyboard.press("Escape");
       return false;
@@ -334,7 +331,11 @@ export async function until(what, condition) {
 }
 
 function appears(locator, timeout = 3000) {
-  return locator.waitFor({ timeout }).then(
+  return happens(locator.waitFor({ timeout }));
+}
+
+function happens(action) {
+  return action.then(
     () => true,
     () => false,
   );
