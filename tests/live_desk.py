@@ -122,6 +122,12 @@ class Ros1System:
         launch.send_signal(signal.SIGINT)
         launch.wait(LIMIT_SECONDS)
 
+    def node_names(self) -> set[str]:
+        """The nodes that the master knows."""
+        with xmlrpc.client.ServerProxy(f"http://127.0.0.1:{self.port}/") as master:
+            state: Any = master.getSystemState("/test")
+        return {node for side in state[2] for _, nodes in side for node in nodes}
+
     def pid(self, name: str) -> int:
         """The process of the node that registered under this name."""
         with xmlrpc.client.ServerProxy(f"http://127.0.0.1:{self.port}/") as master:

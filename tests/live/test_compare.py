@@ -114,6 +114,9 @@ def test_anonymous_names_are_found_again_in_topics() -> None:
         "/ns/y_my_host_7_9": [],
     }
     assert told(expected, live(running)) == []  # type: ignore[arg-type]
+    found = compare(Expected(1, tuple(expected)), live(running))  # type: ignore[arg-type]
+    assert list(found.nodes) == ["/x_ANON1", "/x_ANON2", "/ns/y_ANON1"]
+    assert list(found.topics) == ["/x_ANON1/out", "/in", "/x_ANON2/out"]
     del running["/ns/y_my_host_7_9"]
     assert told(expected, live(running)) == ["/ns/y_ANON1 is not running"]  # type: ignore[arg-type]
 
@@ -168,6 +171,7 @@ def test_types_of_ros2_are_those_of_each_end() -> None:
     }
     assert told(expected, live(right, 2)) == []  # type: ignore[arg-type]
     right["/b"][0] = ("subscriber", "/x", "std_msgs/msg/Int32")
+    assert compare(Expected(2, tuple(expected)), live(right, 2)).nodes == {"/a": "present", "/b": "wrong-type"}  # type: ignore[arg-type]
     assert told(expected, live(right, 2)) == [  # type: ignore[arg-type]
         "/b subscribes to /x with the type std_msgs/msg/Int32; std_msgs/String was expected"
     ]

@@ -103,8 +103,25 @@ def compare(expected: Expected, live: Observation) -> Comparison:
         if states.nodes.get(owner) == "present":
             issues += _of_ends(owner, of_owner, ends[owner], expected.generation, states)
     issues += _wrong_topics(nodes, live, states) if expected.generation == 1 else ()
+    for issue in issues:
+        if issue.kind == "wrong-type" and states.nodes.get(issue.node) == "present":
+            states.nodes[issue.node] = "wrong-type"
     issues += _extra_nodes(expected, live, set(running_as.values()), states)
-    return Comparison(tuple(issues), states.nodes, states.topics, states.services, states.actions)
+    listed = {node.name: node.listed for node in nodes if node.listed is not None}
+    by_name = {listed.get(name, name): state for name, state in states.nodes.items()}
+    channels = (states.topics, states.services, states.actions)
+    return Comparison(tuple(issues), *(_as_listed(found, tokens) for found in (by_name, *channels)))
+
+
+def _as_listed(states: Mapping[str, State], tokens: Mapping[str, str]) -> dict[str, State]:
+    """With the anonymous parts of names as the tree has them."""
+
+    def listed(name: str) -> str:
+        for token, actual in tokens.items():
+            name = name.replace(actual, token)
+        return name
+
+    return {listed(name): state for name, state in states.items()} if tokens else dict(states)
 
 
 # Which node is which

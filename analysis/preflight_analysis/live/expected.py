@@ -66,6 +66,7 @@ def _node(
         ended,
         interface.outcome.reason if interface.outcome.status in ("exited", "crashed") else None,
         manager,
+        node.name if name != node.name else None,
     )
 
 

@@ -29,8 +29,9 @@ LIVE = "rosPreflight/live"
   "service" | "client" | "action_server" | "action_client", "node": full name, "name": that of the end | null,
   "expected", "actual", "similar": string | null, "counts": bool, "message": string, "location": Location | null,
   "source": Location | null}]`. What does not count is for information. `location` is the line of the launch file that
-  should have made it, `source` that of the node's source. `unsure` is what is not there and need not be. Anonymous
-  names are those of the running system.
+  should have made it, `source` that of the node's source. `unsure` is what is not there and need not be; a node
+  is `wrong-type` where one of its ends is. Full names are those of `rosPreflight/tree`, also of nodes that run under
+  another one, as with anonymous names; `"node"` of an issue is the one that it runs under.
 - `"stopped"`, `"reason": string | null`: nothing is watched any more.
 
 The graph that is compared with is that of the newest analysis: an edit shows in the next state."""
