@@ -132,6 +132,24 @@ def test_what_is_saved_is_a_picture_by_itself(seen: Mapping[str, Any]) -> None:
     assert "var(--vscode" not in style.text
 
 
+def test_in_an_editor_clicks_lead_to_lines(seen: Mapping[str, Any]) -> None:
+    assert seen["editor"] == [
+        ["ready", None, None],
+        ["open", "/navigation.launch", 2],
+        ["open", "/robot.launch", 3],
+        ["open", "/src/base.py", 12],
+    ]
+
+
+def test_what_is_not_so_on_the_running_robot_is_marked(seen: Mapping[str, Any]) -> None:
+    live = seen["live"]
+    assert live["missing"] == ["node /base", "node /laser"]
+    assert live["wrong"] == ["topic /odom, error"]
+    assert live["said"] == "Running robot: 2 of 3 nodes not there, also there: /stranger"
+    assert "not there on the running robot" in live["hint"]
+    assert live["after"] == 0
+
+
 def test_names_stay_texts(seen: Mapping[str, Any]) -> None:
     assert seen["hostile"] == 2, "the page's own data and script"
 

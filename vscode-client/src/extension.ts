@@ -34,6 +34,7 @@ export function activate(context: ExtensionContext): void {
   const showLive = (told: Live) => {
     watching = told.event === "state" ? watching : told.to;
     tree.showLive(watched(told, watching));
+    graph.showLive(told);
     void commands.executeCommand("setContext", "rosPreflight.watching", told.event !== "stopped");
   };
   const server = new ServerSession(context, log, {

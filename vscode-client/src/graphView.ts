@@ -14,6 +14,7 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { graphPage, utf16Column } from "./graphPage";
+import type { Live, LiveStates } from "./live";
 
 const VIEW_TYPE = "rosPreflight.graph";
 
@@ -49,6 +50,7 @@ export class GraphView implements Disposable {
   private known: string | null = null;
   /** The files that the shown graph leads to, and no others are opened for the page. */
   private files: ReadonlySet<string> = new Set();
+  private live: LiveStates = {};
   private asking = false;
   private again = false;
   private readonly subscriptions: Disposable[];
@@ -83,6 +85,15 @@ export class GraphView implements Disposable {
     this.refresh();
   }
 
+  /** Marks what of the graph is not there on the running robot, or is of another type. */
+  showLive(told: Live): void {
+    if (told.event === "attached" || told.event === "restarted") {
+      return;
+    }
+    this.live = told.event === "state" ? told : {};
+    this.postLive();
+  }
+
   /** Shows the graph of the launch file in the active editor, or the one that was shown last. */
   show(): void {
     const document = window.activeTextEditor?.document;
@@ -108,6 +119,11 @@ export class GraphView implements Disposable {
       this.again = true;
       void this.ask();
     }
+  }
+
+  private postLive(): void {
+    const { nodes, topics, services, actions } = this.live;
+    void this.panel?.webview.postMessage({ type: "live", states: { nodes, topics, services, actions } });
   }
 
   private look(uri: string): void {
@@ -180,6 +196,7 @@ export class GraphView implements Disposable {
         this.isReady = true;
         this.known = null;
         this.builtin = message.builtin;
+        this.postLive();
         this.refresh();
         break;
       case "builtin":

@@ -1,15 +1,22 @@
 /** What is the case with a node of the launch, or with one that the launch file does not start, on the running robot. */
 export type LiveState = "present" | "missing" | "extra" | "dead" | "wrong-type" | "unsure";
 
+/** The states of what has a name, by that. */
+export interface LiveStates {
+  readonly nodes?: Readonly<Record<string, LiveState>>;
+  readonly topics?: Readonly<Record<string, LiveState>>;
+  readonly services?: Readonly<Record<string, LiveState>>;
+  readonly actions?: Readonly<Record<string, LiveState>>;
+}
+
 /** What `rosPreflight/live` tells of the running system; the server's `protocol.py` has the whole of it. */
-export interface Live {
+export interface Live extends LiveStates {
   readonly event: "waiting" | "attached" | "restarted" | "state" | "stopped";
   /** Why the system cannot be asked, or why nothing is watched any more. */
   readonly reason?: string | null;
   /** What is watched. */
   readonly to?: string;
   readonly same?: boolean;
-  readonly nodes?: Readonly<Record<string, LiveState>>;
   readonly issues?: readonly { readonly counts: boolean; readonly message: string }[];
 }
 

@@ -12,7 +12,7 @@ const browser = await chromium.launch({ executablePath, args: CHROMIUM_FLAGS });
 let page;
 let current = "start";
 
-async function open(name, colorScheme = "light") {
+async function open(name, { colorScheme = "light", inEditor = false } = {}) {
   await page?.context().close();
   const context = await browser.newContext({ viewport: { width: 1400, height: 800 }, colorScheme, acceptDownloads: true });
   context.setDefaultTimeout(PATIENCE);
@@ -22,7 +22,25 @@ async function open(name, colorScheme = "light") {
   page.on("console", (message) => message.type() === "error" && wrong.push(`${name}: ${message.text()}`));
   page.on("dialog", (dialog) => wrong.push(`${name}: ${dialog.message()}`) && dialog.dismiss());
   page.on("request", (request) => request.url().startsWith("file:") || wrong.push(`${name}: asked for ${request.url()}`));
+  if (inEditor) {
+    // What VS Code gives to a page in a webview.
+    await page.addInitScript(() => {
+      const sent = (window.sent = []);
+      let state;
+      window.acquireVsCodeApi = () => ({
+        getState: () => state,
+        setState: (next) => (state = next),
+        postMessage: (message) => sent.push(message),
+      });
+    });
+  }
   await page.goto(pathToFileURL(pages[name]).href);
+  if (inEditor) {
+    await page.evaluate(() => {
+      document.body.classList.add("vscode-light");
+      window.postMessage({ type: "graph", graph: JSON.parse(document.getElementById("data").textContent).plain, uri: "file:///robot.launch" }, "*");
+    });
+  }
   await page.locator("#canvas svg").waitFor();
 }
 
@@ -147,12 +165,36 @@ try {
   });
 
   await step("dark", async () => {
-    await open("robot", "dark");
+    await open("robot", { colorScheme: "dark" });
     const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const dark = await paper();
     await picture("graph-6-dark");
     await page.locator("#theme").click();
     return { dark, light: await paper() };
+  });
+  await step("editor", async () => {
+    await open("robot", { inEditor: true });
+    await item("node /slam").click();
+    await page.locator("#details button.place", { hasText: "robot.launch:3" }).click();
+    await item("topic /odom").click();
+    return (await page.evaluate(() => window.sent)).map(({ type, file, line }) => [type, file, line]);
+  });
+  await step("live", async () => {
+    const tell = (states) => page.evaluate((given) => window.postMessage({ type: "live", states: given }, "*"), states);
+    const nodes = { "/base": "missing", "/laser": "dead", "/slam": "present", "/stranger": "extra" };
+    await tell({ nodes, topics: { "/odom": "wrong-type", "/scan": "present" }, services: {}, actions: {} });
+    await page.locator("#live:not([hidden])").waitFor();
+    const found = {
+      missing: await labels(page.locator(".state-missing")),
+      wrong: await labels(page.locator(".state-wrong")),
+      said: await page.locator("#live").innerText(),
+    };
+    await item("node /base").hover();
+    found.hint = await page.locator("#hint").innerText();
+    await picture("graph-10-live");
+    await tell({});
+    await page.locator("#live").waitFor({ state: "hidden" });
+    return { ...found, after: await page.locator(".state-missing, .state-wrong").count() };
   });
   await step("hostile", async () => {
     await open("hostile");

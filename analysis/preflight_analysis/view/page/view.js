@@ -33,6 +33,8 @@
   let zoom = saved.zoom;
   let least = 0.55;
   let selected = saved.selected;
+  /** What is the case on the running robot, by kind and name, while it is watched. */
+  let live = {};
   /** Maps a coordinate of the layout to where it is drawn. */
   let drawn = { x: (value) => value, y: (value) => value, width: 0, height: 0 };
 
@@ -62,6 +64,7 @@
       element(`show-${kind}`).parentElement.hidden = !graph.channels.some((channel) => channel.kind === kind);
     }
     legend();
+    compare();
     arrange();
     select(graph.items.has(selected) ? selected : undefined, false);
     graph.items.get(held)?.focus({ preventScroll: true });
@@ -299,6 +302,37 @@
     remember();
   }
 
+  // The running robot
+
+  const LIVE = {
+    missing: ["missing", "not there on the running robot"],
+    dead: ["missing", "does not answer on the running robot"],
+    extra: ["extra", "there on the running robot, though the launch file does not say so"],
+    "wrong-type": ["wrong", "of another type on the running robot"],
+  };
+
+  const liveOf = (part) =>
+    part.dataset.node !== undefined
+      ? live.nodes?.[graph.nodes[part.dataset.node].name]
+      : live[`${graph.channels[part.dataset.channel].kind}s`]?.[graph.channels[part.dataset.channel].name];
+
+  /** Marks what is not as launched. What runs and is not in the picture at all is told in words. */
+  function compare() {
+    for (const part of graph.items.values()) {
+      const own = part.dataset.node !== undefined ? graph.nodes[part.dataset.node].state : graph.channels[part.dataset.channel].state;
+      part.classList.remove("state-normal", "state-missing", "state-extra", "state-wrong");
+      part.classList.add(`state-${LIVE[liveOf(part)]?.[0] ?? own}`);
+    }
+    const drawnNodes = new Set(graph.nodes.map((node) => node.name));
+    const extra = Object.entries(live.nodes ?? {}).filter(([name, state]) => state === "extra" && !drawnNodes.has(name));
+    const states = Object.values(live.nodes ?? {});
+    const gone = states.filter((state) => state === "missing" || state === "dead").length;
+    element("live").hidden = live.nodes === undefined;
+    element("live").textContent = `Running robot: ${gone === 0 && extra.length === 0 ? "all nodes are there" : ""}${gone > 0 ? `${gone} of ${states.length - extra.length} nodes not there` : ""}${gone > 0 && extra.length > 0 ? ", " : ""}${extra.length > 0 ? `also there: ${extra.map(([name]) => name).slice(0, 5).join(", ")}${extra.length > 5 ? ", …" : ""}` : ""}`;
+  }
+
+  const liveShown = (part) => (LIVE[liveOf(part)] ? [make("p", { className: "live" }, LIVE[liveOf(part)][1])] : []);
+
   // What hangs on what, for hover and details
 
   function neighbours(item) {
@@ -367,14 +401,14 @@
   function said(item) {
     if (item.dataset.node !== undefined) {
       const node = graph.nodes[item.dataset.node];
-      return [make("b", {}, node.name), ...nodeShown(node), ...findingsShown(node.findings)];
+      return [make("b", {}, node.name), ...liveShown(item), ...nodeShown(node), ...findingsShown(node.findings)];
     }
     if (item.dataset.channel !== undefined) {
       const channel = graph.channels[item.dataset.channel];
       const ends = graph.ofChannel[item.dataset.channel].map((i) => graph.edges[i]);
       const lines = ends.slice(0, 10).map((edge) => make("p", {}, `${graph.nodes[edge.node].name} ${DOES[edge.role]} `, make("span", { className: "dim" }, edgeShown(edge))));
       const more = ends.length > 10 ? [make("p", { className: "dim" }, `and ${ends.length - 10} more`)] : [];
-      return [make("b", {}, `${channel.kind} ${channel.name}`), ...lines, ...more, ...findingsShown(channel.findings)];
+      return [make("b", {}, `${channel.kind} ${channel.name}`), ...liveShown(item), ...lines, ...more, ...findingsShown(channel.findings)];
     }
     const edges = graph.routes[item.dataset.route].edges.map((i) => graph.edges[i]);
     const lines = edges.map((edge) =>
@@ -728,6 +762,11 @@
       if (data.type === "graph") {
         editor.setState({ ...editor.getState(), uri: data.uri });
         show(data.graph);
+      } else if (data.type === "live") {
+        live = data.states;
+        if (graph !== undefined) {
+          compare();
+        }
       } else if (data.type === "nothing") {
         element("status").textContent = data.reason;
       }
