@@ -311,3 +311,56 @@ def test_a_name_for_a_process_with_several_nodes() -> None:
          "/main": {"nodes": [{"name": "main", "given": "one", "renamed": true}, {"name": "tf", "given": "_"}]},
          "/both": {"nodes": [{"name": "front", "given": "front"}, {"name": "rear", "given": "rear"}]}}
     """)
+
+
+def test_an_argument_that_no_file_of_the_launch_uses() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="speed" default="1.0"/>
+                     ^^^^^ hint[ARG008] argument 'speed' is declared and never used in this launch
+          <arg name="in_file" default="1.0"/>
+          <node pkg="p" exec="x" name="x"><param name="rate" value="$(var rate)"/></node>
+          <node pkg="p" exec="y" name="y"><param from="/p.yaml" allow_substs="true"/></node>
+        </launch>
+        //- /p.yaml
+        y:
+          ros__parameters: {rate: $(var in_file)}
+    """)
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="rate" default="10"/>
+          <node pkg="p" exec="y" name="y"/>
+          <include file="/inner.launch.xml"/>
+        </launch>
+        //- /inner.launch.xml
+        <launch><node pkg="p" exec="x" name="x"><param name="rate" value="$(var rate)"/></node></launch>
+    """)
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="a_b" default="10"/>
+          <arg name="which" default="a_b"/>
+          <log message="$(var $(var which))"/>
+        </launch>
+    """)
+
+
+def test_the_first_remap_of_a_name_counts() -> None:
+    remaps = '<remap from="scan" to="front"/><remap from="{}" to="{}"/>'
+    under = "^" * len('<remap from="scan" to="rear"/>')
+    before = " " * len('<node pkg="p" exec="x" name="x"><remap from="scan" to="front"/>')
+    told = f"\n{before}{under} warning[LCH023] this remap has no effect on /x: 'scan' is remapped to 'front' before it"
+    for source, target, expected in (("scan", "rear", told), ("scan", "front", ""), ("odom", "rear", "")):
+        node = f'<node pkg="p" exec="x" name="x">{remaps.format(source, target)}</node>'
+        check(f"//- /r.launch.xml\n<launch>\n{node}{expected}\n</launch>")
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <set_remap from="scan" to="/scan"/>
+          <node pkg="p" exec="x" name="x" namespace="r"><remap from="/r/scan" to="rear"/></node>
+                                                        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH023] 'scan' is
+        </launch>
+    """)

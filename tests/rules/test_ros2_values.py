@@ -12,6 +12,7 @@ def test_yaml_that_is_no_text() -> None:
                                        ^ error[LCH008] default='5' of <arg> is not a text: in YAML it needs quotes
           - let: {name: sim, value: true}
                                     ^^^^ error[LCH008] value='true' of <let> is not a text: in YAML it needs quotes
+          - log: {message: $(var rate)}
           - executable: {cmd: ls, sigterm_timeout: 5}
                                                    ^ error[LCH008] sigterm_timeout='5' of <executable> is not a number with a decimal point
     """)  # noqa: E501
@@ -22,6 +23,7 @@ def test_yaml_that_is_what_it_has_to_be() -> None:
         //- /a.launch.yaml
         launch:
           - arg: {name: rate, default: '5'}
+          - log: {message: $(var rate)}
           - executable: {cmd: ls, sigterm_timeout: 5.0, shell: true, respawn: 'false', respawn_max_retries: 3}
           - group: {scoped: true, children: []}
           - node: {pkg: p, exec: e, name: n, param: [{name: a, value: 1}, {name: b, value: [1]}]}

@@ -15,6 +15,10 @@ from preflight_analysis.rules.rule import Context, Rule
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
 _EVAL = re.compile(r"\$\(\s*eval\b(.*)", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
+_VARIABLE = re.compile(r"\$\(\s*var\s+['\"]?([^\s()$'\"]+)")
+_ANY = re.compile(r"\$\(\s*var\s+['\"]?\$\(")
+"""Where the name of an argument is itself computed."""
+_ANY_IN_PYTHON = re.compile(r"IncludeLaunchDescription|launch_configurations|LaunchConfiguration\(\s*[^'\"\s]")
 _FALSE = ("false", "0", "")
 
 
@@ -28,6 +32,9 @@ class _Arguments:
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.tree.generation == 2:
+        yield from _check_ros2(rule, context)
+        return
     passed: dict[str, set[str]] = {}
     for include in context.tree.includes:
         if include.path is not None:
@@ -55,6 +62,34 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 Location(path, span),
                 fixes=(Fix(f"Remove the declaration of '{name}'", edits),),
             )
+
+
+def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
+    """In ROS 2 an argument is known in all that is included, and after an include what that has declared: only a
+    launch of one file tells."""
+    path = context.root
+    launch_file = context.launch_files.get(path)
+    python = path.endswith(".py")
+    if launch_file is None or launch_file.document.problems or context.tree.includes:
+        return
+    if any(problem.kind == "root-arg-required" for problem in context.tree.problems):
+        return  # made to be included by another, which knows the argument too
+    texts = [document.text for document in context.documents.values()]
+    if any((_ANY_IN_PYTHON if python else _ANY).search(text) for text in texts):
+        return
+    used = {name for text in texts for name in _VARIABLE.findall(text)}
+    for name, tags in declarations(launch_file).items():
+        quoted = sum(text.count(f"'{name}'") + text.count(f'"{name}"') for text in texts) if python else 1
+        value = tags[0].value("name")
+        if name in used or quoted != 1 or value is None or not value.is_literal:
+            continue
+        xml = not python and launch_file.document.text.lstrip().startswith("<")
+        edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags) if xml else ()
+        yield rule.finding(
+            f"argument '{name}' is declared and never used in this launch",
+            Location(path, value.span),
+            fixes=(Fix(f"Remove the declaration of '{name}'", edits),) if edits else (),
+        )
 
 
 @per_file
@@ -109,13 +144,13 @@ RULE = Rule(
     severity="hint",
     what="Points out an `<arg>` that its own file does not use: in no `$(arg ...)`, no `$(eval ...)`, no text or file "
     'with `subst_value="true"`, under whatever conditions, and by no include with `pass_all_args`. One that an '
-    "include passes is left alone: without the declaration that include would fail.",
+    "include passes is left alone: without the declaration that include would fail. In ROS 2, where all that is "
+    "included knows it, only in a launch of one file.",
     why="Whoever sets it on the command line believes that it has an effect. An argument is known only in the file "
     "that declares it; what that file includes gets it only if it is passed.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',
     instead='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch">\n'
     '  <arg name="rate" value="$(arg rate)"/>\n</include>',
-    generations=(1,),
     check=_check,
     every_root=True,
 )

@@ -15,6 +15,9 @@ from preflight_analysis.rules.syntax import Tags, removal
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.tree.generation == 2:
+        yield from _behind_the_first(rule, context)
+        return
     nodes = context.tree.nodes
     tags = Tags(context.launch_files)
     effective = {remap.origin[-1] for node in nodes for remap in node.remaps}
@@ -26,6 +29,26 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     seen.add(old.origin[-1])
                     yield from _hidden(rule, context, tags, old, winner)
         yield from _same_name(rule, node)
+
+
+def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:
+    """In ROS 2 the first rule that fits is the one, and those of `<set_remap>` stand before the node's own."""
+    seen: set[Location] = set()
+    for node in context.tree.nodes:
+        first: dict[str, Remap] = {}
+        for remap in node.remaps:
+            name = remap.source if remap.source[:1] == "/" else f"{node.namespace}{remap.source}"
+            winner = first.setdefault(name, remap)
+            place = remap.origin[-1]
+            if winner is remap or winner.target == remap.target or place in seen:
+                continue
+            seen.add(place)
+            yield rule.finding(
+                f"this remap has no effect on {node.name}: '{winner.source}' is remapped to '{winner.target}' before "
+                "it, and the first one counts",
+                place,
+                related=(Related("the one that counts", winner.origin[-1]), *include_chain(remap.origin)),
+            )
 
 
 def _hidden(rule: Rule, context: Context, tags: Tags, old: Remap, winner: Remap) -> Iterator[Finding]:
@@ -78,14 +101,15 @@ RULE = Rule(
     id="LCH023",
     name="remap-hidden",
     severity="warning",
-    what="Reports a remap that has no effect because a later one in the same scope is of the same name, and two remaps "
-    "of a node that are written differently and mean the same name (`scan` and `/scan` in the root namespace). A remap "
-    "around a node that the node's own replaces is taken for a default, and one under a condition for an alternative.",
-    why="Of several remaps of a name the last one counts, without a word. Where two are written differently "
-    "`roslaunch` hands both to the node, and its client library picks one.",
+    what="Reports a remap that has no effect because another one of the same name counts. In ROS 1 that is a later one "
+    "in the same scope, and two remaps of a node that are written differently and mean the same name (`scan` and "
+    "`/scan` in the root namespace) are reported too; a remap around a node that the node's own replaces is taken for "
+    "a default, and one under a condition for an alternative. In ROS 2 it is an earlier one, and those of "
+    "`<set_remap>` come before those of the node.",
+    why="Of several remaps of a name one counts, without a word: the last one for `roslaunch`, which hands those that "
+    "are written differently to the node all the same, and its client library picks one; the first one in ROS 2.",
     example='<remap from="scan" to="front/scan"/>\n<remap from="scan" to="rear/scan"/>\n'
     '<node pkg="slam" type="mapper" name="mapper"/>',
     instead='<remap from="scan" to="front/scan"/>\n<node pkg="slam" type="mapper" name="mapper"/>',
-    generations=(1,),
     check=_check,
 )
