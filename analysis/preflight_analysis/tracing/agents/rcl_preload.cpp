@@ -732,11 +732,6 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
   return result;
 }
 
-HOOK int rcl_logging_rosout_init_publisher_for_node(Handle* node) {
-  Library inside;
-  return REAL("rcl_logging_rosout_init_publisher_for_node", int(Handle*))(node);
-}
-
 #define ENDPOINT(function, role, qos_of)                                                                    \
   HOOK int function(Handle* self, const Handle* node, const Support* support, const char* name,             \
                     const Options* options) {                                                               \
