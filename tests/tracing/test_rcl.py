@@ -115,7 +115,7 @@ def test_a_lifecycle_node_that_refuses_to_be_configured_is_left_alone(desk: RclD
 
 def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None:
     outcomes = {}
-    for mode in ("exit 0", "exit 7", "crash", "down", "early"):
+    for mode in ("exit 0", "exit 7", "crash", "early"):
         found = desk.trace(mode)
         outcomes[mode] = found.outcome.status, found.outcome.exit_code, found.outcome.signal
         assert set(ends(found)) == (set() if mode == "early" else set(ALL))
@@ -123,7 +123,6 @@ def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None
         "exit 0": ("exited", 0, None),
         "exit 7": ("crashed", 7, None),
         "crash": ("crashed", None, "SIGABRT"),
-        "down": ("exited", 0, None),
         "early": ("crashed", None, "SIGABRT"),
     }
 
