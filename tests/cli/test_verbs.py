@@ -217,7 +217,9 @@ def test_lsp_takes_what_editors_add(desk: Desk) -> None:
     assert b"Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("verb", ["check", "tree", "graph", "trace", "rules", "doctor", "lsp"])
+@pytest.mark.parametrize(
+    "verb", ["check", "tree", "graph", "trace", "snapshot", "diff", "watch", "capture", "rules", "doctor", "lsp"]
+)
 def test_every_verb_has_help(preflight: Run, verb: str) -> None:
     done = preflight(verb, "--help")
     assert done.code == 0

@@ -87,19 +87,28 @@ def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> in
 
 
 def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> int:
+    """Until it is interrupted, which is its usual end; the exit code is that of the last state."""
     watcher = Watcher(watched, lambda: expected, settle=args.settle, allow_extra=args.allow_extra)
     text = _Text()
-    while True:
-        for event in watcher.look():
-            if args.format == "json":
-                print_json(event_json(event), indent=None)
-            else:
-                text.tell(event)
-            sys.stdout.flush()
-            if isinstance(event, Waiting) and event.final:
-                say(f"ros-preflight: {event.reason}")
-                return FAILED
-        time.sleep(_POLL_SECONDS)
+    code = FAILED
+    try:
+        while True:
+            for event in watcher.look():
+                if args.format == "json":
+                    print_json(event_json(event), indent=None)
+                else:
+                    text.tell(event)
+                sys.stdout.flush()
+                if isinstance(event, Waiting):
+                    code = FAILED
+                    if event.final:
+                        say(f"ros-preflight: {event.reason}")
+                        return code
+                elif isinstance(event, State):
+                    code = CLEAN if event.comparison.same else FOUND
+            time.sleep(_POLL_SECONDS)
+    except KeyboardInterrupt:
+        return code
 
 
 @dataclass
