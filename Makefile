@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
 
-.PHONY: help setup apt demo test lint bench corpus nodes fuzz wheel vsix test-editors docs clean
+.PHONY: help setup apt demo test lint bench corpus nodes fuzz wheel vsix test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -77,6 +77,10 @@ vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-p
 test-editors: setup vsix ## the extension in the real VS Code, with screenshots in out/screenshots
 	tests/editors/install.sh vscode
 	$(BIN)/python -m pytest -m vscode
+
+images: ## the pictures of the extension's page, from the screenshots that `make test-editors` left
+	cd out/screenshots && for each in 2-hover 4-quick-fix 6-untrusted 11-tree 16-watch; do \
+	  cp $$each.png ../../vscode-client/images/$${each#*-}.png; done
 
 docs: $(READY) ## the documentation site, in out/site, with the rule reference from the rules, and the schemas of the settings
 	$(BIN)/python -m preflight_analysis.rules.reference docs/rules

@@ -30,3 +30,6 @@ writeFileSync("dist/THIRD_PARTY_NOTICES.txt", notices.join(`\n${"-".repeat(80)}\
 
 // The same page as that of `ros-preflight graph --format html`.
 cpSync("../analysis/preflight_analysis/view/page", "dist/view", { recursive: true });
+
+// The page in the editor: its pictures are found in the repository alone.
+writeFileSync("dist/README.md", readFileSync("README.md", "utf8").replaceAll(/^!\[.*\]\(images\/.*\)\n\n/gm, ""));

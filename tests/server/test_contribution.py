@@ -30,3 +30,10 @@ def test_a_setting_that_is_not_the_servers_stays() -> None:
     properties = json.loads(contributed(own))["contributes"]["configuration"]["properties"]
     assert properties["rosPreflight.server.command"] == {"default": []}
     assert properties["rosPreflight.runNodes"]["default"] is True
+
+
+def test_the_pictures_of_the_page_are_there_and_small() -> None:
+    pictures = re.findall(r"!\[[^]]+\]\(([^)]+)\)", (CLIENT / "README.md").read_text())
+    assert pictures
+    for picture in pictures:
+        assert 0 < (CLIENT / picture).stat().st_size < 200_000, picture

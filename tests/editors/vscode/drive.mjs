@@ -73,7 +73,10 @@ const scenarios = {
       await picture("1-squiggle");
     });
     seen.hoverOnTopic = await step("hover on the topic", () => workbench.hover("chater", 'to="chater"'));
-    await step("picture of the hover", () => picture("2-hover"));
+    await step("picture of the hover", async () => {
+      await workbench.page.getByText("Checking for quick fixes").waitFor({ state: "hidden" });
+      await picture("2-hover");
+    });
     seen.hoverOnNode = await step("hover on the node", () => workbench.hover("node", 'type="listener.py"'));
     await step("picture of the node's hover", () => picture("3-hover-node"));
     await step("quick-fix menu", async () => {
