@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations
+from pathlib import Path
 
 import pytest
 import view_desk
@@ -74,6 +75,19 @@ def test_without_the_engine_everything_has_a_place_all_the_same(monkeypatch: pyt
     assert overlapping(layout) == []
     assert is_inside(layout)
     assert all(len(route.points) == 2 for route in layout.routes)
+
+
+def test_nothing_of_the_folder_that_we_are_in_is_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("graphlay", "json"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit(1)")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    assert any(len(route.points) > 2 for route in lay_out(view_desk.robot()).routes)
+
+
+def test_an_engine_that_is_not_installed_is_done_without(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(engine, "find_spec", lambda name: None)
+    assert overlapping(lay_out(view_desk.robot())) == []
 
 
 def test_an_engine_that_does_not_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,20 +9,24 @@ from __future__ import annotations
 
 import json
 import logging
+import os
 import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any
 
 _log = logging.getLogger(__name__)
 
-PATIENCE = 20.0
+PATIENCE = 30.0
 """Seconds after which a graph is too large for a careful layout."""
 _CAREFUL = 160
 """Up to this many boxes the better, slower ways are taken."""
 _PROGRAM = """
-import json, sys, graphlay
+import json, sys
+sys.path.append(sys.argv[1])
+import graphlay
 given = json.load(sys.stdin)
 sys.stdout.write(graphlay.layout(given["graph"], options=given["options"]).to_json())
 """
@@ -56,7 +60,8 @@ def place(sizes: Sequence[tuple[float, float]], lines: Sequence[tuple[int, int]]
     try:
         return _read(_ask(sizes, lines), sizes, len(lines))
     except (OSError, subprocess.SubprocessError, ValueError, KeyError, TypeError) as error:
-        _log.warning("the graph is laid out in columns only: %s", error)
+        why = f"it takes more than {PATIENCE:g} s" if isinstance(error, subprocess.TimeoutExpired) else error
+        _log.warning("the graph is laid out in columns only: %s", why)
         return _columns(sizes, lines)
 
 
@@ -74,8 +79,13 @@ def _ask(sizes: Sequence[tuple[float, float]], lines: Sequence[tuple[int, int]])
             "spacing": _SPACING,
         },
     }
+    # Isolated, so that nothing of the folder that we were started in is imported, and told where graphlay is: it may be
+    # among the user's own packages.
+    found = find_spec("graphlay")
+    if found is None or found.origin is None:
+        raise OSError("graphlay is not installed")
     done = subprocess.run(
-        [sys.executable, "-I", "-c", _PROGRAM],
+        [sys.executable, "-I", "-c", _PROGRAM, os.path.dirname(os.path.dirname(found.origin))],
         input=json.dumps(request),
         capture_output=True,
         text=True,
