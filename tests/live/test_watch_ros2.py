@@ -114,7 +114,7 @@ def test_the_stream_tells_of_a_start_a_death_and_extra_nodes(system: System, wat
     talker = launched(system)
     same = watch.until_told()
     assert (same["nodes"], same["topics"], same["services"]) == (
-        {"/robot/talker": "present", "/listener": "present"},
+        {"/robot/talker": "present", "/own": "present"},
         {"/robot/chatter": "present"},
         {"/robot/talker/reset": "present"},
     )
