@@ -90,3 +90,20 @@ def test_json_refers_by_position_and_shows_files_from_the_folder() -> None:
     assert sorted(i for box in data["boxes"] for i in box.get("channels", ())) == list(range(len(data["channels"])))
     assert sorted(i for route in data["routes"] for i in route["edges"]) == list(range(len(data["edges"])))
     assert {node["state"] for node in data["nodes"]} == {"normal"}
+
+
+def test_a_composable_node_is_told_by_its_plugin() -> None:
+    view = view_desk.view_of("""
+        //- /c.launch.xml
+        <launch>
+          <node_container pkg="p" exec="component_container" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::Filter" name="filter" namespace=""/>
+          </node_container>
+        </launch>
+        //- interfaces
+        {"/filter": {"publishers": {"x": "p/T"}}}
+    """)
+    assert [(node.name, node.executable) for node in view.nodes] == [
+        ("/c", "component_container"),
+        ("/filter", "p::Filter"),
+    ]

@@ -174,7 +174,7 @@ class _Builder:
         return ViewNode(
             node.name,
             node.package,
-            node.executable,
+            node.executable or node.plugin or "",
             node.kind,
             node.location.file,
             self._places(node.origin),
