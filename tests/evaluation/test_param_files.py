@@ -34,3 +34,13 @@ def test_patterns() -> None:
     assert fits("/robot/**", "/robot/arm/hand")
     assert not fits("camera", "/robot/camera")
     assert not fits("/**" * 40 + "/x", "/a" * 60), "and says so at once"
+
+
+def test_sections_that_reach_a_node_are_found_by_name_and_in_order() -> None:
+    keys = ("a", "/**", "b", "/x/a", "/*", "/a", "/x/**", "/**/a", "/x/*")
+    file = read_param_file("".join(f'"{key}": {{ros__parameters: {{p: 1}}}}\n' for key in keys))
+    for node in ("/a", "/b", "/c", "/x/a", "/x/y/a"):
+        for composable in (False, True):
+            fitting = [section for section in file.sections if section.reaches(node, composable=composable)]
+            assert file.reaching(node, composable=composable) == fitting
+    assert [section.key for section in file.reaching("/a")] == ["a", "/**", "/*", "/a", "/**/a"]

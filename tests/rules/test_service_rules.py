@@ -74,6 +74,20 @@ def test_a_service_that_two_nodes_offer() -> None:
     assert [related.message for related in finding.related] == ["/left offers /reset"]
 
 
+def test_a_service_that_two_nodes_of_ros2_offer() -> None:
+    check("""
+        //- /main.launch.xml
+        <launch>
+          <node pkg="p" exec="t" name="left"/>
+          <node pkg="p" exec="t" name="right"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] by /left and /right: each of them carries out every request
+        </launch>
+        //- interfaces
+        {"/left": {"services": {"reset": "std_srvs/srv/Trigger"}},
+         "/right": {"services": {"reset": "std_srvs/srv/Trigger"}}}
+    """)
+
+
 def test_services_of_two_namespaces_and_those_of_every_node_are_not_offered_twice() -> None:
     check("""
         <launch>

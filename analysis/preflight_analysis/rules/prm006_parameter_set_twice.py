@@ -65,7 +65,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         for old in param.overrides:
             loser = _setting(tags, old)
-            if loser is None or (type(old.value), old.value) == (type(param.value), param.value):
+            if loser is None or not _differ(old, param):
                 continue
             found = _surprise(tags, loser, winner)
             if found is not None:
@@ -85,27 +85,24 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
     told: set[tuple[Location, Location]] = set()
     for node in context.tree.nodes:
-        if not any(param.overrides for param in node.params):
+        lost_values = [(param, old) for param in node.params for old in param.overrides if _differ(old, param)]
+        if not lost_values:
             continue
-        by_place = _settings(node)
-        for param in node.params:
-            counts = by_place[_place(param)]
-            for old in param.overrides:
-                lost = by_place[_place(old)]
-                if (type(old.value), old.value) == (type(param.value), param.value):
-                    continue
-                tag = tags.at(old.origin[-1])
-                why = _why_lost(lost, counts, own=tag is not None and _is_own(tag))
-                at = lost.place, counts.place
-                if why is None or at in told:
-                    continue
-                told.add(at)
-                yield rule.finding(
-                    f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {why}, "
-                    f"to {_shown(param.value)}",
-                    lost.place,
-                    related=(Related("the one that counts", counts.place), *include_chain(old.origin)),
-                )
+        by_place = _settings(node, {param.name for param, _ in lost_values})
+        for param, old in lost_values:
+            counts, lost = by_place[_place(param)], by_place[_place(old)]
+            tag = tags.at(old.origin[-1])
+            why = _why_lost(lost, counts, own=tag is not None and _is_own(tag))
+            at = lost.place, counts.place
+            if why is None or at in told:
+                continue
+            told.add(at)
+            yield rule.finding(
+                f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {why}, "
+                f"to {_shown(param.value)}",
+                lost.place,
+                related=(Related("the one that counts", counts.place), *include_chain(old.origin)),
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,12 +115,18 @@ class _Ros2Setting:
     place: Location
 
 
-def _settings(node: LaunchNode) -> dict[tuple[str, Location], _Ros2Setting]:
+def _settings(node: LaunchNode, wanted: set[str]) -> dict[tuple[str, Location], _Ros2Setting]:
     return {
         _place(param): _Ros2Setting(index, source.path, key, _place(param)[1])
         for index, source in enumerate(node.param_sources)
         for key, param in zip(source.keys, source.params, strict=True)
+        if param.name in wanted
     }
+
+
+def _differ(one: Param, other: Param) -> bool:
+    """Whether their values are not the same; 1 is neither 1.0 nor true."""
+    return type(one.value) is not type(other.value) or one.value != other.value
 
 
 def _place(param: Param) -> tuple[str, Location]:

@@ -25,14 +25,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         document = context.documents.get(path)
         if not isinstance(document, Document):
             continue
-        sections = read_param_file(document.text).sections
+        file = read_param_file(document.text)
+        sections = file.sections
         if not sections:
             continue
         # Those that fit no node at all are the ones that may be misspelt.
-        lost = [s for s in sections if not any(s.fits(name) for name in names)]
+        lost = [s for s in sections if not (s.pattern in names if s.exact else any(map(s.fits, names)))]
         for node, location in nodes:
             # One that the launch file does not name may have any of the names in the file.
-            if not (node.named or node.told) or any(section.fits(node.name) for section in sections):
+            if not (node.named or node.told) or file.reaching(node.name):
                 continue
             shared = len(nodes) > 1
             yield from _about(rule, context, node, location, path, sections, lost, shared=shared)

@@ -11,10 +11,13 @@ from preflight_analysis.rules.places import connection_location, ends_of, relate
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
+_BOTH_ANSWER = "each of them carries out every request, and the client takes the answer that comes first"
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
+    said = _BOTH_ANSWER if context.tree.generation == 2 else "only the one that registers last is called"
     # Two nodes of a kind share all their services: one finding for all that stand at one place.
     found: dict[tuple[Location, tuple[str, ...]], list[tuple[str, list[Connection]]]] = {}
     for channel in context.graph.services.values():
@@ -29,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         sure = not any(c.endpoint.uncertain for _, ends in offered for c in ends)
         subject = f"service {quoted(names)} is" if len(names) == 1 else f"services {quoted(names)} are"
         yield rule.finding(
-            f"{subject} offered by {' and '.join(nodes)}: only the one that registers last is called",
+            f"{subject} offered by {' and '.join(nodes)}: {said}",
             location,
             severity="info" if any(c.endpoint.assumed for c in servers) else None,
             confidence="likely" if sure else "possible",
@@ -43,8 +46,9 @@ RULE = Rule(
     name="service-offered-twice",
     severity="warning",
     what="Reports a service that two nodes of the launch offer under one name.",
-    why="The master knows one server for a service: the node that registers last takes it from the other, and which "
-    "one that is differs from start to start.",
+    why="The master of ROS 1 knows one server for a service: the node that registers last takes it from the other, and "
+    "which one that is differs from start to start. In ROS 2 a request is a message that each server gets: all of them "
+    "do what it asks for, and the client takes the first answer, whichever server that is of.",
     example='<node pkg="base" type="driver" name="left"/> <!-- both offer /reset -->\n'
     '<node pkg="base" type="driver" name="right"/>',
     instead='<node pkg="base" type="driver" name="left" ns="left"/>\n'

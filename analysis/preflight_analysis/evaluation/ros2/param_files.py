@@ -7,9 +7,9 @@ https://design.ros2.org/articles/160_ros_command_line_arguments.html#multiple-pa
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -66,7 +66,7 @@ class Section:
         return "*" not in self.pattern
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ParamFile:
     """What a parameter file says. `problem` is why it is no YAML, with its place; `unmarked` are keys that lead to
     values without `ros__parameters` above them, which nobody reads; `refused` is YAML for which rcl refuses the file:
@@ -76,6 +76,24 @@ class ParamFile:
     problem: tuple[str, Span] | None = None
     unmarked: tuple[tuple[str, Span], ...] = ()
     refused: tuple[tuple[str, Span], ...] = ()
+
+    def reaching(self, node: str, *, composable: bool = False) -> list[Section]:
+        """The sections that reach the node of this full name, in order. A file may be shared by hundreds of nodes with
+        a section for each: names are looked up, only wildcards are tried."""
+        wild = (at for at in self._wildcards if self.sections[at].reaches(node, composable=composable))
+        return [self.sections[at] for at in sorted((*self._by_name.get(node, ()), *wild))]
+
+    @cached_property
+    def _by_name(self) -> Mapping[str, list[int]]:
+        found: dict[str, list[int]] = {}
+        for at, section in enumerate(self.sections):
+            if section.exact:
+                found.setdefault(section.pattern, []).append(at)
+        return found
+
+    @cached_property
+    def _wildcards(self) -> list[int]:
+        return [at for at, section in enumerate(self.sections) if not section.exact]
 
 
 @lru_cache(maxsize=64)

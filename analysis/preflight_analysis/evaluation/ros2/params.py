@@ -181,7 +181,7 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document]) -> L
 
 def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources, *, substituted: bool) -> ParamSource:
     """What of a file reaches a node."""
-    reaching = [s for s in file.sections if s.reaches(to.node, composable=to.composable)]
+    reaching = file.reaching(to.node, composable=to.composable)
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
         if not file.sections:
