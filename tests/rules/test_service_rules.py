@@ -80,7 +80,7 @@ def test_a_service_that_two_nodes_of_ros2_offer() -> None:
         <launch>
           <node pkg="p" exec="t" name="left"/>
           <node pkg="p" exec="t" name="right"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] by /left and /right: each of them carries out every request
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] /left and /right: each of them carries out every
         </launch>
         //- interfaces
         {"/left": {"services": {"reset": "std_srvs/srv/Trigger"}},

@@ -34,7 +34,7 @@ RULE = Rule(
     name="action-offered-twice",
     severity="warning",
     what="Reports an action that two nodes of the launch offer under one name.",
-    why="Goals are messages on a topic, in ROS 2 requests that each server of the name gets: both get each goal and both "
+    why="Goals are messages on a topic, in ROS 2 requests that each server of the name gets: both get each goal and "
     "carry it out; the client takes the first result for that of its goal.",
     example='<node pkg="base" type="dock" name="left"/> <!-- both offer /dock -->\n'
     '<node pkg="base" type="dock" name="right"/>',
