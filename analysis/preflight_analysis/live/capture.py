@@ -18,7 +18,6 @@ from preflight_analysis.graph.annotations import CLASSES, worth_writing
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.live.compare import matched
-from preflight_analysis.live.expected import own_names
 from preflight_analysis.live.model import LiveEnd, Observation, is_builtin
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome
 from preflight_analysis.tracing.nodelets import nodelet_of
@@ -36,13 +35,13 @@ class Captured:
 
 def capture(graph: Graph, chosen: Iterable[LaunchNode], live: Observation) -> list[Captured]:
     """The interfaces of the chosen ones of a launch's nodes."""
-    nodes, called = graph.tree.nodes, own_names(graph)
-    running_as, _ = matched((called.get(node.name, node.name) for node in nodes), live)
+    nodes = graph.tree.nodes
+    running_as, _ = matched((node.name for node in nodes), live)
     ends: dict[str, list[LiveEnd]] = {}
     for end in live.ends:
         if not is_builtin(live.generation, end.role, end.name):
             ends.setdefault(end.node, []).append(end)
-    return [_captured(node, nodes, running_as.get(called.get(node.name, node.name)), ends, live) for node in chosen]
+    return [_captured(node, nodes, running_as.get(node.name), ends, live) for node in chosen]
 
 
 def _captured(

@@ -107,10 +107,8 @@ def compare(expected: Expected, live: Observation) -> Comparison:
         if issue.kind == "wrong-type" and states.nodes.get(issue.node) == "present":
             states.nodes[issue.node] = "wrong-type"
     issues += _extra_nodes(expected, live, set(running_as.values()), states)
-    listed = {node.name: node.listed for node in nodes if node.listed is not None}
-    by_name = {listed.get(name, name): state for name, state in states.nodes.items()}
-    channels = (states.topics, states.services, states.actions)
-    return Comparison(tuple(issues), *(_as_listed(found, tokens) for found in (by_name, *channels)))
+    found = (states.nodes, states.topics, states.services, states.actions)
+    return Comparison(tuple(issues), *(_as_listed(each, tokens) for each in found))
 
 
 def _as_listed(states: Mapping[str, State], tokens: Mapping[str, str]) -> dict[str, State]:

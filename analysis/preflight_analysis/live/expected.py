@@ -20,7 +20,6 @@ from preflight_analysis.tracing.request import split_args
 _NO_NODES = ("test", "process")
 _HIDDEN = "/_action/"
 """In what an action of ROS 2 is made of, where a remap moved a part of it: the helper does not show these."""
-_NAME_SERVICE = "/describe_parameters"
 
 
 def expected_of(graph: Graph, documents: Mapping[str, Document]) -> Expected:
@@ -45,16 +44,13 @@ def _node(
     generation: int,
     documents: Mapping[str, Document],
 ) -> ExpectedNode:
-    connections = list(connections)
-    name, certain = node.name, "$(" not in node.name
-    if not (node.named or node.told):
-        found = _own_name(connections)
-        name, certain = (found, True) if found is not None else (name, False)
+    # The name of an executable is not that of the node, unless a run told it.
+    certain = "$(" not in node.name and (node.named or node.told)
     loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if generation == 1 else None
     manager = names.resolve(loaded.manager, node.name) if loaded is not None and loaded.manager is not None else None
     ended = interface.outcome.status == "exited" and not interface.outcome.exit_code
     return ExpectedNode(
-        name,
+        node.name,
         tuple(
             _end(connection, generation, documents)
             for connection in connections
@@ -66,25 +62,7 @@ def _node(
         ended,
         interface.outcome.reason if interface.outcome.status in ("exited", "crashed") else None,
         manager,
-        node.name if name != node.name else None,
     )
-
-
-def own_names(graph: Graph) -> dict[str, str]:
-    """What nodes call themselves that the launch file gives no name (ROS 2), by the name that they have in the tree."""
-    services: dict[int, list[Connection]] = defaultdict(list)
-    for channel in graph.services.values():
-        for connection in channel.offers:
-            if not connection.node.named:
-                services[id(connection.node)].append(connection)
-    found = {node.name: _own_name(services[id(node)]) for node in graph.tree.nodes if not node.named}
-    return {name: own for name, own in found.items() if own is not None}
-
-
-def _own_name(connections: Iterable[Connection]) -> str | None:
-    """The name of a node, by the services that each has below it; None where there are none, or those of several."""
-    found = {c.name.removesuffix(_NAME_SERVICE) for c in connections if c.name.endswith(_NAME_SERVICE)}
-    return next(iter(found)) if len(found) == 1 else None
 
 
 def _end(connection: Connection, generation: int, documents: Mapping[str, Document]) -> ExpectedEnd:

@@ -83,7 +83,7 @@ class ExpectedEnd:
 class ExpectedNode:
     """A node that the launch starts. `complete`: all its ends are known, so that another one is extra. `ends_itself`:
     it has done its work and ends, so that it need not be there. `reason`: why it ended in the sandbox. `by` of a
-    nodelet: the node that makes its ends. `listed`: its name in the tree, where that is another one."""
+    nodelet: the node that makes its ends."""
 
     name: str
     ends: tuple[ExpectedEnd, ...]
@@ -94,7 +94,6 @@ class ExpectedNode:
     ends_itself: bool = False
     reason: str | None = None
     by: str | None = None
-    listed: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +134,7 @@ class Issue:
 @dataclass(frozen=True, slots=True)
 class Comparison:
     """The running system beside the expected one. States are by full name, as in the tree and the graph: of what has an
-    anonymous name, or none in the launch file, that is not the one it runs under, which the issues have."""
+    anonymous name that is not the one it runs under, which the issues have."""
 
     issues: tuple[Issue, ...]
     nodes: Mapping[str, State]
