@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import tempfile
 import time
 from collections.abc import Iterator
@@ -39,5 +40,5 @@ def untrusted_desk() -> Iterator[Desk]:
 def desk_without_server() -> Iterator[Desk]:
     """The command `ros-preflight` is not on PATH, and what it needs cannot be fetched."""
     with desk("catkin_ws", server_on_path=False) as laid:
-        laid.environment["PIP_NO_INDEX"] = "1"
+        laid.environment.update({"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull})
         yield laid

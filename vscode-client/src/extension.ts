@@ -45,7 +45,7 @@ export function activate(context: ExtensionContext): void {
       graph.connect(client);
     },
     analysed: () => {
-      tree.refresh();
+      tree.refreshSoon();
       graph.refresh();
     },
     live: showLive,

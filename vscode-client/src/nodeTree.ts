@@ -23,6 +23,8 @@ import { UNWATCHED, type Watched } from "./live";
 import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem, type NodeTree } from "./nodeItems";
 
 const SCHEME = "ros-preflight-node";
+/** Milliseconds between news and the question for a newer tree. */
+const PAUSE = 200;
 
 interface Line {
   readonly id: string;
@@ -41,6 +43,7 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   private live = UNWATCHED;
   private asking = false;
   private askAgain = false;
+  private soon: NodeJS.Timeout | undefined;
 
   /** `isLaunchFile` tells the documents that have a tree. */
   constructor(private readonly isLaunchFile: (document: TextDocument) => boolean) {
@@ -105,6 +108,14 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
           this.refresh();
         }
       });
+  }
+
+  /** As `refresh`, once for all news of a moment: somebody may be typing. */
+  refreshSoon(): void {
+    this.soon ??= setTimeout(() => {
+      this.soon = undefined;
+      this.refresh();
+    }, PAUSE);
   }
 
   getChildren(line?: Line): Line[] {
@@ -173,6 +184,7 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   }
 
   dispose(): void {
+    clearTimeout(this.soon);
     for (const subscription of this.subscriptions) {
       subscription.dispose();
     }

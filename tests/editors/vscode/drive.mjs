@@ -23,6 +23,9 @@ function picture(name) {
   return workbench.screenshot(path.join(desk.screenshots, `${name}.png`));
 }
 
+/** How long it may take to make a virtual environment and install into it. */
+const INSTALLING = 240_000;
+
 const squiggle = () => workbench.page.locator(".squiggly-warning").first();
 const noSquiggle = () => squiggle().waitFor({ state: "detached" });
 
@@ -220,7 +223,7 @@ const scenarios = {
     await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
     await step("status of the installation", () => workbench.status("installing").waitFor());
     await step("picture of the installation", () => picture("15-installing"));
-    await step("squiggle of the installed server", () => squiggle().waitFor());
+    await step("squiggle of the installed server", () => squiggle().waitFor({ timeout: INSTALLING }));
     const first = serverProcess();
     await step("Restart Server", () => workbench.command("ROS Preflight: Restart Server"));
     await step("another server", () => until("another server", () => processes().length === 1 && processes()[0] !== first));
@@ -257,7 +260,7 @@ const scenarios = {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
     await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
     const missing = workbench.message("installing the server with pip failed");
-    seen.missing = await step("message about the missing server", () => missing.innerText());
+    seen.missing = await step("message about the missing server", () => missing.innerText({ timeout: INSTALLING }));
     await step("status of the missing server", () => workbench.status("no server").waitFor());
     seen.buttons = await step("its buttons", () => missing.locator(".monaco-button").allInnerTexts());
     await step("picture of the message", () => picture("8-no-server"));
