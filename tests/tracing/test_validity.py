@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.tracing.trace import Tracer, on_host
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from tracing_desk import environment, write_node
@@ -227,3 +227,9 @@ def test_a_changed_environment(desk: Desk) -> None:
     assert desk.runs() == ["reader.py", "plain.py", "curious.py", "native"]
     desk.variables["SOMETHING_ELSE"] = "x"
     assert desk.runs() == [], "nodes do not get it"
+
+
+def test_what_the_sandbox_has_of_its_own_is_no_dependency() -> None:
+    """Another process of the host may have a file of that name, and write to it during the run."""
+    opened = ("/dev/shm/fastdds_port7000", "/proc/self/maps", "/dev/null", "/usr/lib/os-release")
+    assert on_host(opened, ()) == ("/usr/lib/os-release",)

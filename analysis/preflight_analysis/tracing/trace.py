@@ -161,8 +161,8 @@ def _files(observed: Observation, recipe: recipes.Recipe, visible: Iterable[str]
 
 def on_host(files: Iterable[str], visible: Iterable[str]) -> tuple[str, ...]:
     """The sources of what was opened, without the files that were the sandbox's own: the host's of the same name are
-    others."""
-    sources = dict.fromkeys(_source(opened) for opened in files)
+    others. Fast DDS keeps its ports in `/dev/shm`, under the names that those of the host have."""
+    sources = dict.fromkeys(_source(opened) for opened in files if not opened.startswith(("/dev/", "/proc/")))
     return tuple(path for path in sources if sandbox.shown(path, visible))
 
 
