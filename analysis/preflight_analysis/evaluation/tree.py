@@ -130,7 +130,9 @@ class LaunchNode(NamedTuple):
     """Values of this node that could not be known: it is then not run, and findings about it are less sure."""
     named: bool = True
     told: bool = False
-    """ROS 2: whether the launch file gives it no name, and a run told the one that its own code does."""
+    """ROS 2: whether the launch file gives it no name, and a run or the source told the one that its own code does."""
+    name_inferred: bool = False
+    """Whether no run has told it, only the source."""
     container: str | None = None
     container_location: Location | None = None
     """Where a composable node that is loaded names its container; None for one in the container's own tag."""

@@ -49,8 +49,8 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"there is another node with the name '{node.name}': the code of this one calls it so, as it has no "
                 "'name' here",
                 Location(node.location.file, node.action.kind_span),
-                severity="warning",
-                confidence="likely",
+                severity="info" if node.name_inferred else "warning",
+                confidence="possible" if node.name_inferred or other.name_inferred else "likely",
                 related=(Related("the first one", node_location(other)), *include_chain(node.origin)),
             )
 

@@ -18,6 +18,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         given = list(dict.fromkeys(each.given for each in renamed))
         if len(given) < 2:
             continue
+        inferred = any(each.inferred for each in renamed)
         value = node.action.value("name")
         span = value.span if value is not None else node.action.kind_span
         leaf = node.name.rpartition("/")[2]
@@ -29,8 +30,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"for one by its own name does not reach it; leave 'name' out, and rename one by a remap from "
             f"'{given[0]}:__node' to '{leaf}'",
             Location(node.location.file, span),
-            severity=None if same else "info",
-            confidence="certain" if interface.source == "trace" else "likely",
+            severity=None if same and not inferred else "info",
+            confidence="possible" if inferred else "certain" if interface.source == "trace" else "likely",
             related=include_chain(node.origin),
         )
 
@@ -39,8 +40,8 @@ RULE = Rule(
     id="LCH037",
     name="name-for-several-nodes",
     severity="warning",
-    what="Reports a `name` in the tag of a process that makes several nodes, of which a run showed that they take it "
-    "(ROS 2). Nodes that choose their name themselves whatever the launch says are not counted.",
+    what="Reports a `name` in the tag of a process that makes several nodes, of which a run or their source shows that "
+    "they take it (ROS 2). Nodes that choose their name themselves whatever the launch says are not counted.",
     why="launch passes `-r __node:=name` to the process, which renames each node in it. They then share one name: "
     "their parameters, their services and their lifecycle are mixed up, and keys of parameter files with their own "
     "names fit none of them.",

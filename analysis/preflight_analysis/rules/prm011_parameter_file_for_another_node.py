@@ -6,7 +6,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -56,20 +56,23 @@ def _about(
     if section is None and shared:
         return  # one file for several nodes, with nothing for this one: that is usual
     named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
-    message = f"the file has nothing for {node.name}, which therefore ignores it; it is for {named}"
-    severity: Severity = "warning"
+    inferred = "; its source calls it so" if node.name_inferred else ""
+    message = f"the file has nothing for {node.name}, which therefore ignores it; it is for {named}{inferred}"
+    severity: Severity = "info" if inferred else "warning"
+    confidence: Confidence = "possible" if inferred else "certain"
     fixes: tuple[Fix, ...] = ()
     related = [Related(f"{node.name} gets the file here", location)]
     if section is not None:
         place = Location(path, section.spans[-1])
         fixes = _rewrite(path, section, node.name)
         key = f"'{section.pattern}' is no node that gets this file: {node.name} does, and ignores it"
-        yield rule.finding(key, place, severity=severity, related=related, fixes=fixes)
+        yield rule.finding(key, place, severity=severity, confidence=confidence, related=related, fixes=fixes)
         related = [Related("the key", place)]
     elif sections:
         related = [Related("its first key", Location(path, sections[0].spans[-1]))]
     chain = include_chain(node.origin)
-    yield rule.finding(message, location, severity=severity, related=(*related, *chain), fixes=fixes)
+    about = (*related, *chain)
+    yield rule.finding(message, location, severity=severity, confidence=confidence, related=about, fixes=fixes)
 
 
 def _rewrite(path: str, section: Section, name: str) -> tuple[Fix, ...]:

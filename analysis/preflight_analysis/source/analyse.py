@@ -27,7 +27,7 @@ from preflight_analysis.source.python_values import UNKNOWN
 from preflight_analysis.source.python_walk import walk
 from preflight_analysis.source.rclpy_calls import RclpyCalls
 from preflight_analysis.source.rospy_calls import RospyCalls
-from preflight_analysis.tracing.interface import Endpoint, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, MadeNode, ParamUse
 
 if TYPE_CHECKING:
     from preflight_analysis.source.cpp_analysis import CppAnalysis
@@ -58,6 +58,8 @@ class SourceInterface:
 
     endpoints: tuple[Endpoint, ...] = ()
     params: tuple[ParamUse, ...] = ()
+    nodes: tuple[MadeNode, ...] = ()
+    """ROS 2: those that the process makes; empty where it is not known which."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +94,7 @@ class SourceAnalysis:
                 self._remembered[key] = known
                 if len(self._remembered) > _MAX_REMEMBERED:
                     del self._remembered[next(iter(self._remembered))]
-        return known.found if known.found.endpoints or known.found.params else None
+        return known.found if known.found != SourceInterface() else None
 
     def _is_valid(self, known: _Remembered, params: LaunchParams, digests: dict[str, str]) -> bool:
         for path, digest in known.files.items():
@@ -144,7 +146,7 @@ class SourceAnalysis:
             found = self._cpp.read_ros2((node.name, node.package, node.executable), args, asked, text, node.plugin)
         else:
             found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text, config)
-        return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params))
+        return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params, found.nodes))
 
     def _generation(self, node: LaunchNode) -> int:
         package = self._environment.packages.get(node.package)

@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from preflight_analysis.source.cpp_text import ClassText, FileText, FunctionText, Path
 from preflight_analysis.source.python_values import UNKNOWN
+from preflight_analysis.source.ways import Ways
 
 _MAX_CLASSES = 32
 
@@ -154,6 +155,9 @@ class Calls(Protocol):
     @property
     def words(self) -> frozenset[str]:
         """Names of which one stands wherever there is something to tell: callbacks without one are left out."""
+
+    def begin(self, ways: Ways) -> None:
+        """The walk begins; `ways` tells what may well not be done."""
 
     def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
         """Whether a call is told here although the program has the function: what it does is known. `owner` is None

@@ -113,6 +113,7 @@ class _Walk:
         self._program = program
         self._calls = calls
         self._ways = Ways()
+        calls.begin(self._ways)
         self._globals: dict[str, Any] = {}
         self._classes: dict[tuple[object, ...], Class] = {}
         self._macros: dict[str, Any] = {}
@@ -138,7 +139,7 @@ class _Walk:
             self._calls.cut_short()
 
     def _callbacks(self) -> None:
-        self._late = True
+        self._late = self._ways.late = True
         for waiting in self._waiting:  # grows while it is gone through
             body = waiting.text.body if waiting.text is not None else waiting.body
             if body is not None and not self._visits.get(body.id):

@@ -126,7 +126,7 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
         return replace(more, elsewhere=found.elsewhere) if _is_more(more, interface) else interface
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
     params = tuple(replace(use, inferred=True) for use in found.params)
-    whole = interface.with_more("source", endpoints, params)
+    whole = interface.with_more("source", endpoints, params, found.nodes)
     if not _is_more(whole, interface):
         return interface
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:

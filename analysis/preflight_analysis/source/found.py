@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing.interface import Endpoint, ParamUse
+from preflight_analysis.source.ways import Ways
+from preflight_analysis.tracing.interface import Endpoint, MadeNode, ParamUse
 
 _MAX_FOUND = 500
+_MAX_NODES = 32
 
 
 class Found:
@@ -17,6 +19,11 @@ class Found:
         self._awaited: list[Endpoint] = []
         self._endpoints: dict[tuple[str, str, str | None], Endpoint] = {}
         self._uses: dict[tuple[str, str, bool], ParamUse] = {}
+        self._nodes: dict[MadeNode, None] = {}
+        self._alternatives = False
+        self._unknown_nodes = False
+        self.ways = Ways()
+        """Those of the walk through the program."""
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -28,6 +35,25 @@ class Found:
     def params(self) -> tuple[ParamUse, ...]:
         """The uses of parameters found, in order."""
         return tuple(self._uses.values())
+
+    @property
+    def nodes(self) -> tuple[MadeNode, ...]:
+        """ROS 2: the nodes that the program makes; empty where that is not known, as they have several names in the
+        ways of a condition for example."""
+        ambiguous = self._unknown_nodes or (self._alternatives and len(self._nodes) > 1)
+        return () if ambiguous else tuple(self._nodes)
+
+    def node(self, name: Any, space: Any = "", *, renamed: bool = True) -> None:
+        """One node that is made; `renamed` is whether it takes the name that the launch gives to the process."""
+        if not is_name(name) or "/" in name or not isinstance(space, str) or len(self._nodes) >= _MAX_NODES:
+            self._unknown_nodes = True
+            return
+        self._nodes[MadeNode(name, name, space.strip("/"), renamed, inferred=True)] = None
+        self._alternatives = self._alternatives or self.ways.perhaps
+
+    def unknown_node(self) -> None:
+        """There may be a node whose name is not known."""
+        self._unknown_nodes = True
 
     def end(self, endpoint: Endpoint) -> None:
         """One end that is made."""

@@ -44,6 +44,9 @@ class Calls(Protocol):
     def call(self, path: str, args: Sequence[Any], kwargs: Mapping[str, Any], file: str, line: int) -> Any:
         """The value of `path(*args, **kwargs)` at this place, UNKNOWN if that cannot be told."""
 
+    def begin(self, ways: Ways) -> None:
+        """The walk begins; `ways` tells what may well not be done."""
+
     def value(self, path: str) -> Any:
         """The value of an attribute such as `sys.argv`; `Imported(path)` if nothing else is known."""
 
@@ -74,6 +77,7 @@ class _Walk:
         self._waiting: list[Function] = []
         self._returns: list[list[Any]] = []
         self._ways = Ways()
+        calls.begin(self._ways)
 
     def main(self, path: str, tree: ast.Module, entry: str | None) -> None:
         try:
@@ -81,6 +85,7 @@ class _Walk:
             function = module.names.get(entry) if entry is not None else None
             if isinstance(function, Function):
                 self._call_function(function, [], {})
+            self._ways.late = True
             for function in self._waiting:  # grows while it is gone through
                 if not self._visits.get(id(function.node)):
                     self._call_function(function, [], {}, unknown=True)

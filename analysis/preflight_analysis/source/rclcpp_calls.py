@@ -31,6 +31,7 @@ from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.parameter_library import Libraries
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 from preflight_analysis.source.rclcpp_qos import Qos
+from preflight_analysis.source.ways import Ways
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 LIBRARIES = frozenset(
@@ -171,6 +172,8 @@ class _Options(Fluent):
 
     takes_all: bool = False
     arguments: tuple[Any, ...] = ()
+    of_process: bool = True
+    """Whether the node takes the arguments of its process, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,6 +233,10 @@ class RclcppCalls:
         self._declared: dict[str, Any] = {"~use_sim_time": False}
         self.found = Found()
 
+    def begin(self, ways: Ways) -> None:
+        """What the walk tries out makes a node only perhaps."""
+        self.found.ways = ways
+
     def aside(self, is_aside: bool) -> bool:
         """A parameter of another mode of the node is no misspelt one: that it has such a name is noted."""
         self._is_aside = is_aside
@@ -243,7 +250,8 @@ class RclcppCalls:
                 self.found.use(use)
 
     def cut_short(self) -> None:
-        """There may be more declarations of parameters."""
+        """There may be more declarations of parameters, and more nodes."""
+        self.found.unknown_node()
         self.found.use(ParamUse("/", "list"))
 
     def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
@@ -313,12 +321,15 @@ class RclcppCalls:
             self._unknown_library(name, given, place)
             if name.endswith("Node") and any(isinstance(value, str) or _is_options(value) for value in given):
                 self._any_parameter(place)  # of a package that is not there in source form
+                self.found.unknown_node()
                 return NodeObject()
         return Unmade(type_)
 
     def _new_node(self, given: Sequence[Any], place: Place, *, has_lifecycle: bool) -> NodeObject:
         options = next((v for v in given if isinstance(v, _Options)), _Options())
         node = self._named_node(given, options, has_lifecycle=has_lifecycle)
+        if not self._is_aside:
+            self._make_node(given, options, node)
         for service, kind in _LIFECYCLE if has_lifecycle and not self._is_aside else ():
             self.found.end(
                 Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
@@ -326,6 +337,13 @@ class RclcppCalls:
         if options.takes_all:
             self._any_parameter(place)
         return node
+
+    def _make_node(self, given: Sequence[Any], options: _Options, node: NodeObject) -> None:
+        if node.full is not None:
+            self.found.node(node.full.rpartition("/")[2] if isinstance(node.full, str) else UNKNOWN, renamed=False)
+            return
+        space = given[1] if len(given) > 1 and not _is_options(given[1]) else ""
+        self.found.node(given[0] if given else UNKNOWN, space, renamed=options.of_process)
 
     def _named_node(self, given: Sequence[Any], options: _Options, *, has_lifecycle: bool) -> NodeObject:
         """The node, and whether its options give it another name than the launch file's."""
@@ -798,10 +816,12 @@ def _changed(options: _Options, name: str, args: Sequence[Argument]) -> Any:
     if not args:
         return UNKNOWN
     if name in _ALL:
-        return _Options(options.takes_all or first is not False, options.arguments)
+        return replace(options, takes_all=options.takes_all or first is not False)
     if name == "arguments":
         given = tuple(first) if isinstance(first, list) else (UNKNOWN,)
-        return _Options(options.takes_all, given)
+        return replace(options, arguments=given)
+    if name == "use_global_arguments":
+        return replace(options, of_process=first is True)
     return options
 
 

@@ -9,9 +9,10 @@ from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.source.found import Found, is_name
+from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain
+from preflight_analysis.source.ways import Ways
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 _TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv|action)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
@@ -39,6 +40,9 @@ _FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
     "tf2_ros.TransformListener": (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF)),
 }
 _LIBRARIES = frozenset({"rclpy", "tf2_ros", "message_filters"})
+_NODES = ("rclpy.Node", "rclpy.LifecycleNode")
+_MAKES_NODES = re.compile(r"(?:Node|Navigator|Commander|MoveItPy)(?:\.__init__)?\Z")
+"""Classes of libraries that are nodes, or have one."""
 
 _DESCRIBING = frozenset(
     f"rcl_interfaces.msg.{name}" for name in ("ParameterDescriptor", "IntegerRange", "FloatingPointRange")
@@ -75,8 +79,10 @@ class RclpyCalls:
         self._params = params
         self._defaults: dict[str, Any] = {}
         self.found = Found()
-        self.node_name: str | None = None
-        """What the node calls itself where the launch file does not."""
+
+    def begin(self, ways: Ways) -> None:
+        """What the walk tries out makes a node only perhaps."""
+        self.found.ways = ways
 
     def value(self, path: str) -> Any:
         """`sys.argv` and the profiles of QoS are known; everything else is what its name says."""
@@ -109,6 +115,8 @@ class RclpyCalls:
             return Instance(Class(name.rpartition(".")[2], {}, ()), dict(kwargs))
         if path.startswith("rclpy."):
             return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
+        if _MAKES_NODES.search(path):
+            self.found.unknown_node()
         if name in ("os.path.join",) and args and all(isinstance(a, str) for a in args):
             return os.path.join(*args)
         return UNKNOWN
@@ -131,12 +139,11 @@ class RclpyCalls:
         if method in ("get_parameter", "get_parameter_or", "has_parameter"):
             return self._read(given(0, "name"), method, given(1, "alternative_value"))
         if method == "__init__" or name in ("rclpy.create_node", "rclpy.Node", "rclpy.LifecycleNode"):
-            own = given(0, "node_name")
             options = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
             if any(kwargs.get(option, False) is not False for option in options):
                 self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
-            if is_name(own) and self.node_name is None:
-                self.node_name = own
+            if name.startswith("rclpy.create") or _plain(path.removesuffix(".__init__")) in _NODES:
+                self._make_node(given(0, "node_name"), kwargs)
             return Imported("rclpy.Node()")
         if method == "get_parameters_by_prefix":
             self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
@@ -147,6 +154,14 @@ class RclpyCalls:
         if name == "rclpy.QoSProfile":
             return _policies(kwargs)
         return Imported(f"{path}()")
+
+    def _make_node(self, name: Any, kwargs: Mapping[str, Any]) -> None:
+        if kwargs.get("cli_args") is not None:
+            self.found.unknown_node()  # they may give it another name
+            return
+        space = kwargs.get("namespace")
+        renamed = kwargs.get("use_global_arguments", True) is True
+        self.found.node(name, "" if space is None else space, renamed=renamed)
 
     def _declared(self, name: Any, default: Any, descriptor: Any, file: str, line: int) -> Any:
         if not isinstance(name, str) or not name:

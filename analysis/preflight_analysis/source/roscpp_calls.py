@@ -204,6 +204,9 @@ class RoscppCalls:
     def notice(self, *_: object) -> None:
         """Nothing: the method is gone through."""
 
+    def begin(self, _: object) -> None:
+        """Nothing: all ways count alike."""
+
     def aside(self, _: bool) -> bool:
         """No."""
         return False

@@ -34,6 +34,13 @@ class Ways:
 
     def __init__(self) -> None:
         self._trails: list[list[tuple[dict[str, Any], str, Any]]] = []
+        self.late = False
+        """Whether only callbacks are left."""
+
+    @property
+    def perhaps(self) -> bool:
+        """Whether what is done now may well not be done: on one way of a condition, or in a callback."""
+        return self.late or self.inside
 
     @property
     def inside(self) -> bool:

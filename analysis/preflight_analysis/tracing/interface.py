@@ -116,6 +116,8 @@ class MadeNode:
     given: str
     space: str = ""
     renamed: bool = False
+    inferred: bool = False
+    """Read from the source code, not seen in a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +165,8 @@ class Interface:
     frames: tuple[Frame, ...] = ()
     """What it was seen to broadcast; other frames may follow."""
     nodes: tuple[MadeNode, ...] = ()
-    """ROS 2: those that the process was seen to make; what its libraries make in C++ alone is not among them."""
+    """ROS 2: those that the process was seen to make, or that its source makes; what its libraries make in C++ alone is
+    not among them. Empty where it is not known which."""
     elsewhere: Elsewhere | None = None
     """Where what is `similar` was seen."""
 
@@ -198,7 +201,13 @@ class Interface:
         """Whether its run has yet to end."""
         return self.outcome.reason == PENDING
 
-    def with_more(self, source: Source, endpoints: tuple[Endpoint, ...], params: tuple[ParamUse, ...]) -> Interface:
+    def with_more(
+        self,
+        source: Source,
+        endpoints: tuple[Endpoint, ...],
+        params: tuple[ParamUse, ...],
+        nodes: tuple[MadeNode, ...] = (),
+    ) -> Interface:
         """What a run saw together with what `source` says beyond that, types of what it saw among it."""
         seen = {(e.role, e.name) for e in self.endpoints}
         types = {(e.role, e.name): e.type for e in endpoints}
@@ -211,6 +220,7 @@ class Interface:
                 *(e for e in endpoints if (e.role, e.name) not in seen),
             ),
             params=self.params + tuple(p for p in params if p.name not in asked),
+            nodes=self.nodes or nodes,
         )
 
 

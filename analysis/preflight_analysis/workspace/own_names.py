@@ -1,4 +1,4 @@
-"""Nodes of ROS 2 that the launch file does not name, under the names that their own code gave them in a run."""
+"""Nodes of ROS 2 that the launch file does not name, under the names that their own code gives them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from preflight_analysis.tracing.interface import Interface
 
 
 def with_own_names(tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document]) -> LaunchTree:
-    """The tree with the real names where a run told them; the same one where there is nothing to change."""
+    """The tree with the real names where a run or the source told them; the same one where there is nothing to
+    change."""
     if tree.generation != 2 or all(node.named for node in tree.nodes):
         return tree
     changed = False
@@ -21,14 +22,15 @@ def with_own_names(tree: LaunchTree, interfaces: Sequence[Interface], documents:
     for at, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
         name = _own_name(node, interface)
         if name is not None:
-            nodes[at] = of_name(node, name, documents)
+            inferred = any(each.inferred for each in interface.nodes)
+            nodes[at] = of_name(node, name, documents, inferred=inferred)
             changed = True
     return replace(tree, nodes=tuple(nodes)) if changed else tree
 
 
 def _own_name(node: LaunchNode, interface: Interface) -> str | None:
     """None where it is not known, or where the process has several: which of them is meant nobody can tell."""
-    if node.named or node.unknowns or node.kind not in ("node", "lifecycle"):
+    if node.named or node.told or node.unknowns or node.kind not in ("node", "lifecycle"):
         return None
     made = {(each.name, each.space) for each in interface.nodes if not each.given.startswith("_")}
     if len(made) != 1:

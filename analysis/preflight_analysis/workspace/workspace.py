@@ -222,12 +222,14 @@ class Workspace:
         """
         tree = with_own_names(analysis.tree, interfaces, analysis.documents)
         if tree is not analysis.tree:
-            analysis = replace(analysis, tree=tree, context=replace(analysis.context, tree=tree))
+            analysis = _under_names(analysis, tree)
         project = self._project_settings()
-        interfaces = from_settings(analysis.tree, interfaces, project.nodes)
-        interfaces = self._nodl.fill_in(analysis.tree, interfaces)
-        interfaces = self._fallback.fill_in(analysis.tree, interfaces)
-        graph = build_graph(analysis.tree, interfaces, project.external_topics, self.environment.distro)
+        whole = self._filled_in(tree, interfaces, project)
+        of_source = with_own_names(tree, whole, analysis.documents)
+        if of_source is not tree:
+            analysis = _under_names(analysis, of_source)
+            whole = self._filled_in(of_source, interfaces, project)
+        graph = build_graph(analysis.tree, whole, project.external_topics, self.environment.distro)
         document, problems = located_problems(project)
         context = replace(
             analysis.context,
@@ -238,6 +240,13 @@ class Workspace:
         )
         documents = analysis.documents if document is None else {**analysis.documents, document.path: document}
         return replace(analysis, context=context, documents=documents, severities=project.severities)
+
+    def _filled_in(
+        self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings
+    ) -> Sequence[Interface]:
+        """The interfaces with what is known beside runs."""
+        interfaces = from_settings(tree, interfaces, project.nodes)
+        return self._fallback.fill_in(tree, self._nodl.fill_in(tree, interfaces))
 
     def _project_settings(self) -> ProjectSettings:
         """The settings file of the workspace as it is now."""
@@ -270,6 +279,11 @@ class Workspace:
                 if not isinstance(text, Unreadable):
                     documents[path] = text
         return documents, launch_files
+
+
+def _under_names(analysis: Analysis, tree: LaunchTree) -> Analysis:
+    """The analysis with the tree in which nodes have the names that their own code gives them."""
+    return replace(analysis, tree=tree, context=replace(analysis.context, tree=tree))
 
 
 def _request(node: LaunchNode, params: Mapping[str, object]) -> TraceRequest | None:

@@ -165,7 +165,7 @@ def file_source(
     return _of_file(file, text, path, origin, to, substituted=substitute)
 
 
-def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document]) -> LaunchNode:
+def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, inferred: bool) -> LaunchNode:
     """A node that the launch file does not name, under the name that its own code gives it: parameter files may have
     something for that."""
     to = Sources(name)
@@ -176,7 +176,9 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document]) -> L
         else:
             file = read_param_file(document.text)
             to.add(_of_file(file, document.text, source.path, source.origin, to, substituted=False))
-    return node._replace(name=name, told=True, params=to.effective(), param_sources=tuple(to.found))
+    return node._replace(
+        name=name, told=True, name_inferred=inferred, params=to.effective(), param_sources=tuple(to.found)
+    )
 
 
 def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources, *, substituted: bool) -> ParamSource:
