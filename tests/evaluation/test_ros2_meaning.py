@@ -108,3 +108,15 @@ def _sorted(items: list[dict[str, Any]]) -> list[dict[str, Any]]:
         if "cmd" in item:
             item["cmd"] = " ".join(item["cmd"]).split()
     return sorted(items, key=lambda item: json.dumps(item, sort_keys=True))
+
+
+def test_the_tree_has_what_launch_reads_in_a_parameter_file(tmp_path: Path) -> None:
+    """The rules go by what arrives at the node, which rcl's own YAML decides."""
+    (tmp_path / "p.yaml").write_text("/**: {ros__parameters: {small: 1e-9, flag: y, plain: 1}}\n")
+    launch = tmp_path / "a.launch.xml"
+    launch.write_text('<launch><node pkg="p" exec="e" name="n"><param from="$(dirname)/p.yaml"/></node></launch>')
+    analysis = Workspace(detect_environment(None, ENV, ()), Sources()).static(str(launch))
+    (node,) = analysis.tree.nodes
+    assert {p.name: p.value for p in node.params} == {"small": 1e-9, "flag": True, "plain": 1}
+    shown = tree_json(analysis.tree, analysis.documents, ())
+    assert shown["nodes"][0]["params"] == {"small": "1e-9", "flag": "y", "plain": 1}

@@ -61,6 +61,9 @@ class Param(NamedTuple):
     name_location: Location | None = None
     """Where the name is written: the `name` attribute, or the key in a YAML text."""
     overrides: tuple[Param, ...] = ()
+    by_launch: ParamValue = None
+    """In ROS 2, of a parameter file: what launch reads there, where the node gets another value, which is `value`:
+    `1e-3` is a text for launch's YAML and a number for rcl's. None where there is no difference."""
 
 
 class Remap(NamedTuple):

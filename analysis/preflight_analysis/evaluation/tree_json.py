@@ -10,7 +10,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, ParamValue, Remap
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, ParamValue, Remap
 from preflight_analysis.findings.finding import Finding
 
 SCHEMA = "ros-preflight/tree/1"
@@ -108,7 +108,7 @@ def _node(node: LaunchNode, tree: LaunchTree, documents: Mapping[str, Document])
         "args": node.args,
         "remaps": [_remap(node, remap) for remap in node.remaps],
         "env": [list(pair) for pair in node.env],
-        "params": {name.removeprefix(private): json_value(param.value) for name, param in params.items()},
+        "params": {name.removeprefix(private): json_value(_as_launched(param)) for name, param in params.items()},
         "param_files": list(dict.fromkeys(param_files)),
         "machine": node.machine,
         "respawn": node.respawn,
@@ -120,6 +120,10 @@ def _node(node: LaunchNode, tree: LaunchTree, documents: Mapping[str, Document])
         "clear_params": node.clear_params,
         "origin": [place_json(step, documents) for step in node.origin],
     }
+
+
+def _as_launched(param: Param) -> ParamValue:
+    return param.value if param.by_launch is None else param.by_launch
 
 
 def _remap(node: LaunchNode, remap: Remap) -> list[str] | str:

@@ -193,7 +193,8 @@ def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources,
         for param in section.params:
             place = Location(path, Span(0, 0) if substituted else param.name_span)
             value = param.by_launch if to.composable else param.value
-            params.append(Param(param.name, value, (*origin, place), to.owner, place))
+            by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
+            params.append(Param(param.name, value, (*origin, place), to.owner, place, by_launch=by_launch))
             keys.append(section.key)
     return ParamSource(path, tuple(params), origin, tuple(keys))
 
