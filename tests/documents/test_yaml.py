@@ -70,3 +70,9 @@ def test_no_depth_ends_the_process(pair: tuple[str, str], depth: int) -> None:
     opened, closed = pair
     parsed = parse_yaml("a.yaml", opened * depth + closed * (depth if closed != "a" else 1))
     assert parsed.document.problems or parsed.node is not None
+
+
+@pytest.mark.parametrize("text", [r'a: "\UDEADBEEF"', r'"\U00110000": 1', f"%YAML {'9' * 5000}.1\n---\na: 1\n"])
+def test_what_pyyaml_has_no_words_for(text: str) -> None:
+    """It raises something else than a YAMLError, without a place."""
+    assert parse_yaml("", text).document.problems

@@ -48,6 +48,10 @@ def test_robots_that_are_apart_or_mean_to_talk(topic: str, type_: str, *, talks:
     check(_launch(topic, type_, talks=talks))
 
 
+def test_a_name_of_several_parts_may_be_meant_so() -> None:
+    check(_launch("/fleet/poses", "geometry_msgs/msg/PoseStamped", expected=f"{UNDER} info[TOP006] /r1/driver hears"))
+
+
 def test_one_listener_for_both_is_a_station() -> None:
     check(_launch("/status", "std_msgs/msg/String", other="r1/arm"))
 

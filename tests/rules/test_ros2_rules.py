@@ -467,14 +467,17 @@ def test_a_parameter_out_of_its_range() -> None:
                          ^^^^ error[PRM017] 'over' is 1.01, which is out of range
             <param name="fixed" value="3"/>
             <param name="any" value="3"/>
+            <param name="dense" value="3.3"/>
           </node>
         </launch>
         //- interfaces
-        {"/a": {"params": {"~rate": 5, "~even": 2, "~last": 0, "~part": 0.1, "~over": 1.0, "~fixed": 1, "~any": 1},
+        {"/a": {"params": {"~rate": 5, "~even": 2, "~last": 0, "~part": 0.1, "~over": 1.0, "~fixed": 1, "~any": 1,
+                           "~dense": 1.0},
                 "described": {"~rate": {"range": [0, 10]}, "~even": {"range": [0, 10, 2]},
                               "~last": {"range": [0, 10, 3]},
                               "~part": {"range": [0.0, 1.0, 0.1], "type": "double"}, "~fixed": {"read_only": true},
-                              "~over": {"range": [0.0, 1.0]}, "~any": {"dynamic": true, "range": [0, 1]}}}}
+                              "~over": {"range": [0.0, 1.0]}, "~any": {"dynamic": true, "range": [0, 1]},
+                              "~dense": {"range": [0.0, 10.0, 1e-320]}}}}
     """)
 
 
@@ -504,4 +507,55 @@ def test_what_a_parameter_file_cannot_have() -> None:
         ^^ error[PRM016] a node's name with two slashes: '/b//c'
           /c:
             ros__parameters: {x: 1}
+    """)
+
+
+def test_a_parameter_file_whose_substitutions_launch_makes() -> None:
+    """What they come to is not in the text: `[$(var a), 2.5]` is a list of doubles, and a key may become any name."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="gain" default="1.5"/>
+          <arg name="name" default="arm"/>
+          <node pkg="p" exec="arm" name="$(var name)">
+            <param from="/named.yaml" allow_substs="true"/>
+            <param from="/gains.yaml" allow_substs="true"/>
+          </node>
+        </launch>
+        //- /named.yaml
+        $(var name):
+          ros__parameters:
+            gains: [$(var gain), 2.5]
+        //- /gains.yaml
+        arm:
+          ros__parameters:
+            offsets: [1, 2.5]
+                     ^^^^^^^^ error[PRM016] a list with doubles and integers in it: 'offsets'
+    """)
+
+
+def test_a_substitution_in_a_parameter_file_that_nobody_makes() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="arm" name="arm"><param from="/gains.yaml"/></node>
+        </launch>
+        //- /gains.yaml
+        arm:
+          ros__parameters:
+            gains: [$(var gain), 2.5]
+                   ^^^^^^^^^^^^^^^^^^ error[PRM016] a list with doubles and texts in it: 'gains'
+    """)
+
+
+def test_arguments_that_launch_itself_reads_are_used() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="launch-prefix" default=""/>
+          <arg name="emulate_tty" default="true"/>
+          <arg name="rate" default="5"/>
+                     ^^^^ hint[ARG008] argument 'rate' is declared and never used
+          <node pkg="p" exec="e" name="n"/>
+        </launch>
     """)

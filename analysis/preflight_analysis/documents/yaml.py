@@ -26,6 +26,11 @@ _DEPTH_OF_LIBYAML = 2_000
 _DEPTH_OF_PYYAML = 300
 """What is deeper is left to PyYAML, which may find it too deep; it ends somewhere below 500."""
 
+CONSTRUCTION_ERRORS = (
+    yaml.YAMLError, ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError,
+)  # fmt: skip
+"""What PyYAML raises for a text that is no value of its tag (`!!bool x`, `2024-13-45`) or nested too deeply."""
+
 
 @dataclass(frozen=True, slots=True)
 class YamlDocument:
@@ -56,6 +61,9 @@ def parse_yaml(path: str, text: str) -> YamlDocument:
             attempt = shorter
         except RecursionError:
             problems = [SyntaxProblem("nested too deeply", Span(0, min(1, len(text))))]
+            break
+        except (ValueError, OverflowError) as error:  # an escape that is no character, without a place
+            problems = problems or [SyntaxProblem(str(error), Span(0, min(1, len(text))))]
             break
         else:
             break

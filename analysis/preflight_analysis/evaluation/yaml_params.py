@@ -14,6 +14,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.evaluation.expression import EvaluationError, evaluate_arithmetic
 
 MAX_VALUES = 200_000
@@ -75,18 +76,23 @@ def load_yaml(text: str) -> YamlValue:
 
     The result is remembered and shared: nobody may change it.
     """
-    loaded = _load(text)
+    loaded = _long(text) if len(text) > _MANY_CHARACTERS else _short(text)
     if isinstance(loaded, YamlError):
         raise loaded
     return loaded
 
 
-@lru_cache(maxsize=1024)
 def _load(text: str) -> YamlValue | YamlError:
     try:
         return _parse(text)
     except YamlError as error:
         return error
+
+
+_MANY_CHARACTERS = 20_000
+_short = lru_cache(maxsize=1024)(_load)
+_long = lru_cache(maxsize=64)(_load)
+"""Each edit of a long file makes another text: a thousand of them would fill the memory."""
 
 
 def _parse(text: str) -> YamlValue:
@@ -107,7 +113,7 @@ def _parse(text: str) -> YamlValue:
         raise YamlError(error.problem or error.context or "malformed", mark.index if mark else None) from error
     except yaml.reader.ReaderError as error:
         raise YamlError(f"the character {error.character!r} is not allowed", error.position) from error
-    except (yaml.YAMLError, ValueError, TypeError, RecursionError, OverflowError) as error:
+    except CONSTRUCTION_ERRORS as error:
         raise YamlError(str(error) or type(error).__name__) from error
     return YamlValue(value, keys, tuple(twice))
 

@@ -13,6 +13,7 @@ from typing import Any
 import yaml
 from lxml import etree
 
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
 _GROUPS: Mapping[str, tuple[Role, str]] = {
@@ -62,7 +63,7 @@ def read_nodl(path: str, text: str, generation: int) -> tuple[Described, ...]:
         loader = yaml.SafeLoader(text)
         root = loader.get_single_node()
         data = loader.construct_document(root) if root is not None else None
-    except (yaml.YAMLError, RecursionError, ValueError, TypeError):
+    except CONSTRUCTION_ERRORS:
         return ()
     if not isinstance(root, yaml.MappingNode) or not isinstance(data, dict) or data.get("nodl_version") != 2:
         return ()

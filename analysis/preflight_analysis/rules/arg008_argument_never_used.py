@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import LaunchFile, Value
 from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.arguments import declarations
@@ -77,7 +78,7 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     texts = [document.text for document in context.documents.values()]
     if any((_ANY_IN_PYTHON if python else _ANY).search(text) for text in texts):
         return
-    used = {name for text in texts for name in _VARIABLE.findall(text)}
+    used = IMPLICIT.union(*(_VARIABLE.findall(text) for text in texts))
     for name, tags in declarations(launch_file).items():
         quoted = sum(text.count(f"'{name}'") + text.count(f'"{name}"') for text in texts) if python else 1
         value = tags[0].value("name")

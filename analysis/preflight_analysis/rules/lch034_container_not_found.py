@@ -59,11 +59,9 @@ def _target(context: Context, tags: Tags, node: LaunchNode, container: str) -> L
     if target is not None:
         return Location(node.location.file, target.span)
     document = context.documents.get(node.location.file)
-    quoted = re.findall(rf"['\"]({re.escape(container)})['\"]", document.text) if document is not None else []
-    if document is None or len(quoted) != 1:
-        return node_location(node)
-    start = min(at for quote in "'\"" if (at := document.text.find(quote + container + quote)) >= 0) + 1
-    return Location(node.location.file, Span(start, start + len(container)))
+    text = document.text if document is not None else ""
+    quoted = [match.span(2) for match in re.finditer(rf"(['\"])({re.escape(container)})\1", text)]
+    return Location(node.location.file, Span(*quoted[0])) if len(quoted) == 1 else node_location(node)
 
 
 def _full(container: str) -> str:

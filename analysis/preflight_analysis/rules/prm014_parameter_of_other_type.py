@@ -82,9 +82,9 @@ def _wrong(param: Param, passed: Any, wanted: str, node: LaunchNode) -> str | No
 def _hint(passed: Any, given: str, wanted: str) -> str:
     match given, wanted:
         case "integer", "double":
-            return f"; write {float(passed)}"
+            return f"; write {passed}.0"
         case "integer array", "double array":
-            return f"; write {[float(each) for each in passed]}"
+            return f"; write [{', '.join(f'{each}.0' for each in passed)}]"
         case (("integer" | "double" | "bool"), "string"):
             return "; in a parameter file, write it in quotes"
         case "string", ("integer" | "double" | "bool"):

@@ -10,20 +10,25 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    seen: set[str] = set()
+    seen: set[tuple[str, bool]] = set()
+    told: set[Location] = set()
     for node in context.tree.nodes:
         if node.container is not None:
             continue  # launch_ros reads the file of a composable node, which takes some of it
         for source in node.param_sources:
             path = source.path
             document = context.documents.get(path) if path is not None else None
-            if path is None or path in seen or not isinstance(document, Document):
+            if path is None or (path, source.substituted) in seen or not isinstance(document, Document):
                 continue
-            seen.add(path)
+            seen.add((path, source.substituted))
             for what, span in read_param_file(document.text).refused:
+                at = Location(path, span)
+                if at in told or (source.substituted and "$(" in document.text[span.start : span.end]):
+                    continue  # what a substitution comes to may be fine
+                told.add(at)
                 yield rule.finding(
                     f"{what}; the client libraries refuse the whole file for it, and the node does not start",
-                    Location(path, span),
+                    at,
                     related=(Related(f"{node.name} gets the file here", source.origin[-1]),),
                 )
 

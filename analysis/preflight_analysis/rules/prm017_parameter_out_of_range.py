@@ -59,7 +59,10 @@ def _outside(value: float, allowed: Range) -> str | None:
         return "out of range"
     if not allowed.step:
         return None
-    nearest = allowed.low + round((value - allowed.low) / allowed.step) * allowed.step
+    try:
+        nearest = allowed.low + round((value - allowed.low) / allowed.step) * allowed.step
+    except OverflowError:
+        return None  # so many steps that any value is one of them
     return None if _is_close(value, nearest) else "none of the steps"
 
 

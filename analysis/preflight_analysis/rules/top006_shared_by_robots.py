@@ -58,16 +58,19 @@ def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hear
     mine, theirs = saying
     listener = next(end for end in hearing if end.node.namespace == mine.node.namespace)
     names = f"{theirs.node.name} as well as {mine.node.name}"
-    assumed = any(end.endpoint.assumed for end in (*saying, *hearing))
+    ends = (*saying, *hearing)
+    # A name like `/fleet/poses` that the code itself has is rather meant so than `/cmd_vel`.
+    meant = channel.name.count("/") > 1 and not any(end.remap for end in ends)
+    assumed = any(end.endpoint.assumed for end in ends)
     related = [related_end(mine, "publishes"), *(related_end(end, "subscribes") for end in hearing)]
     return rule.finding(
         f"{listener.node.name} hears {names}: '{channel.name}' is outside of their namespaces, so both robots share it",
         connection_location(theirs),
-        severity="info" if assumed else None,
-        confidence="likely",
+        severity="info" if assumed or meant else None,
+        confidence="possible" if meant else "likely",
         related=(*related, *include_chain(theirs.node.origin)),
         fixes=_fixes(context, theirs),
-        ends=ends_of(*saying, *hearing),
+        ends=ends_of(*ends),
     )
 
 
@@ -84,7 +87,8 @@ RULE = Rule(
     severity="warning",
     what="Reports a topic outside of the namespaces of two robots on which each of them publishes with one node and "
     "subscribes with another: the same executables run in two namespaces, and the name of the topic is absolute, in a "
-    "remap or in the code. Transforms, the clock, markers and diagnostics are meant to be shared, and a node that "
+    "remap or in the code. One of several parts (`/fleet/poses`) that the code itself has may be meant so, and is only "
+    "pointed out. Transforms, the clock, markers and diagnostics are meant to be shared, and a node that "
     "subscribes to what it publishes talks to its like.",
     why="A namespace keeps robots apart as long as names are relative. At an absolute name it is lost: the commands of "
     "one robot move the other as well.",

@@ -8,6 +8,7 @@ from typing import Any
 
 import yaml
 
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.snapshot.model import GROUPS, SCHEMA, End, NodeSnapshot, Snapshot
 
 _INTRODUCTION = """\
@@ -82,7 +83,7 @@ def from_yaml(text: str) -> Snapshot:
     """The snapshot of a file's text; JSON is read too. Raises `NotASnapshotError`."""
     try:
         data = yaml.safe_load(text)
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
+    except CONSTRUCTION_ERRORS as error:
         mark = getattr(error, "problem_mark", None)
         where = f" (line {mark.line + 1})" if mark is not None else ""
         raise NotASnapshotError(f"is no YAML{where}") from None

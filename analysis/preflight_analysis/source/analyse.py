@@ -16,6 +16,7 @@ import yaml
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
@@ -209,7 +210,7 @@ def _private_params(args: Sequence[str], node: str) -> dict[str, Any]:
         if mark and name.startswith("_") and not name.startswith("__"):
             try:
                 value = yaml.safe_load(text)
-            except (yaml.YAMLError, ValueError, RecursionError):
+            except CONSTRUCTION_ERRORS:
                 value = text
             found[names.resolve(f"~{name[1:]}", node)] = value if isinstance(value, _SCALARS) else UNKNOWN
     return found

@@ -12,6 +12,7 @@ from typing import Any
 
 import yaml
 
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.tracing.interface import Range
 
 _MAX_PARAMS = 300
@@ -48,7 +49,7 @@ def read_parameter_library(path: str, text: str) -> tuple[str, ParameterLibrary]
     """The C++ namespace of a file and what it declares; None if it is no such file."""
     try:
         root = yaml.compose(text, Loader=yaml.SafeLoader)
-    except (yaml.YAMLError, ValueError, RecursionError):
+    except CONSTRUCTION_ERRORS:
         return None
     if not isinstance(root, yaml.MappingNode) or len(root.value) != 1:
         return None
@@ -101,5 +102,5 @@ def _range(rules: Any, type_: str) -> Range | None:
 def _value(node: yaml.Node) -> Any:
     try:
         return yaml.SafeLoader("").construct_document(node)
-    except (yaml.YAMLError, ValueError, TypeError):
+    except CONSTRUCTION_ERRORS:
         return None

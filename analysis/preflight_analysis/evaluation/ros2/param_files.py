@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import parse_yaml, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
 
 MARK = "ros__parameters"
@@ -168,7 +168,7 @@ def plain(node: yaml.Node) -> Any:
         return [plain(each) if isinstance(each, yaml.ScalarNode) else None for each in node.value]
     try:
         return yaml.SafeLoader("").construct_object(node, deep=True)
-    except (yaml.YAMLError, ValueError, RecursionError):
+    except CONSTRUCTION_ERRORS:
         return str(getattr(node, "value", ""))
 
 

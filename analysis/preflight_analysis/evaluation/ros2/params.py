@@ -7,17 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import yaml
-
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
 from preflight_analysis.evaluation.ros2.param_files import EVERY, ParamFile, Section, read_flat_file, read_param_file
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
-from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid
+from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid, loaded
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
@@ -155,7 +154,7 @@ def file_source(
         result = performer.value(parse_value_ros2(SpannedText(text, origin[-1].span, _flat(text, origin[-1].span))))
         if not result.known:
             state.note_unknown(path, "a substitution in it is not known", origin[-1])
-            return ParamSource(path, (), origin)
+            return ParamSource(path, (), origin, substituted=True)
         text = result.text
     file = read_param_file(text)
     if file.problem is not None:
@@ -171,8 +170,8 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
     to = Sources(name)
     for source in node.param_sources:
         document = documents.get(source.path) if source.path is not None else None
-        if source.path is None or document is None or "$(" in document.text:
-            to.add(source)  # a value of the launch file, or one that was read after its substitutions were made
+        if source.path is None or document is None or source.substituted:
+            to.add(source)
         else:
             file = read_param_file(document.text)
             to.add(_of_file(file, document.text, source.path, source.origin, to, substituted=False))
@@ -196,7 +195,7 @@ def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources,
             by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
             params.append(Param(param.name, value, (*origin, place), to.owner, place, by_launch=by_launch))
             keys.append(section.key)
-    return ParamSource(path, tuple(params), origin, tuple(keys))
+    return ParamSource(path, tuple(params), origin, tuple(keys), substituted)
 
 
 def _flat(text: str, span: Span) -> tuple[int, ...]:
@@ -209,8 +208,8 @@ def pushed_value(performer: Performer, value: Value) -> Any:
     if not result.known:
         return None
     try:
-        found = yaml.safe_load(result.text or "''")
-    except yaml.YAMLError:
+        found = loaded(result.text) if result.text else ""
+    except CONSTRUCTION_ERRORS:
         found = None
     if not is_valid(found) or found == []:
         origin = performer.place.origin(value.span)

@@ -8,6 +8,7 @@ a text of the launch file may arrive as something else.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 import yaml
@@ -44,12 +45,20 @@ def plain_scalar(text: str) -> bool | int | float | str:
         sign = -1 if text.startswith("-") else 1
         digits = text.lstrip("+-").lower()
         number = sign * int(digits, 16 if digits.startswith("0x") else 8 if digits.startswith("0") else 10)
-        return number if -_MOST <= number < _MOST else float(number)
+        return number if -_MOST <= number < _MOST else _double(text, lambda: float(number))
     if _DOUBLE.fullmatch(text):
         plain = re.sub(r"\.(?=inf|nan)", "", text.lower())
-        value = float.fromhex(plain) if "0x" in plain else float(plain)
+        value = _double(text, lambda: float.fromhex(plain) if "0x" in plain else float(plain))
         return text if value in (float("inf"), float("-inf")) and "inf" not in plain else value
     return text
+
+
+def _double(text: str, convert: Callable[[], float]) -> float | str:
+    """A number that is too large for a double stays a text."""
+    try:
+        return convert()
+    except OverflowError:
+        return text
 
 
 def _is_marked(node: yaml.ScalarNode) -> bool:
@@ -87,6 +96,8 @@ def as_passed(given: Any) -> Any:
     """What arrives at a node of a value that stands in a launch file."""
     if isinstance(given, (list, tuple)):
         return [as_passed(each) for each in given]
+    if isinstance(given, int) and not -_MOST <= given < _MOST:
+        return plain_scalar(str(given))
     if not isinstance(given, str):
         return given
     read = plain_scalar(given)

@@ -10,10 +10,9 @@ import shutil
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import yaml
-
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
@@ -353,7 +352,7 @@ def yaml_bool(text: str) -> bool | None:
         return text == "1"
     try:
         value = loaded(text)
-    except yaml.YAMLError:
+    except CONSTRUCTION_ERRORS:
         return None
     return value if isinstance(value, bool) else None
 

@@ -8,6 +8,8 @@ from typing import Any
 
 import yaml
 
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+
 ITEMS: Mapping[str, type] = {"list_of_str": str, "list_of_bool": bool, "list_of_float": float, "list_of_int": int}
 """Of what the types of lists are lists."""
 _SCALARS: Mapping[str, type] = {"str": str, "bool": bool, "float": float, "int": int}
@@ -53,7 +55,7 @@ def _as_yaml(text: str, or_text: bool) -> Any:
         return text
     try:
         value = loaded(text)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
+    except CONSTRUCTION_ERRORS as error:
         if or_text:
             return text
         raise NotOfTypeError("YAML") from error
@@ -62,10 +64,15 @@ def _as_yaml(text: str, or_text: bool) -> Any:
     return value
 
 
-@lru_cache(maxsize=4096)
 def loaded(text: str) -> Any:
     """What YAML makes of a value: the same few ones come again on every key, and PyYAML is slow."""
-    return yaml.safe_load(text)
+    return _long(text) if len(text) > _MANY_CHARACTERS else _short(text)
+
+
+_MANY_CHARACTERS = 1_000
+_short = lru_cache(maxsize=4096)(yaml.safe_load)
+_long = lru_cache(maxsize=16)(yaml.safe_load)
+"""The description of a robot may be a value: thousands of them would fill the memory."""
 
 
 def is_valid(value: Any, *, or_text: bool = False) -> bool:
