@@ -6,17 +6,14 @@ import functools
 import os
 import shutil
 import subprocess
-import threading
 from pathlib import Path
 
 from action_package import action_package
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
-from preflight_analysis.tracing.trace import Tracer
-from preflight_analysis.workspace.sources import Sources
-from preflight_analysis.workspace.workspace import Analysis, Workspace
-from ros2_desk import ROOT, ros2_prefix, scratch_folder
+from preflight_analysis.workspace.workspace import Analysis
+from ros2_desk import ROOT, checked, ros2_prefix, scratch_folder
 
 SOURCES = ROOT / "tests" / "tracing"
 _LIBRARIES = (
@@ -92,15 +89,7 @@ class RclDesk:
     def check(self, launch: str) -> Analysis:
         """All that is known of a launch file in XML after its nodes were run."""
         self.launch_file.write_text(f"<launch>{launch}</launch>")
-        environment = detect_environment(str(self.folder), self.variables)
-        workspace = Workspace(environment, Sources())
-        static = workspace.static(str(self.launch_file))
-        tracer = Tracer(environment, self.cache)
-        interfaces = []
-        for request in workspace.requests(static):
-            assert request is not None
-            interfaces.append(tracer.trace(request, threading.Event()))
-        return workspace.with_interfaces(static, interfaces, None)
+        return checked(self.launch_file, detect_environment(str(self.folder), self.variables), self.cache)
 
     def trace(self, args: str, inside: str = "", attributes: str = "name='n'") -> Interface:
         """What the node does with these arguments."""

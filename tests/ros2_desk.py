@@ -11,6 +11,7 @@ import threading
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.tracing.trace import Tracer
@@ -86,15 +87,7 @@ class Ros2Desk:
     def check(self, launch: str) -> Analysis:
         """All that is known of a launch file in XML after its nodes were run."""
         path = self.write("launch/a.launch.xml", f"<launch>{launch}</launch>")
-        environment = detect_environment(str(self.folder), self.variables)
-        workspace = Workspace(environment, Sources())
-        static = workspace.static(str(path))
-        tracer = Tracer(environment, self.cache)
-        interfaces = []
-        for request in workspace.requests(static):
-            assert request is not None
-            interfaces.append(tracer.trace(request, threading.Event()))
-        return workspace.with_interfaces(static, interfaces, None)
+        return checked(path, detect_environment(str(self.folder), self.variables), self.cache)
 
     def trace(self, module: str, inside: str = "", attributes: str = "name='n'") -> Interface:
         """What one node does, with this in its tag."""
@@ -111,3 +104,15 @@ def ends(interface: Interface) -> dict[tuple[str, str], Endpoint]:
 def uses(interface: Interface) -> dict[str, ParamUse]:
     """The node's own parameters by name."""
     return {use.name: use for use in interface.params if not use.builtin}
+
+
+def checked(launch_file: Path, environment: Environment, cache: TraceCache | None) -> Analysis:
+    """All that is known of a launch file after its nodes were run."""
+    workspace = Workspace(environment, Sources())
+    static = workspace.static(str(launch_file))
+    tracer = Tracer(environment, cache)
+    interfaces = []
+    for request in workspace.requests(static):
+        assert request is not None
+        interfaces.append(tracer.trace(request, threading.Event()))
+    return workspace.with_interfaces(static, interfaces, None)
