@@ -6,6 +6,7 @@ import json
 from xml.sax.saxutils import quoteattr
 
 import pytest
+from preflight_analysis.evaluation.tree_json import dumps, tree_json
 from preflight_analysis.rules.registry import run_rules
 from preflight_check import analyse, read_fixture
 
@@ -23,6 +24,7 @@ ODD = {
     "too long to convert": "9" * 5000,
     "a large exponent": "0x1p99999",
     "large and hexadecimal": "0x" + "f" * 390,
+    "too long to write": "0x" + "f" * 5000,
     "deep": "[" * 3000,
     "a circle": "&a [*a]",
     "a symbol": "\u2028",
@@ -75,6 +77,7 @@ def test_an_odd_value_raises_nothing(format_: str, odd: str, caplog: pytest.LogC
     # A YAML launch file with some of it is none, and starts nothing.
     interfaces = f"        //- interfaces\n        {INTERFACES}\n" if format_ != "YAML" else ""
     context = analyse(read_fixture(launch + parameters + interfaces))
-    run_rules(context)
+    findings = run_rules(context)
+    assert dumps(tree_json(context.tree, context.documents, findings))
     assert [record.getMessage() for record in caplog.records] == []
     assert context.tree.nodes or context.tree.problems

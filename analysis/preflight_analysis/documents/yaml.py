@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import Any
 
 import yaml
 
@@ -30,6 +31,28 @@ CONSTRUCTION_ERRORS = (
     yaml.YAMLError, ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError,
 )  # fmt: skip
 """What PyYAML raises for a text that is no value of its tag (`!!bool x`, `2024-13-45`) or nested too deeply."""
+
+
+class PlainLoader(yaml.SafeLoader):
+    """PyYAML's, which also makes integers that Python refuses to write: `0x` and thousands of digits."""
+
+
+def _integer(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> int:
+    value: int = loader.construct_yaml_int(node)
+    str(value)  # raises ValueError
+    return value
+
+
+PlainLoader.add_constructor("tag:yaml.org,2002:int", _integer)
+
+
+def load_plain(text: str) -> Any:
+    """What `yaml.safe_load` gives. Raises one of `CONSTRUCTION_ERRORS`."""
+    loader = PlainLoader(text)
+    try:
+        return loader.get_single_data()
+    finally:
+        loader.dispose()
 
 
 @dataclass(frozen=True, slots=True)

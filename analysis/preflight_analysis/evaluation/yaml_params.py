@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader
 from preflight_analysis.evaluation.expression import EvaluationError, evaluate_arithmetic
 
 MAX_VALUES = 200_000
@@ -40,7 +40,7 @@ class YamlValue:
     """Keys that stand twice in one dictionary, with another value the second time: where the first is and the next."""
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(PlainLoader):
     """YAML 1.1 with ROS's additions; its own class, so that nobody else's loader changes."""
 
 

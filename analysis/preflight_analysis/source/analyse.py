@@ -12,11 +12,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
-import yaml
-
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
@@ -209,7 +207,7 @@ def _private_params(args: Sequence[str], node: str) -> dict[str, Any]:
         name, mark, text = arg.partition(":=")
         if mark and name.startswith("_") and not name.startswith("__"):
             try:
-                value = yaml.safe_load(text)
+                value = load_plain(text)
             except CONSTRUCTION_ERRORS:
                 value = text
             found[names.resolve(f"~{name[1:]}", node)] = value if isinstance(value, _SCALARS) else UNKNOWN

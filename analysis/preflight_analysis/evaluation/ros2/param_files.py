@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, parse_yaml, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
 
 MARK = "ros__parameters"
@@ -167,7 +167,7 @@ def plain(node: yaml.Node) -> Any:
     if isinstance(node, yaml.SequenceNode):
         return [plain(each) if isinstance(each, yaml.ScalarNode) else None for each in node.value]
     try:
-        return yaml.SafeLoader("").construct_object(node, deep=True)
+        return PlainLoader("").construct_object(node, deep=True)
     except CONSTRUCTION_ERRORS:
         return str(getattr(node, "value", ""))
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import yaml
-
 from preflight_analysis.documents.span import Location
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.tree import Param
@@ -106,7 +104,7 @@ def _yaml(text: str) -> Any:
 
 def _load(text: str) -> Any:
     try:
-        return yaml.safe_load(text or "''")
+        return load_plain(text or "''")
     except CONSTRUCTION_ERRORS:
         raise NotOfTypeError("YAML; if it is a text: ParameterValue(..., value_type=str)") from None
 

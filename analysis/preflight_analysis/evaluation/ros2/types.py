@@ -6,9 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-import yaml
-
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 
 ITEMS: Mapping[str, type] = {"list_of_str": str, "list_of_bool": bool, "list_of_float": float, "list_of_int": int}
 """Of what the types of lists are lists."""
@@ -70,8 +68,8 @@ def loaded(text: str) -> Any:
 
 
 _MANY_CHARACTERS = 1_000
-_short = lru_cache(maxsize=4096)(yaml.safe_load)
-_long = lru_cache(maxsize=16)(yaml.safe_load)
+_short = lru_cache(maxsize=4096)(load_plain)
+_long = lru_cache(maxsize=16)(load_plain)
 """The description of a robot may be a value: thousands of them would fill the memory."""
 
 
