@@ -58,6 +58,7 @@ def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -
     init = desk.home / ".config/nvim/init.lua"
     init.parent.mkdir()
     init.write_text(neovim.set_up())
+    (desk.home / "ros-preflight").symlink_to(ROOT)
     result = desk.home / "result.json"
     done = subprocess.run(
         [neovim.program, "--headless", "-n", "-i", "NONE", str(file), "-c", f"luafile {DRIVER}"],

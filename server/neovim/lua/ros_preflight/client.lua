@@ -1,0 +1,98 @@
+-- The language client, in what is the same for all versions of Neovim.
+local options = require('ros_preflight.options')
+local workspace = require('ros_preflight.workspace')
+
+local M = {}
+
+M.NAME = 'ros_preflight'
+M.FILETYPES = { 'roslaunch', 'yaml', 'python' } -- YAML: ROS 2's launch files and parameter files
+
+-- Our commands that the server may put into code lenses.
+local CLIENT_COMMANDS = { 'rosPreflight.selectRoot', 'rosPreflight.showReferences' }
+
+local status_of = {} -- what each client's server told of itself
+
+-- Whether the server is told of a buffer, and the root of its file. Of Python it gets launch files alone; a YAML file
+-- outside of any workspace is nobody's parameter file.
+function M.served(bufnr)
+  local filetype = vim.bo[bufnr].filetype
+  if vim.bo[bufnr].buftype ~= '' or not vim.tbl_contains(M.FILETYPES, filetype) then
+    return false
+  end
+  local name = vim.api.nvim_buf_get_name(bufnr)
+  local is_launch = filetype == 'roslaunch' or name:find('[._]launch%.[^.]+$') ~= nil
+  local root = workspace.root_of(name)
+  return is_launch or (filetype == 'yaml' and root ~= nil), root
+end
+
+-- Whether the server's program is there; says so once where it is not.
+function M.can_start(cmd)
+  if type(cmd) ~= 'table' or vim.fn.executable(cmd[1]) == 1 then
+    return true
+  end
+  vim.notify_once(('ros-preflight: %s is not on PATH (pipx install ros-preflight)'):format(cmd[1]), vim.log.levels.WARN)
+  return false
+end
+
+function M.init_options(root, given)
+  return vim.tbl_extend('force', options.get().init_options, given or {}, {
+    workspaceTrusted = workspace.is_trusted(root),
+    clientCommands = CLIENT_COMMANDS,
+    status = true,
+  })
+end
+
+-- The clients of a buffer, or all of them.
+function M.clients(bufnr)
+  if vim.lsp.get_clients then
+    return vim.lsp.get_clients({ name = M.NAME, bufnr = bufnr })
+  end
+  return vim.tbl_filter(function(client)
+    return client.name == M.NAME
+  end, vim.tbl_values(bufnr and vim.lsp.buf_get_clients(bufnr) or vim.lsp.get_active_clients()))
+end
+
+-- Asks the server; `on_result` is called with the result, or nil and why there is none.
+function M.request(client, method, params, bufnr, on_result)
+  local function handler(err, result)
+    on_result(result, err and (err.message or tostring(err)))
+  end
+  if vim.fn.has('nvim-0.11') == 1 then
+    client:request(method, params, handler, bufnr)
+  else
+    client.request(method, params, handler, bufnr)
+  end
+end
+
+function M.warn(message)
+  vim.notify('ros-preflight: ' .. message, vim.log.levels.WARN)
+end
+
+function M.refresh_lenses(bufnr)
+  -- Before 0.9 they are those of the current buffer.
+  if bufnr == vim.api.nvim_get_current_buf() and #M.clients(bufnr) > 0 then
+    vim.lsp.codelens.refresh(vim.fn.has('nvim-0.10') == 1 and { bufnr = bufnr } or nil)
+  end
+end
+
+-- What a client's server told of itself last: `state`, `done`, `total`, `notRun`.
+function M.status(client)
+  return client and status_of[client.id] or nil
+end
+
+local function tell(event)
+  vim.api.nvim_exec_autocmds('User', { pattern = event, modeline = false })
+end
+
+M.handlers = {
+  ['rosPreflight/status'] = function(_, status, ctx)
+    status_of[ctx.client_id] = status
+    tell('RosPreflightStatus')
+  end,
+  ['rosPreflight/analysed'] = function()
+    M.refresh_lenses(vim.api.nvim_get_current_buf())
+    tell('RosPreflightAnalysed')
+  end,
+}
+
+return M

@@ -1,0 +1,266 @@
+-- Scratch buffers that show what the server knows of a launch: one for each kind, asked for anew when there is news.
+--
+-- A kind is a table with `name`, `filetype`, `ask(view, server, done)`, which gives the data to `done` or nil and why
+-- there is none, and `rows(view)`, which makes lines of `view.data`. A row has `id`, which stays the same while the data
+-- changes, `chunks`, pairs of text and colour, and may have `place` (the line of the launch file to go to), `source`
+-- (that of the node's source), `node` (a full name), and `folds` (it has rows below that can be hidden).
+local client = require('ros_preflight.client')
+
+local M = {}
+
+local views = {} -- by the name of their kind
+local colours = vim.api.nvim_create_namespace('ros_preflight_view')
+
+local function windows_of(bufnr)
+  return vim.tbl_filter(function(window)
+    return vim.api.nvim_win_get_buf(window) == bufnr
+  end, vim.api.nvim_list_wins())
+end
+
+-- The client that is asked: the one of the launch file, which may have been started anew.
+local function server_of(view)
+  return vim.api.nvim_buf_is_valid(view.source) and client.clients(view.source)[1] or nil
+end
+
+local function row_at(view, window)
+  return view.rows[vim.api.nvim_win_get_cursor(window)[1]]
+end
+
+local function set_lines(view, rows)
+  local lines, same = {}, {}
+  for number, row in ipairs(rows) do
+    -- A line break in what is shown would be refused.
+    lines[number] = table.concat(vim.tbl_map(function(chunk) return chunk[1] end, row.chunks)):gsub('%s*\n%s*', ' ')
+    same[row.id] = same[row.id] or number
+  end
+  local cursors = {}
+  for _, window in ipairs(windows_of(view.bufnr)) do
+    local row = row_at(view, window)
+    cursors[window] = { row and row.id, vim.api.nvim_win_get_cursor(window) }
+  end
+  view.rows = rows
+  vim.bo[view.bufnr].modifiable = true
+  vim.api.nvim_buf_set_lines(view.bufnr, 0, -1, false, lines)
+  vim.bo[view.bufnr].modifiable = false
+  for window, before in pairs(cursors) do
+    local id, cursor = before[1], before[2]
+    local line = same[id] or math.min(cursor[1], #lines)
+    vim.api.nvim_win_set_cursor(window, { line, math.min(cursor[2], #lines[line]) })
+  end
+  for number, row in ipairs(rows) do
+    local column = 0
+    for _, chunk in ipairs(row.chunks) do
+      local stop = math.min(column + #chunk[1], #lines[number])
+      if chunk[2] and stop > column then
+        vim.api.nvim_buf_set_extmark(view.bufnr, colours, number - 1, column, {
+          end_col = stop,
+          hl_group = 'RosPreflight' .. chunk[2],
+        })
+      end
+      column = stop
+    end
+  end
+end
+
+-- What is true of all that is shown: that it is not the newest, or that nodes are not run.
+local function header(view)
+  local rows = { { id = '#keys', chunks = { { view.kind.keys, 'Quiet' } } } }
+  local function say(text, colour)
+    table.insert(rows, { id = '#' .. #rows, chunks = { { text, colour } } })
+  end
+  if view.problem then
+    say(view.problem, 'Warning')
+  end
+  local status = client.status(server_of(view))
+  if status and status.state == 'tracing' then
+    say(('Nodes are being run: %d of %d'):format(status.done, status.total), 'Info')
+  elseif status and status.notRun then
+    say('Nodes are not run: ' .. status.notRun.message, 'Warning')
+  end
+  return rows
+end
+
+local function draw(view)
+  if not vim.api.nvim_buf_is_valid(view.bufnr) then
+    return
+  end
+  local rows = header(view)
+  if view.data then
+    vim.list_extend(rows, view.kind.rows(view))
+  end
+  set_lines(view, rows)
+end
+
+-- Asks for newer data: once at a time, and again when news came meanwhile.
+local function refresh(view)
+  if view.asking then
+    view.ask_again = true
+    return
+  end
+  local server = server_of(view)
+  if not server then
+    local file = vim.api.nvim_buf_is_valid(view.source) and vim.api.nvim_buf_get_name(view.source) or 'the file'
+    view.problem = 'There is no server for ' .. vim.fn.fnamemodify(file, ':~:.')
+    return draw(view)
+  end
+  view.asking = true
+  local source = view.source
+  view.kind.ask(view, server, function(data, problem)
+    view.asking = false
+    if source == view.source then
+      view.problem = problem
+      view.data = data or view.data
+      view.asked = view.asked + 1
+      draw(view)
+    end
+    if view.ask_again then
+      view.ask_again = false
+      refresh(view)
+    end
+  end)
+end
+
+-- A window for a file: that of the launch file, or another one that shows a file.
+local function window_for_files(view)
+  local found
+  for _, window in ipairs(vim.api.nvim_tabpage_list_wins(0)) do
+    local bufnr = vim.api.nvim_win_get_buf(window)
+    local is_floating = vim.api.nvim_win_get_config(window).relative ~= ''
+    if bufnr == view.source then
+      return window
+    elseif not is_floating and vim.bo[bufnr].buftype == '' then
+      found = found or window
+    end
+  end
+  return found
+end
+
+local function go(view, location, encoding)
+  if not location then
+    return vim.api.nvim_echo({ { 'No line of a file made this', 'WarningMsg' } }, false, {})
+  end
+  local window = window_for_files(view)
+  if window then
+    vim.api.nvim_set_current_win(window)
+  else
+    vim.cmd('leftabove vnew')
+    vim.bo.bufhidden = 'wipe'
+  end
+  if vim.lsp.util.show_document then
+    vim.lsp.util.show_document(location, encoding, { focus = true })
+  else
+    vim.lsp.util.jump_to_location(location, encoding)
+  end
+end
+
+-- The row at the cursor of one of our buffers, if the current one is such.
+function M.current()
+  for _, view in pairs(views) do
+    if view.bufnr == vim.api.nvim_get_current_buf() then
+      return view, row_at(view, 0)
+    end
+  end
+end
+
+local function map_keys(view)
+  local function map(keys, action)
+    vim.keymap.set('n', keys, function()
+      local row = row_at(view, 0)
+      if row then
+        action(row)
+      end
+    end, { buffer = view.bufnr, nowait = true })
+  end
+  local function to_line(row)
+    go(view, row.place, view.encoding)
+  end
+  map('<CR>', to_line)
+  map('<2-LeftMouse>', to_line)
+  map('gs', function(row) go(view, row.source, view.encoding) end)
+  map('<Tab>', function(row)
+    if row.folds ~= nil then
+      view.folded[row.id] = not row.folds
+      draw(view)
+    end
+  end)
+  map('r', function() refresh(view) end)
+  map('q', function() vim.cmd('close') end)
+end
+
+-- Whether the rows below one are hidden, which they are at first if `usually`.
+function M.is_folded(view, id, usually)
+  local chosen = view.folded[id]
+  if chosen == nil then
+    return usually
+  end
+  return chosen
+end
+
+local function follow_news()
+  vim.api.nvim_create_autocmd('User', {
+    group = vim.api.nvim_create_augroup('ros_preflight_views', {}),
+    pattern = { 'RosPreflightAnalysed', 'RosPreflightStatus' },
+    callback = function(args)
+      for _, view in pairs(views) do
+        if args.match == 'RosPreflightAnalysed' then
+          refresh(view)
+        else
+          draw(view)
+        end
+      end
+    end,
+  })
+end
+
+-- A window with a scratch buffer of this name and type.
+function M.scratch(name, filetype, mods)
+  vim.cmd((mods ~= '' and mods or 'botright vertical') .. ' new')
+  local bufnr = vim.api.nvim_get_current_buf()
+  vim.bo[bufnr].buftype = 'nofile'
+  vim.bo[bufnr].bufhidden = 'wipe'
+  vim.bo[bufnr].swapfile = false
+  vim.bo[bufnr].buflisted = false
+  vim.api.nvim_buf_set_name(bufnr, 'ros-preflight://' .. name)
+  vim.bo[bufnr].filetype = filetype
+  vim.opt_local.wrap = false
+  vim.opt_local.number = false
+  vim.opt_local.relativenumber = false
+  vim.opt_local.spell = false
+  vim.opt_local.list = false
+  vim.opt_local.cursorline = true
+  return bufnr
+end
+
+-- Shows the launch of the current file, in the window of its kind or a new one made as `mods` say.
+function M.open(kind, mods, settings)
+  local at = M.current()
+  local source = at and at.source or vim.api.nvim_get_current_buf()
+  local view = views[kind.name]
+  if not view or view.source ~= source then
+    local bufnr = view and view.bufnr
+    view = { kind = kind, source = source, rows = {}, folded = {}, encoding = 'utf-16', asked = 0, bufnr = bufnr }
+  end
+  view.settings = settings
+  view.uri = vim.uri_from_bufnr(source)
+  views[kind.name] = view
+  local window = view.bufnr and windows_of(view.bufnr)[1]
+  if window then
+    vim.api.nvim_set_current_win(window)
+  else
+    view.bufnr = M.scratch(kind.name, kind.filetype, mods)
+    vim.api.nvim_create_autocmd('BufWipeout', {
+      buffer = view.bufnr,
+      callback = function(args)
+        if views[kind.name] and views[kind.name].bufnr == args.buf then
+          views[kind.name] = nil
+        end
+      end,
+    })
+  end
+  map_keys(view)
+  follow_news()
+  draw(view)
+  refresh(view)
+end
+
+return M
