@@ -60,8 +60,10 @@ def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -
     init.write_text(neovim.set_up())
     (desk.home / "ros-preflight").symlink_to(ROOT)
     result = desk.home / "result.json"
+    # Once it has started: `vim.lsp.enable` says nothing to open files before.
+    start = f"lua vim.schedule(function() vim.cmd('luafile {DRIVER}') end)"
     done = subprocess.run(
-        [neovim.program, "--headless", "-n", "-i", "NONE", str(file), "-c", f"luafile {DRIVER}"],
+        [neovim.program, "--headless", "-n", "-i", "NONE", str(file), "-c", start],
         env={**desk.environment, "PREFLIGHT_SCENARIO": scenario, "PREFLIGHT_RESULT": str(result)},
         cwd=folder,
         stdin=subprocess.DEVNULL,
@@ -161,3 +163,194 @@ def test_launch_files_of_ros_2(neovim: Neovim, trusted_desk: Desk, suffix: str, 
     assert seen["covered"] == "talkr"
     assert "talker" in seen["offered"]
     assert seen["after"] == ROS2[f"launch/a.launch.{suffix}"].replace("talkr", "talker").splitlines()
+
+
+ROBOT = """<launch>
+  <arg name="gui" default="false"/>
+  <group ns="front">
+    <node pkg="preflight_demo" type="talker.py" name="talker">
+      <param name="rate" value="5"/>
+    </node>
+    <!-- \u00e9\u20ac\U0001d11e --><node pkg="preflight_demo" type="listener.py" name="listener">
+      <!-- \u00e9\u20ac\U0001d11e --><remap from="chatter" to="chater"/>
+    </node>
+  </group>
+  <include file="$(find preflight_demo)/launch/inner.launch"/>
+  <node if="$(arg gui)" pkg="rviz" type="rviz" name="rviz"/>
+</launch>
+"""
+INNER = """<launch>
+  <node pkg="preflight_demo" type="talker.py" name="inner"/>
+</launch>
+"""
+
+
+def lay_robot(desk: Desk) -> Path:
+    path = desk.launch_file.with_name("robot.launch")
+    path.write_text(ROBOT)
+    path.with_name("inner.launch").write_text(INNER)
+    return path
+
+
+TREE = """\
+<CR> line   <Tab> fold   r refresh   q close
+robot.launch  3 nodes
+  inner  preflight_demo/talker.py  inner.launch:2
+▾ front/
+  ▸ talker  preflight_demo/talker.py  robot.launch:4
+  ▸ listener  preflight_demo/listener.py  [1 warning]  robot.launch:7
+▾ Includes  1
+    launch/inner.launch  1 node  robot.launch:11
+▾ Not started  1
+    rviz  if $(arg gui) is false  robot.launch:12
+""".splitlines()
+MISSPELT = "none of the 3 nodes of this launch publishes '/front/chater'"
+
+
+def test_tree(neovim: Neovim, trusted_desk: Desk) -> None:
+    seen = drive(neovim, trusted_desk, "tree", lay_robot(trusted_desk))
+
+    assert (seen["filetype"], seen["modifiable"]) == ("rospreflighttree", False)
+    assert seen["lines"] == TREE
+    inner, listener = seen["colours"]
+    assert (inner[1], listener[1]) == ("RosPreflightFile2", "RosPreflightFile1"), "each launch file has its colour"
+    assert "RosPreflightWarning" in listener
+    unfolded = [line.replace("▸ talker", "▾ talker") for line in TREE]
+    unfolded.insert(5, "      rate = 5")
+    assert seen["unfolded"] == unfolded
+    assert seen["param"] == ["robot.launch", 5, '<param name="rate" value="5"/>']
+    assert seen["node"] == ["robot.launch", 7, '<node pkg="preflight_demo" type="listener.py" name="listener">']
+    assert seen["included"] == ["inner.launch", 2, '<node pkg="preflight_demo" type="talker.py" name="inner"/>']
+    assert seen["windows"] == 2, "the tree's window is used again"
+    assert seen["edited"] == [line.replace("listener  ", "hearer  ") for line in unfolded], "what was unfolded stays so"
+    assert seen["cursor"] == TREE[2]
+    assert (seen["windows_at_end"], seen["gone"]) == (1, True)
+
+
+def test_graph(neovim: Neovim, trusted_desk: Desk) -> None:
+    seen = drive(neovim, trusted_desk, "graph", lay_robot(trusted_desk))
+
+    assert seen["filetype"] == "rospreflightgraph"
+    keys, title, topics, *lines = seen["lines"]
+    assert keys.startswith("<CR> line in the launch file")
+    assert (title, topics) == ("launch/robot.launch  3 nodes, 3 topics, 0 services, 0 actions", "Topics")
+    assert [line.split(": none")[0] for line in lines] == [
+        "▾ /chatter  std_msgs/String  no subscriber",
+        "    publisher  /inner  latch false, queue size 10  inner.launch:2  made in talker.py:10",
+        "    hint: no node of this launch subscribes to '/chatter', published by /inner",
+        "▾ /front/chater  std_msgs/String  no publisher",
+        "    subscriber /front/listener  from chatter  robot.launch:8  made in listener.py:14",
+        "    warning",
+        "▾ /front/chatter  std_msgs/String  no subscriber",
+        "    publisher  /front/talker  latch false, queue size 10  robot.launch:4  made in talker.py:10",
+        "    warning",
+    ]
+    assert MISSPELT in lines[5]
+    assert seen["launch"] == seen["finding"] == ["robot.launch", 8, 'chater"/>']
+    file, number, code = seen["source"]
+    assert (file, number) == ("listener.py", 14)
+    assert "Subscriber" in code
+    assert any(line.startswith("▾ /rosout") for line in seen["builtin"])
+    assert seen["edited"][-3:] == [
+        "▾ /front/chatter  std_msgs/String",
+        "    publisher  /front/talker  latch false, queue size 10  robot.launch:4  made in talker.py:10",
+        "    subscriber /front/listener  from chatter  robot.launch:8  made in listener.py:14",
+    ]
+    assert seen["folded"] == [*seen["edited"][:-3], "▸ /front/chatter  std_msgs/String"]
+
+
+def test_maintenance(neovim: Neovim, trusted_desk: Desk) -> None:
+    seen = drive(neovim, trusted_desk, "maintenance")
+
+    assert seen["one"] == "ros-preflight: running /talker"
+    assert seen["all"] == "ros-preflight: running /talker, /listener"
+    assert seen["none"] == "ros-preflight: no node is started here"
+    assert seen["tree"] == "ros-preflight: running /listener"
+    assert re.fullmatch(r"ros-preflight: 2 kept results of runs \(\d+ kB\) removed", seen["cleared"])
+    assert any(line.startswith("sandbox        works") for line in seen["doctor"])
+    assert (seen["clients"], seen["old_is_gone"], seen["status"]) == (1, True, "")
+
+
+def test_tree_and_graph_where_nothing_may_be_run(neovim: Neovim, untrusted_desk: Desk) -> None:
+    seen = drive(neovim, untrusted_desk, "views_untrusted")
+
+    refused = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
+    for shown in (seen["tree"], seen["graph"]):
+        assert shown[1] == f"Nodes are not run: {refused}"
+        assert sum("not trusted" in line for line in shown) == 1, "said once, not for every node"
+    assert any(line.startswith("▸ listener") or line.startswith("▾ listener") for line in seen["tree"])
+    assert any(line.startswith("▾ /chater  std_msgs/String  no publisher") for line in seen["graph"])
+    assert seen["tabs"] == 2, "a modifier says where it opens"
+    assert seen["trace"] == f"ros-preflight: {refused}"
+    assert seen["status"] == "nodes are not run"
+    assert untrusted_desk.sandbox_starts() == 0
+
+
+def test_types_of_files(neovim: Neovim, untrusted_desk: Desk) -> None:
+    launch, other = "<?xml version='1.0'?>\n<launch/>\n", "<project/>\n"
+    files = {
+        "workspace/a.launch": launch,
+        "workspace/b.launch.xml": launch,
+        "workspace/c.test": launch,
+        "workspace/d_launch.xml": launch,
+        "workspace/e.test": other,
+        "workspace/f_launch.xml": other,
+        "workspace/g.launch.py": "",
+        "workspace/h.py": "",
+        "workspace/params.yaml": "a: 1\n",
+        "elsewhere/loose.yaml": "a: 1\n",
+        "elsewhere/i_launch.yaml": "launch: []\n",
+    }
+    for name, text in files.items():
+        path = untrusted_desk.home / "types" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    (untrusted_desk.home / "types/workspace/package.xml").touch()
+    untrusted_desk.environment["PREFLIGHT_FILES"] = ":".join(f"{untrusted_desk.home}/types/{name}" for name in files)
+
+    seen = drive(neovim, untrusted_desk, "files")
+
+    for name in ("a.launch", "b.launch.xml", "c.test", "d_launch.xml"):
+        assert seen[name] == ["roslaunch", True, "<!-- %s -->", "xml"]
+    for name in ("e.test", "f_launch.xml"):
+        assert seen[name][0] != "roslaunch"
+        assert not seen[name][1]
+    assert seen["g.launch.py"][:2] == ["python", True]
+    assert seen["h.py"][:2] == ["python", False]
+    assert seen["params.yaml"][:2] == ["yaml", True]
+    assert seen["loose.yaml"][:2] == ["yaml", False]
+    assert seen["i_launch.yaml"][:2] == ["yaml", True]
+
+
+def test_trust_ends_where_the_trusted_folder_ends(neovim: Neovim, untrusted_desk: Desk) -> None:
+    home = untrusted_desk.home
+    for folder in (".git", "catkin_ws/src/a/launch", "catkin_ws/src/b/.git", "catkin_wsx/src", "mono/.git", "mono/x"):
+        (home / folder).mkdir(parents=True)
+    (home / "catkin_ws/src/a/package.xml").touch()
+    (home / "link").symlink_to(home / "catkin_ws/src")
+    (home / "catkin_ws/out").symlink_to(home / "mono")
+    expected = {
+        "catkin_ws/src/a/launch/x.launch": ("catkin_ws/src/a", True),
+        "catkin_ws/src/b/x.launch": ("catkin_ws/src/b", True),
+        "catkin_ws/src/x.launch": ("catkin_ws", True),  # not the repository around it
+        "link/a/launch/x.launch": ("link/a", True),
+        "catkin_ws/out/x/x.launch": ("catkin_ws/out", False),  # a link to where it is not trusted
+        "catkin_wsx/src/x.launch": ("", False),  # a home that is a repository is no workspace
+        "mono/x/x.launch": ("mono", False),
+    }
+    untrusted_desk.environment["PREFLIGHT_FILES"] = ":".join(f"{home}/{name}" for name in expected)
+
+    seen = drive(neovim, untrusted_desk, "workspace")
+
+    assert seen == [[str(home / root) if root else "", trusted] for root, trusted in expected.values()]
+
+
+def test_missing_server_is_told_once(neovim: Neovim, desk_without_server: Desk) -> None:
+    seen = drive(neovim, desk_without_server, "missing")
+
+    assert seen["told"] == [
+        "ros-preflight: ros-preflight-that-is-not-there is not on PATH (pipx install ros-preflight)"
+    ]
+    assert seen["messages"].count("ros-preflight is not on PATH") == 1
+    assert seen["tree"][1] == "No server is attached to launch/talker_listener.launch (yet)"
+    assert seen["clients"] == 0

@@ -6,7 +6,7 @@ end
 
 local function is_launch_file(bufnr)
   for _, line in ipairs(vim.api.nvim_buf_get_lines(bufnr, 0, 5, false)) do
-    if line:find('<launch[%s>]') then
+    if line:find('<launch[%s/>]') then
       return true
     end
   end

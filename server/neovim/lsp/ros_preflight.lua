@@ -6,7 +6,7 @@ return {
   filetypes = client.FILETYPES,
   root_dir = function(bufnr, on_dir)
     local is_served, root = client.served(bufnr)
-    if is_served and client.can_start(vim.lsp.config[client.NAME].cmd) then
+    if is_served then
       on_dir(root)
     end
   end,

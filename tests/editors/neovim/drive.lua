@@ -26,7 +26,7 @@ local function line_with(text)
       return number - 1
     end
   end
-  error('no line holds ' .. text, 0)
+  error(('no line holds %s:\n%s'):format(text, table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), '\n')), 0)
 end
 
 local function covered_text(d)
@@ -162,6 +162,237 @@ function scenarios.ros2()
       and #vim.diagnostic.get(0) == 0
   end)
   result.after = vim.api.nvim_buf_get_lines(0, 0, -1, false)
+  return result
+end
+
+local function lines_of(bufnr)
+  return vim.api.nvim_buf_get_lines(bufnr, 0, -1, false)
+end
+
+local function press(keys)
+  vim.api.nvim_feedkeys(vim.api.nvim_replace_termcodes(keys, true, false, true), 'x', false)
+end
+
+-- Puts the cursor on the line of the current buffer that holds `text`.
+local function on_line_with(text)
+  vim.api.nvim_win_set_cursor(0, { line_with(text) + 1, 0 })
+end
+
+-- Waits until a buffer holds every one of some texts and none that begin with `!`.
+local function wait_for_texts(bufnr, texts)
+  local seen
+  local ok, err = pcall(wait_for, table.concat(texts, ', '), function()
+    seen = table.concat(lines_of(bufnr), '\n')
+    for _, text in ipairs(texts) do
+      local unwanted = text:sub(1, 1) == '!'
+      if (seen:find(unwanted and text:sub(2) or text, 1, true) ~= nil) == unwanted then
+        return false
+      end
+    end
+    return true
+  end)
+  if not ok then
+    error(err .. '\n' .. seen, 0)
+  end
+  return lines_of(bufnr)
+end
+
+local function place()
+  local cursor = vim.api.nvim_win_get_cursor(0)
+  return { vim.fn.expand('%:t'), cursor[1], vim.fn.strpart(vim.fn.getline('.'), cursor[2]) }
+end
+
+local function edit(from, to)
+  local number = line_with(from)
+  local line = vim.fn.getline(number + 1)
+  local at = line:find(from, 1, true)
+  vim.fn.setline(number + 1, line:sub(1, at - 1) .. to .. line:sub(at + #from))
+end
+
+-- The tree: its lines, folds, jumps, what it says after an edit, and how it closes.
+function scenarios.tree()
+  local file = vim.api.nvim_get_current_buf()
+  vim.cmd('RosPreflightTree')
+  local tree = vim.api.nvim_get_current_buf()
+  local result = { filetype = vim.bo.filetype, modifiable = vim.bo.modifiable }
+  result.lines = wait_for_texts(tree, { 'listener.py  [1 warning]', '!being run', '!ended' })
+  local colours = vim.api.nvim_get_namespaces().ros_preflight_view
+  local function colour_of(text)
+    local marks = vim.api.nvim_buf_get_extmarks(tree, colours, { line_with(text), 0 }, { line_with(text), -1 }, { details = true })
+    return vim.tbl_map(function(mark) return mark[4].hl_group end, marks)
+  end
+  result.colours = { colour_of('inner  '), colour_of('listener  ') }
+
+  on_line_with('talker  preflight_demo')
+  press('<Tab>')
+  result.unfolded = lines_of(tree)
+  on_line_with('rate = ')
+  press('<CR>')
+  result.param = place()
+  vim.cmd('RosPreflightTree')
+  result.windows = #vim.api.nvim_list_wins()
+  on_line_with('preflight_demo/listener.py')
+  press('<CR>')
+  result.node = place()
+  vim.cmd('RosPreflightTree')
+  on_line_with('inner ')
+  press('<CR>')
+  result.included = place()
+
+  vim.api.nvim_set_current_buf(file)
+  edit('name="listener"', 'name="hearer"')
+  result.edited = wait_for_texts(tree, { 'hearer  preflight_demo/listener.py  [1 warning]', '!being run' })
+  vim.cmd('RosPreflightTree')
+  result.cursor = vim.fn.getline('.')
+  press('q')
+  result.windows_at_end = #vim.api.nvim_list_wins()
+  result.gone = vim.fn.bufexists(tree) == 0
+  return result
+end
+
+-- The graph: its lines, jumps to launch file and source, and what it says after an edit.
+function scenarios.graph()
+  local file = vim.api.nvim_get_current_buf()
+  vim.cmd('RosPreflightGraph')
+  local graph = vim.api.nvim_get_current_buf()
+  local result = { filetype = vim.bo.filetype }
+  result.lines = wait_for_texts(graph, { 'warning: ', 'made in listener.py', 'made in talker.py' })
+  on_line_with('/front/listener')
+  press('<CR>')
+  result.launch = place()
+  vim.cmd('RosPreflightGraph')
+  press('gs')
+  result.source = place()
+  vim.cmd('RosPreflightGraph')
+  on_line_with('warning: ')
+  press('<CR>')
+  result.finding = place()
+
+  vim.cmd('RosPreflightGraph!')
+  result.builtin = wait_for_texts(graph, { '/rosout' })
+  vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
+  vim.api.nvim_set_current_buf(file)
+  edit('to="chater"', 'to="chatter"')
+  vim.cmd('RosPreflightGraph')
+  result.edited = wait_for_texts(graph, { '/front/chatter', '!chater', '!rosout' })
+  on_line_with('/front/chatter')
+  press('<Tab>')
+  result.folded = lines_of(graph)
+  return result
+end
+
+-- The commands that look after the server.
+function scenarios.maintenance()
+  local told = {}
+  vim.notify = function(message)
+    table.insert(told, message)
+  end
+  local function told_since(count)
+    return wait_for('a message', function()
+      return told[count + 1]
+    end)
+  end
+  local file = vim.api.nvim_get_current_buf()
+  local result = {}
+  wait_for('the diagnostic', function() return diagnostics_with('chatter')[1] end)
+  on_line_with('name="talker"')
+  vim.cmd('RosPreflightTrace')
+  result.one = told_since(0)
+  vim.cmd('RosPreflightTrace!')
+  result.all = told_since(1)
+  on_line_with('<launch>')
+  vim.cmd('RosPreflightTrace')
+  result.none = told_since(2)
+  vim.cmd('RosPreflightTree')
+  wait_for_texts(0, { 'listener.py' })
+  on_line_with('listener.py')
+  vim.cmd('RosPreflightTrace')
+  result.tree = told_since(3)
+  vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
+  wait_for('the end of the runs', function()
+    local status = require('ros_preflight.client').status(require('ros_preflight.client').clients(file)[1])
+    return status and status.state == 'idle' and diagnostics_with('chatter')[1]
+  end)
+  vim.cmd('RosPreflightClearCache')
+  result.cleared = told_since(4)
+  vim.cmd('RosPreflightDoctor')
+  wait_for('the page', function() return vim.bo.filetype == 'rospreflightdoctor' and vim.fn.line('$') > 1 end)
+  result.doctor = lines_of(0)
+  vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
+
+  local client = require('ros_preflight.client')
+  local before = client.clients(file)[1].id
+  vim.cmd('RosPreflightRestart')
+  local after = wait_for('another server', function()
+    local now = client.clients(file)[1]
+    return now and now.id ~= before and now.id
+  end)
+  result.clients = #client.clients()
+  result.old_is_gone = vim.lsp.get_client_by_id(before) == nil
+  edit('to="chater"', 'to="chater2"')
+  wait_for('findings of the new server', function() return diagnostics_with('chater2')[1] end)
+  result.status = wait_for('its status', function()
+    local status = client.status(vim.lsp.get_client_by_id(after))
+    return status and status.state == 'idle' and require('ros_preflight').status(file)
+  end)
+  return result
+end
+
+-- The types of files, and which of them the server is told of.
+function scenarios.files()
+  local found = {}
+  for _, path in ipairs(vim.fn.split(vim.env.PREFLIGHT_FILES, ':')) do
+    vim.cmd('edit ' .. path)
+    local is_served = require('ros_preflight.client').served(0)
+    local name = vim.fn.fnamemodify(path, ':t')
+    found[name] = { vim.bo.filetype, is_served, vim.bo.commentstring, vim.b.current_syntax }
+  end
+  return found
+end
+
+-- Which folder a file belongs to, and whether it is trusted.
+function scenarios.workspace()
+  local workspace = require('ros_preflight.workspace')
+  return vim.tbl_map(function(path)
+    local root = workspace.root_of(path)
+    return { root or '', workspace.is_trusted(root) }
+  end, vim.fn.split(vim.env.PREFLIGHT_FILES, ':'))
+end
+
+-- The server's program is missing: that is said once.
+function scenarios.missing()
+  local told = {}
+  local notify = vim.notify
+  vim.notify = function(message)
+    table.insert(told, message)
+  end
+  package.loaded['ros_preflight.client'].can_start({ 'ros-preflight-that-is-not-there' })
+  package.loaded['ros_preflight.client'].can_start({ 'ros-preflight-that-is-not-there' })
+  vim.notify = notify
+  vim.cmd('RosPreflightTree')
+  return {
+    told = told,
+    messages = vim.fn.execute('messages'),
+    tree = lines_of(0),
+    clients = #require('ros_preflight.client').clients(),
+  }
+end
+
+-- Tree and graph where nothing may be run.
+function scenarios.views_untrusted()
+  local file = vim.api.nvim_get_current_buf()
+  vim.cmd('RosPreflightTree')
+  local result = { tree = wait_for_texts(0, { 'not trusted', 'talker.py', 'listener.py' }) }
+  vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
+  vim.cmd('tab RosPreflightGraph')
+  result.graph = wait_for_texts(0, { 'not trusted', 'info: ' })
+  result.tabs = #vim.api.nvim_list_tabpages()
+  vim.notify = function(message)
+    result.trace = message
+  end
+  vim.cmd('RosPreflightTrace!')
+  wait_for('a message', function() return result.trace end)
+  result.status = require('ros_preflight').status(file)
   return result
 end
 

@@ -17,6 +17,13 @@ local function here()
   return server, bufnr, row
 end
 
+-- The cursor's position; that of the first character where it stands in front of the text of its line.
+local function position_in_text(server)
+  local position = vim.lsp.util.make_position_params(0, server.offset_encoding).position
+  position.character = math.max(position.character, #vim.fn.getline('.'):match('^%s*'))
+  return position
+end
+
 -- Runs the node at the cursor anew, in a launch file or one of our buffers; with a bang all nodes of the launch.
 function M.trace(args)
   local server, bufnr, row = here()
@@ -30,7 +37,7 @@ function M.trace(args)
       return client.warn('no node is in this line')
     end
     params.node = row and row.node
-    params.position = not is_view and vim.lsp.util.make_position_params(0, server.offset_encoding).position or nil
+    params.position = not is_view and position_in_text(server) or nil
   end
   client.request(server, 'rosPreflight/trace', params, bufnr, function(answer, err)
     local message = err or (answer and answer.message)

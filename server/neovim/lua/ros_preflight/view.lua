@@ -100,7 +100,7 @@ local function refresh(view)
   local server = server_of(view)
   if not server then
     local file = vim.api.nvim_buf_is_valid(view.source) and vim.api.nvim_buf_get_name(view.source) or 'the file'
-    view.problem = 'There is no server for ' .. vim.fn.fnamemodify(file, ':~:.')
+    view.problem = ('No server is attached to %s (yet)'):format(vim.fn.fnamemodify(file, ':~:.'))
     return draw(view)
   end
   view.asking = true
@@ -233,9 +233,11 @@ end
 
 -- Shows the launch of the current file, in the window of its kind or a new one made as `mods` say.
 function M.open(kind, mods, settings)
-  local at = M.current()
+  local at, view = M.current(), views[kind.name]
   local source = at and at.source or vim.api.nvim_get_current_buf()
-  local view = views[kind.name]
+  if view and #client.clients(source) == 0 and vim.api.nvim_buf_is_valid(view.source) then
+    source = view.source -- the current file is none of ours: a node's source, say
+  end
   if not view or view.source ~= source then
     local bufnr = view and view.bufnr
     view = { kind = kind, source = source, rows = {}, folded = {}, encoding = 'utf-16', asked = 0, bufnr = bufnr }
