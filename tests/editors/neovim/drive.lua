@@ -256,7 +256,7 @@ function scenarios.graph()
   vim.cmd('RosPreflightGraph')
   local graph = vim.api.nvim_get_current_buf()
   local result = { filetype = vim.bo.filetype }
-  result.lines = wait_for_texts(graph, { 'warning: ', 'made in listener.py', 'made in talker.py' })
+  result.lines = wait_for_texts(graph, { 'warning: ', 'made in listener.py', 'made in talker.py', '!perhaps', '!being run' })
   on_line_with('/front/listener')
   press('<CR>')
   result.launch = place()
@@ -274,7 +274,13 @@ function scenarios.graph()
   vim.api.nvim_set_current_buf(file)
   edit('to="chater"', 'to="chatter"')
   vim.cmd('RosPreflightGraph')
-  result.edited = wait_for_texts(graph, { '/front/chatter', '!chater', '!rosout' })
+  result.edited = wait_for_texts(graph, {
+    'from chatter  robot.launch:8  made in listener.py',
+    '!chater',
+    '!rosout',
+    '!perhaps',
+    '!being run',
+  })
   on_line_with('/front/chatter')
   press('<Tab>')
   result.folded = lines_of(graph)
@@ -382,10 +388,10 @@ end
 function scenarios.views_untrusted()
   local file = vim.api.nvim_get_current_buf()
   vim.cmd('RosPreflightTree')
-  local result = { tree = wait_for_texts(0, { 'not trusted', 'talker.py', 'listener.py' }) }
+  local result = { tree = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'talker.py', 'listener.py' }) }
   vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
   vim.cmd('tab RosPreflightGraph')
-  result.graph = wait_for_texts(0, { 'not trusted', 'info: ' })
+  result.graph = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'info: ' })
   result.tabs = #vim.api.nvim_list_tabpages()
   vim.notify = function(message)
     result.trace = message

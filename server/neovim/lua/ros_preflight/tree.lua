@@ -93,7 +93,6 @@ local KIND = {
 function KIND.ask(shown, server, done)
   client.request(server, 'rosPreflight/tree', { uri = shown.uri }, shown.source, function(tree, err)
     shown.encoding = server.offset_encoding
-    shown.not_run = (client.status(server) or {}).notRun
     done(tree, err or (tree == nil and 'This is no launch file, or it cannot be read' or nil))
   end)
 end
@@ -108,7 +107,8 @@ function KIND.rows(shown)
       place = { uri = tree.root.uri, range = { start = { line = 0, character = 0 }, ['end'] = { line = 0, character = 0 } } },
     },
   }
-  add(shown, rows, tree.items, '', 0, shown.not_run and shown.not_run.message)
+  local not_run = view.status(shown).notRun
+  add(shown, rows, tree.items, '', 0, not_run and not_run.message)
   return rows
 end
 

@@ -22,6 +22,11 @@ local function server_of(view)
   return vim.api.nvim_buf_is_valid(view.source) and client.clients(view.source)[1] or nil
 end
 
+-- What the server told of itself last.
+function M.status(view)
+  return client.status(server_of(view)) or {}
+end
+
 local function row_at(view, window)
   return view.rows[vim.api.nvim_win_get_cursor(window)[1]]
 end
@@ -71,10 +76,10 @@ local function header(view)
   if view.problem then
     say(view.problem, 'Warning')
   end
-  local status = client.status(server_of(view))
-  if status and status.state == 'tracing' then
+  local status = M.status(view)
+  if status.state == 'tracing' then
     say(('Nodes are being run: %d of %d'):format(status.done, status.total), 'Info')
-  elseif status and status.notRun then
+  elseif status.notRun then
     say('Nodes are not run: ' .. status.notRun.message, 'Warning')
   end
   return rows
