@@ -153,17 +153,19 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   }
 
   async resolveTreeItem(made: TreeItem, { item }: Line, token: CancellationToken): Promise<TreeItem> {
-    const lines = [`**${item.name || item.label}** ${item.detail}`, item.note, this.place(item)];
-    let text = lines.filter((line) => line !== "").join("\n\n");
+    const lines = [`${item.name || item.label} ${item.detail}`, item.note, this.place(item)];
+    // Names come from files: nothing in them is Markdown, or they could have an image fetched.
+    made.tooltip = new MarkdownString().appendText(lines.filter((line) => line !== "").join("\n"));
     if (item.kind === "node" && item.location !== null && this.client !== undefined) {
       // What hover says of the node, where its file is open.
       const params = { textDocument: { uri: item.location.uri }, position: item.location.range.start };
       const hover = await this.client
         .sendRequest<{ contents: { value?: string } } | null>("textDocument/hover", params, token)
         .catch(() => null);
-      text = hover?.contents.value ?? text;
+      if (hover?.contents.value !== undefined) {
+        made.tooltip = new MarkdownString(hover.contents.value);
+      }
     }
-    made.tooltip = new MarkdownString(text);
     return made;
   }
 

@@ -30,6 +30,8 @@ class Ros2Observer:
     def __init__(self, environment: Environment) -> None:
         self._environment = environment
         self._process: subprocess.Popen[str] | None = None
+        self._closed = False
+        self._starting = threading.Lock()
         self._news = threading.Condition()
         self._latest: Observation | None = None
         self._error: str | None = None
@@ -40,16 +42,21 @@ class Ros2Observer:
         return f"ROS 2 domain {self._environment.variables.get('ROS_DOMAIN_ID') or 0}"
 
     def close(self) -> None:
-        """End the helper."""
-        process, self._process = self._process, None
+        """End the helper; another thread may be about to start it."""
+        with self._starting:
+            self._closed = True
+            process, self._process = self._process, None
         if process is not None:
             process.kill()
             process.wait()
 
     def observe(self) -> Observation:
         """The system as it was last told. Raises `CannotObserveError`."""
-        if self._process is None:
-            self._start()
+        with self._starting:
+            if self._closed:
+                raise CannotObserveError(f"{self.place} is not watched any more", final=True)
+            if self._process is None:
+                self._start()
         with self._news:
             self._news.wait_for(lambda: self._latest is not None or self._error is not None, _START_SECONDS)
             if self._error is not None:
