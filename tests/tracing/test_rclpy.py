@@ -8,7 +8,7 @@ import pytest
 from action_package import action_package
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.interface import Range
+from preflight_analysis.tracing.interface import Interface, Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from ros2_desk import Ros2Desk, ends, node_of, ros2_prefix, uses
@@ -462,3 +462,48 @@ def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:
         ("PRM011", "the file has nothing for /there/own, which therefore ignores it; it is for '/there/talker'"),
         ("PRM013", "/there/own declares no parameter 'rat'"),
     ]
+
+
+def test_a_node_without_a_name_gets_what_files_have_for_the_name_that_it_gives_itself(tmp_path: Path) -> None:
+    desk = Ros2Desk(
+        tmp_path / "ws", talker=node_of("self.create_publisher(String, self.declare_parameter('topic', 'a').value, 1)")
+    )
+    desk.cache = TraceCache(tmp_path / "cache")
+
+    def trace(*sections: str) -> Interface:
+        texts = [f"{key}:\n  ros__parameters:\n    {param}\n" for key, _, param in (s.partition("=") for s in sections)]
+        desk.write("launch/p.yaml", "".join(texts))
+        return desk.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
+
+    assert set(ends(trace("own=topic: b", "other=topic: c"))) == {("publisher", "b")}
+    assert set(ends(trace("own=topic: b", "/**=topic: c"))) == {("publisher", "c")}, "the key below counts"
+    assert set(ends(trace("/**=topic: c", "own=topic: b"))) == {("publisher", "b")}
+    assert set(ends(trace("own=topic: d"))) == {("publisher", "d")}, "it was read"
+    # What it does not read makes no difference, nor does what is for others.
+    assert trace("own=topic: d", "other=topic: c").cached
+    assert trace("own={topic: d, more: 1}").cached
+    assert set(ends(trace("other=topic: d"))) == {("publisher", "a")}
+
+
+def test_a_name_that_comes_with_a_parameter_is_no_reason_to_run_on(tmp_path: Path) -> None:
+    body = """
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+def main():
+    rclpy.init()
+    first = Node('first')
+    name = first.declare_parameter('name', 'left').value
+    first.destroy_node()
+    node = Node(name)
+    node.create_publisher(String, '/' + name, 1)
+    rclpy.spin(node)
+"""
+    desk = Ros2Desk(tmp_path / "ws", talker=body.replace("Node('first')", "Node('_first')"))
+    desk.cache = TraceCache(tmp_path / "cache")
+    desk.write("launch/p.yaml", "/**/left: {ros__parameters: {x: 1}}\n/left: {ros__parameters: {name: right}}\n")
+    found = desk.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
+    assert set(ends(found)) == {("publisher", "/right")}
+    assert found.outcome.status == "spinning"

@@ -342,8 +342,14 @@ class RclcppCalls:
         if node.full is not None:
             self.found.node(node.full.rpartition("/")[2] if isinstance(node.full, str) else UNKNOWN, renamed=False)
             return
-        space = given[1] if len(given) > 1 and not _is_options(given[1]) else ""
-        self.found.node(given[0] if given else UNKNOWN, space, renamed=options.of_process)
+        texts = [value for value in given if isinstance(value, str)]
+        if len(texts) != sum(not _is_options(value) and value is not UNKNOWN for value in given) or len(texts) > 2:
+            self.found.unknown_node()  # another constructor is meant
+            return
+        space = given[1] if len(given) > 1 and isinstance(given[1], str) else ""
+        # Options that are not known may have arguments of their own.
+        renamed = options.of_process and all(isinstance(value, (str, _Options)) for value in given)
+        self.found.node(given[0] if given else UNKNOWN, space, renamed=renamed)
 
     def _named_node(self, given: Sequence[Any], options: _Options, *, has_lifecycle: bool) -> NodeObject:
         """The node, and whether its options give it another name than the launch file's."""

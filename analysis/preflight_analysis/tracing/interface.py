@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
+from preflight_analysis.evaluation import names
+
 Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
 Status = Literal["spinning", "exited", "crashed", "timed-out", "not-run"]
 PENDING = "its run has not ended yet"
@@ -195,6 +197,15 @@ class Interface:
         outcome = self.outcome
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
         return self.complete or (self.known and done)
+
+    def own_name(self, namespace: str) -> str | None:
+        """ROS 2: the full name of the node, where its own code gives it one, in a namespace of the launch file (`/` for
+        none). None where it is not known, or where the process has several: which of them is meant nobody can tell."""
+        made = {(each.name, each.space) for each in self.nodes if not each.given.startswith("_")}
+        if len(made) != 1:
+            return None
+        ((name, space),) = made
+        return names.canonicalize(f"/{space if namespace == '/' else namespace}/{name}")
 
     @property
     def pending(self) -> bool:

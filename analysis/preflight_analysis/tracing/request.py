@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
+
+from preflight_analysis.evaluation.ros2.param_files import Section
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +33,25 @@ class TraceRequest:
     """`module:function` where `executable` is the file of a Python module that is run from its source."""
     named: bool = True
     """Whether the launch file names the node; its own code does otherwise."""
+    sections: tuple[tuple[Section, ...], ...] = ()
+    """Of a node without a name: what its parameter files and values have for nodes of any name, source by source. What
+    of it is for the node is only known once a run has told its name."""
     launch: str | None = field(default=None, compare=False)
     """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
+
+    def under(self, name: str) -> TraceRequest | None:
+        """The run with what the parameter files have for the full name that the node gave itself; None where that
+        makes no difference. As rcl does it, keys count in the order in which they are met first."""
+        below: dict[str, dict[str, Any]] = {}
+        for sections in self.sections:
+            for section in sections:
+                if section.params and section.fits(name):
+                    below.setdefault(section.key, {}).update((param.name, param.value) for param in section.params)
+        given = {param: value for values in below.values() for param, value in values.items()}
+        params = {f"{self.node}/{param}": value for param, value in given.items()}
+        if repr(sorted(params.items())) == repr(sorted(self.params.items())):
+            return None
+        return replace(self, params=params, sections=())
 
 
 def split_args(text: str) -> tuple[str, ...]:

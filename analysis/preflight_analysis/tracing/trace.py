@@ -14,6 +14,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import compiled, nodelets, preload, run, sandbox, windows
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.cache import TraceCache
@@ -48,6 +49,14 @@ class Tracer:
 
     def lookup(self, request: TraceRequest) -> Interface | None:
         """A cached trace that is still valid; nothing is run."""
+        found = self._kept(request)
+        again = _under_own_name(request, found) if found is not None else None
+        if found is None or again is None:
+            return found
+        then = self._kept(again)
+        return _still_named(then, found) if then is not None else None
+
+    def _kept(self, request: TraceRequest) -> Interface | None:
         if self.cache is None:
             return None
         alone = nodelets.standalone(request)
@@ -61,12 +70,22 @@ class Tracer:
 
     def trace(self, request: TraceRequest, cancel: threading.Event, *, fresh: bool = False) -> Interface:
         """The cached trace, or a new run; with `fresh` a new run in any case. Never raises: what stands in the way of a
-        run is the outcome's reason."""
-        found = None if fresh else self.lookup(request)
+        run is the outcome's reason.
+
+        A node that the launch file does not name is run once more when its name is known, where its parameter files
+        have something for that; whatever name it then has, there is no third time."""
+        found = self._trace(request, cancel, fresh=fresh)
+        again = _under_own_name(request, found)
+        if again is None or cancel.is_set():
+            return found
+        return _still_named(self._trace(again, cancel, fresh=fresh), found)
+
+    def _trace(self, request: TraceRequest, cancel: threading.Event, *, fresh: bool) -> Interface:
+        found = None if fresh else self._kept(request)
         if found is not None:
             return found
         with self._turn(request, cancel):
-            found = None if fresh else self.lookup(request)
+            found = None if fresh else self._kept(request)
             if found is not None:
                 return found
             try:
@@ -130,6 +149,19 @@ class Tracer:
                 started=raw.started,
             )
         return observed.interface
+
+
+def _under_own_name(request: TraceRequest, found: Interface) -> TraceRequest | None:
+    """The run with the parameters for the name that a first run told; None where it had them all."""
+    if request.named or not request.sections:
+        return None
+    name = found.own_name(names.parent(request.node))
+    return request.under(name) if name is not None else None
+
+
+def _still_named(then: Interface, first: Interface) -> Interface:
+    """A second run with the names of the first, where it ended before it made any."""
+    return then if then.nodes or not then.known else replace(then, nodes=first.nodes)
 
 
 def _preloaded(request: TraceRequest) -> bool:

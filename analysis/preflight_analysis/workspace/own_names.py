@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.tracing.interface import Interface
@@ -29,13 +28,6 @@ def with_own_names(tree: LaunchTree, interfaces: Sequence[Interface], documents:
 
 
 def _own_name(node: LaunchNode, interface: Interface) -> str | None:
-    """None where it is not known, or where the process has several: which of them is meant nobody can tell."""
     if node.named or node.told or node.unknowns or node.kind not in ("node", "lifecycle"):
         return None
-    made = {(each.name, each.space) for each in interface.nodes if not each.given.startswith("_")}
-    if len(made) != 1:
-        return None
-    ((name, space),) = made
-    if node.namespace != "/":
-        space = node.namespace
-    return names.canonicalize(f"/{space}/{name}")
+    return interface.own_name(node.namespace)

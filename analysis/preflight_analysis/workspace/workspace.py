@@ -16,6 +16,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
@@ -182,7 +183,7 @@ class Workspace:
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
         if analysis.tree.generation == 2:
-            return tuple(self._ros2_request(node) for node in analysis.tree.nodes)
+            return tuple(self._ros2_request(node, analysis.documents) for node in analysis.tree.nodes)
         params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
@@ -191,7 +192,7 @@ class Workspace:
         lacks = tree.generation == 2 and self.environment.ros2_python is None
         return "there is no rclpy to run it with; ros-preflight doctor shows where it was looked for" if lacks else None
 
-    def _ros2_request(self, node: LaunchNode) -> TraceRequest | None:
+    def _ros2_request(self, node: LaunchNode, documents: Mapping[str, Document]) -> TraceRequest | None:
         """How to run a node of ROS 2: one that is written in Python, where there is a rclpy for it, or a program."""
         path = node.resolved.path
         if path is None or node.unknowns or node.kind not in ("node", "lifecycle"):
@@ -212,6 +213,7 @@ class Workspace:
             generation=2,
             entry_point=node.resolved.entry_point,
             named=node.named,
+            sections=() if node.named else sections_for_any_name(node, documents),
             launch=node.location.file,
         )
 

@@ -14,7 +14,14 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
-from preflight_analysis.evaluation.ros2.param_files import EVERY, ParamFile, Section, read_flat_file, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import (
+    EVERY,
+    FileParam,
+    ParamFile,
+    Section,
+    read_flat_file,
+    read_param_file,
+)
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid, loaded
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
@@ -164,13 +171,37 @@ def file_source(
     return _of_file(file, text, path, origin, to, substituted=substitute)
 
 
+def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:
+    """What the sources of a node have for nodes of any name, source by source: of one that the launch file does not
+    name, it is not known which of it is for the node."""
+    return tuple(_for_any_name(source, documents) for source in node.param_sources)
+
+
+def _for_any_name(source: ParamSource, documents: Mapping[str, Document]) -> tuple[Section, ...]:
+    document = _as_it_stands(source, documents)
+    if document is not None:
+        return read_param_file(document.text).sections
+    nowhere = Span(0, 0)
+    return tuple(
+        Section(EVERY, (), (FileParam(param.name, param.value, param.value, nowhere, nowhere),), key)
+        for key, param in zip(source.keys, source.params, strict=True)
+    )
+
+
+def _as_it_stands(source: ParamSource, documents: Mapping[str, Document]) -> Document | None:
+    """The file of a source; None for values of the launch file, and for one that was read after its substitutions were
+    made."""
+    document = documents.get(source.path) if source.path is not None else None
+    return document if not source.substituted else None
+
+
 def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, inferred: bool) -> LaunchNode:
     """A node that the launch file does not name, under the name that its own code gives it: parameter files may have
     something for that."""
     to = Sources(name)
     for source in node.param_sources:
-        document = documents.get(source.path) if source.path is not None else None
-        if source.path is None or document is None or source.substituted:
+        document = _as_it_stands(source, documents)
+        if source.path is None or document is None:
             to.add(source)
         else:
             file = read_param_file(document.text)
