@@ -135,5 +135,12 @@ def test_a_name_for_several_nodes(tmp_path: Path) -> None:
         'auto a = std::make_shared<Pump>("a");',
         'auto b = std::make_shared<rclcpp::Node>("b", rclcpp::NodeOptions().use_global_arguments(false));',
     )
-    for source in (SEVERAL["two branches"], SEVERAL["two branches in C++"], ONE["a node in C++"], own, own_cpp):
+    unknown_options = cpp(
+        'auto a = std::make_shared<Pump>("a");', 'auto b = std::make_shared<rclcpp::Node>("b", other::options());'
+    )
+    no_such_constructor = cpp(
+        'auto a = std::make_shared<Pump>("a");', 'auto b = std::make_shared<rclcpp::Node>("b", "", "c");'
+    )
+    sources = (SEVERAL["two branches"], SEVERAL["two branches in C++"], ONE["a node in C++"], own, own_cpp)
+    for source in (*sources, unknown_options, no_such_constructor):
         assert not told(analysis(tmp_path, source, NAMED))
