@@ -163,6 +163,8 @@ def test_launch_files_of_ros_2(neovim: Neovim, trusted_desk: Desk, suffix: str, 
     assert seen["covered"] == "talkr"
     assert "talker" in seen["offered"]
     assert seen["after"] == ROS2[f"launch/a.launch.{suffix}"].replace("talkr", "talker").splitlines()
+    node = next(line for line in seen["tree"] if "robot/talker" in line)
+    assert f"a.launch.{suffix}:" in node
 
 
 ROBOT = """<launch>
@@ -213,8 +215,9 @@ def test_tree(neovim: Neovim, trusted_desk: Desk) -> None:
     assert (seen["filetype"], seen["modifiable"]) == ("rospreflighttree", False)
     assert seen["lines"] == TREE
     inner, listener = seen["colours"]
-    assert (inner[1], listener[1]) == ("RosPreflightFile2", "RosPreflightFile1"), "each launch file has its colour"
-    assert "RosPreflightWarning" in listener
+    quiet, place = "RosPreflightQuiet", "RosPreflightPlace"
+    assert inner == [quiet, "RosPreflightFile2", quiet, place], "each launch file has its colour"
+    assert listener == [quiet, "RosPreflightFile1", quiet, "RosPreflightWarning", place]
     unfolded = [line.replace("▸ talker", "▾ talker") for line in TREE]
     unfolded.insert(5, "      rate = 5")
     assert seen["unfolded"] == unfolded
@@ -224,6 +227,8 @@ def test_tree(neovim: Neovim, trusted_desk: Desk) -> None:
     assert seen["windows"] == 2, "the tree's window is used again"
     assert seen["edited"] == [line.replace("listener  ", "hearer  ") for line in unfolded], "what was unfolded stays so"
     assert seen["cursor"] == TREE[2]
+    assert seen["marks"] < 4 * len(seen["edited"]), "colours of former lines are gone"
+    assert seen["alone"] == [2, "inner.launch", False, False], "a window of its own for the file"
     assert (seen["windows_at_end"], seen["gone"]) == (1, True)
 
 

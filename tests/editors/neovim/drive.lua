@@ -72,6 +72,50 @@ local function hover_on_node(text)
   end)
 end
 
+local function lines_of(bufnr)
+  return vim.api.nvim_buf_get_lines(bufnr, 0, -1, false)
+end
+
+local function press(keys)
+  vim.api.nvim_feedkeys(vim.api.nvim_replace_termcodes(keys, true, false, true), 'x', false)
+end
+
+-- Puts the cursor on the line of the current buffer that holds `text`.
+local function on_line_with(text)
+  vim.api.nvim_win_set_cursor(0, { line_with(text) + 1, 0 })
+end
+
+-- Waits until a buffer holds every one of some texts and none that begin with `!`.
+local function wait_for_texts(bufnr, texts)
+  local seen
+  local ok, err = pcall(wait_for, table.concat(texts, ', '), function()
+    seen = table.concat(lines_of(bufnr), '\n')
+    for _, text in ipairs(texts) do
+      local unwanted = text:sub(1, 1) == '!'
+      if (seen:find(unwanted and text:sub(2) or text, 1, true) ~= nil) == unwanted then
+        return false
+      end
+    end
+    return true
+  end)
+  if not ok then
+    error(err .. '\n' .. seen, 0)
+  end
+  return lines_of(bufnr)
+end
+
+local function place()
+  local cursor = vim.api.nvim_win_get_cursor(0)
+  return { vim.fn.expand('%:t'), cursor[1], vim.fn.strpart(vim.fn.getline('.'), cursor[2]) }
+end
+
+local function edit(from, to)
+  local number = line_with(from)
+  local line = vim.fn.getline(number + 1)
+  local at = line:find(from, 1, true)
+  vim.fn.setline(number + 1, line:sub(1, at - 1) .. to .. line:sub(at + #from))
+end
+
 local scenarios = {}
 
 -- The misspelt topic of the listener's remap is reported and mended by the quick fix.
@@ -162,51 +206,9 @@ function scenarios.ros2()
       and #vim.diagnostic.get(0) == 0
   end)
   result.after = vim.api.nvim_buf_get_lines(0, 0, -1, false)
+  vim.cmd('RosPreflightTree')
+  result.tree = wait_for_texts(0, { 'talker  robot/talker', '!being run', '!ended' })
   return result
-end
-
-local function lines_of(bufnr)
-  return vim.api.nvim_buf_get_lines(bufnr, 0, -1, false)
-end
-
-local function press(keys)
-  vim.api.nvim_feedkeys(vim.api.nvim_replace_termcodes(keys, true, false, true), 'x', false)
-end
-
--- Puts the cursor on the line of the current buffer that holds `text`.
-local function on_line_with(text)
-  vim.api.nvim_win_set_cursor(0, { line_with(text) + 1, 0 })
-end
-
--- Waits until a buffer holds every one of some texts and none that begin with `!`.
-local function wait_for_texts(bufnr, texts)
-  local seen
-  local ok, err = pcall(wait_for, table.concat(texts, ', '), function()
-    seen = table.concat(lines_of(bufnr), '\n')
-    for _, text in ipairs(texts) do
-      local unwanted = text:sub(1, 1) == '!'
-      if (seen:find(unwanted and text:sub(2) or text, 1, true) ~= nil) == unwanted then
-        return false
-      end
-    end
-    return true
-  end)
-  if not ok then
-    error(err .. '\n' .. seen, 0)
-  end
-  return lines_of(bufnr)
-end
-
-local function place()
-  local cursor = vim.api.nvim_win_get_cursor(0)
-  return { vim.fn.expand('%:t'), cursor[1], vim.fn.strpart(vim.fn.getline('.'), cursor[2]) }
-end
-
-local function edit(from, to)
-  local number = line_with(from)
-  local line = vim.fn.getline(number + 1)
-  local at = line:find(from, 1, true)
-  vim.fn.setline(number + 1, line:sub(1, at - 1) .. to .. line:sub(at + #from))
 end
 
 -- The tree: its lines, folds, jumps, what it says after an edit, and how it closes.
@@ -244,6 +246,11 @@ function scenarios.tree()
   result.edited = wait_for_texts(tree, { 'hearer  preflight_demo/listener.py  [1 warning]', '!being run' })
   vim.cmd('RosPreflightTree')
   result.cursor = vim.fn.getline('.')
+  result.marks = #vim.api.nvim_buf_get_extmarks(tree, colours, 0, -1, {})
+  vim.cmd('only')
+  press('<CR>')
+  result.alone = { #vim.api.nvim_list_wins(), vim.fn.expand('%:t'), vim.wo.number, vim.wo.cursorline }
+  vim.cmd('RosPreflightTree')
   press('q')
   result.windows_at_end = #vim.api.nvim_list_wins()
   result.gone = vim.fn.bufexists(tree) == 0

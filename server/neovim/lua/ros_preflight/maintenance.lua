@@ -84,7 +84,7 @@ function M.doctor(args)
     local page = view.scratch('doctor', 'rospreflightdoctor', args.mods)
     vim.api.nvim_buf_set_lines(page, 0, -1, false, vim.split(vim.trim(answer.text), '\n'))
     vim.bo[page].modifiable = false
-    vim.keymap.set('n', 'q', '<Cmd>close<CR>', { buffer = page, nowait = true })
+    vim.keymap.set('n', 'q', '<Cmd>bwipeout<CR>', { buffer = page, nowait = true })
   end)
 end
 

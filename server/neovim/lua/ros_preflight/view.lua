@@ -45,6 +45,8 @@ local function set_lines(view, rows)
   end
   view.rows = rows
   vim.bo[view.bufnr].modifiable = true
+  -- Marks would outlive their lines.
+  vim.api.nvim_buf_clear_namespace(view.bufnr, colours, 0, -1)
   vim.api.nvim_buf_set_lines(view.bufnr, 0, -1, false, lines)
   vim.bo[view.bufnr].modifiable = false
   for window, before in pairs(cursors) do
@@ -189,7 +191,7 @@ local function map_keys(view)
     end
   end)
   map('r', function() refresh(view) end)
-  map('q', function() vim.cmd('close') end)
+  map('q', function() vim.cmd('bwipeout') end)
 end
 
 -- Whether the rows below one are hidden, which they are at first if `usually`.
