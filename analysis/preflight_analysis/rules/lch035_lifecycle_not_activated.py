@@ -28,6 +28,8 @@ _KNOWN = frozenset(
     }
 )
 """Executables that are lifecycle nodes, in every distribution, and wait to be activated."""
+_MAX_TYPOS = 20
+"""So many names are not all misspelt; to compare each with each node would take long."""
 _CHANGE = "lifecycle_msgs/srv/ChangeState"
 _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine", "function", "timer"})
 
@@ -46,10 +48,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             for name in param.value:
                 managed.setdefault(_full(node, str(name)), (node, param))
     meant: set[str] = set()
+    missing, unmanaged = managed.keys() - there, there - managed.keys()
     for name, (manager, param) in managed.items():
         if name in there:
             continue
-        near = nearest(name, there - managed.keys())
+        near = nearest(name, unmanaged) if len(missing) <= _MAX_TYPOS else None
         if near is not None or context.tree.complete:
             meant.update({near} if near is not None else ())
             yield rule.finding(

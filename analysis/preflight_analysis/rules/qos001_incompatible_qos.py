@@ -18,20 +18,32 @@ _ORDERS = {
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for channel in context.graph.topics.values() if context.graph is not None else ():
+        # A topic that all nodes share has as many pairs as nodes squared, and few settings.
+        alike: dict[str, list[Connection]] = {}
+        for offering in channel.offers:
+            alike.setdefault(_settings(offering), []).append(offering)
+        problems: dict[tuple[str, str], str | None] = {}
         for wanting in channel.wants:
-            for offering in channel.offers:
-                problem = _problem(offering, wanting)
-                if problem is None:
-                    continue
-                assumed = wanting.endpoint.assumed or offering.endpoint.assumed
-                yield rule.finding(
-                    f"{wanting.node.name} gets nothing of '{channel.name}' from {offering.node.name}: {problem}",
-                    connection_location(wanting),
-                    severity="warning" if assumed else None,
-                    confidence="likely" if assumed else "certain",
-                    related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
-                    ends=ends_of(wanting, offering),
-                )
+            asked = _settings(wanting)
+            for offered, offerings in alike.items():
+                pair = offered, asked
+                if pair not in problems:
+                    problems[pair] = _problem(offerings[0], wanting)
+                problem = problems[pair]
+                for offering in offerings if problem is not None else ():
+                    assumed = wanting.endpoint.assumed or offering.endpoint.assumed
+                    yield rule.finding(
+                        f"{wanting.node.name} gets nothing of '{channel.name}' from {offering.node.name}: {problem}",
+                        connection_location(wanting),
+                        severity="warning" if assumed else None,
+                        confidence="likely" if assumed else "certain",
+                        related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
+                        ends=ends_of(wanting, offering),
+                    )
+
+
+def _settings(end: Connection) -> str:
+    return repr(sorted(end.endpoint.qos.items()))
 
 
 def _problem(offering: Connection, wanting: Connection) -> str | None:

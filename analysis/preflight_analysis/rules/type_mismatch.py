@@ -23,9 +23,13 @@ class Verbs:
 def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs: Verbs) -> Iterator[Finding]:
     """A finding for each wanting end and each type that does not fit it."""
     for channel in channels.values():
+        # Of those that are alike the first one is told; a topic that all nodes share has many.
+        offerings: dict[tuple[str | None, str | None, bool], Connection] = {}
+        for end in channel.offers:
+            offerings.setdefault((end.endpoint.type, end.endpoint.md5, end.action is None), end)
         for wanting in channel.wants:
             told: set[tuple[str | None, str]] = set()
-            for offering in channel.offers:
+            for offering in offerings.values():
                 if wanting.action is not None and offering.action is not None:
                     continue  # said once of the action, not of each of its topics
                 difference = _difference(wanting, offering)
