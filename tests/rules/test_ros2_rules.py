@@ -295,6 +295,37 @@ def test_simulated_time() -> None:
     check(launch.format(expected="", clock='<node pkg="p" exec="clock" name="clock"/>', interfaces=told))
 
 
+def test_nodes_on_two_clocks() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="clock" name="clock"/>
+          <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
+          <node pkg="p" exec="b" name="b"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM015] true for 1 node of this launch and not for /b
+        </launch>
+        //- interfaces
+        {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}
+    """)
+
+
+def test_the_clock_of_what_has_no_times_does_not_matter() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="clock" name="clock"/>
+          <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
+          <node pkg="p" exec="static_transform_publisher" name="fixed"/>
+          <node_container pkg="p" exec="component_container" name="box" namespace="">
+            <composable_node pkg="p" plugin="p::B" name="b" namespace=""><param name="use_sim_time" value="true"/>
+            </composable_node>
+          </node_container>
+        </launch>
+        //- interfaces
+        {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}
+    """)
+
+
 def test_qos_that_does_not_fit() -> None:
     check("""
         //- /robot.launch.xml

@@ -11,6 +11,8 @@ from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
+_TIMELESS = ("static_transform_publisher",)
+"""What it sends holds at any time."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -34,11 +36,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=include_chain(node.origin),
         )
     simulated = {id(node) for node, _ in on}
-    off = [node for node in nodes if id(node) not in simulated and not _publishes_clock(node, context)]
+    off = [
+        node for node in nodes if id(node) not in simulated and _has_times(node) and not _publishes_clock(node, context)
+    ]
     if told and off and len(off) <= len(on):
         shown = ", ".join(node.name for node in off[:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
         yield rule.finding(
-            f"use_sim_time is true for {len(on)} nodes of this launch and not for {shown}: their times do not match",
+            f"use_sim_time is true for {_counted(len(on))} of this launch and not for {shown}: their times do not "
+            "match",
             node_location(off[0]),
             severity="info",
             confidence="possible",
@@ -48,6 +53,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _sim_time(node: LaunchNode) -> Param | None:
     return next((param for param in node.params if param.name == "use_sim_time"), None)
+
+
+def _has_times(node: LaunchNode) -> bool:
+    """Whether it matters which clock the node is on, as far as is known: a container does nothing by itself, and what
+    is unknown of a node may be its parameters."""
+    return not node.unknowns and node.kind != "container" and node.executable not in _TIMELESS
+
+
+def _counted(number: int) -> str:
+    return "1 node" if number == 1 else f"{number} nodes"
 
 
 def _publishes_clock(node: LaunchNode, context: Context) -> bool:
