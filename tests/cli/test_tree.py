@@ -87,6 +87,14 @@ def test_an_error_is_what_would_stop_the_launcher(launch: Path, preflight: Run) 
     assert preflight("tree", launch, "--format", "json", "--fail-on", "never").code == 0
 
 
+def test_the_arguments_of_ros_2_are_read_as_ros2_launch_reads_them(tmp_path: Path, preflight: Run) -> None:
+    """Names as they are, and values with `:=` in them, as remaps have; roslaunch leaves out both."""
+    launch = tmp_path / "a.launch.xml"
+    launch.write_text('<launch><arg name="_rules"/><log message="$(var _rules)"/></launch>')
+    done = preflight("tree", launch, "_rules:=a:=b", "--format", "json")
+    assert done.json["args"]["_rules"]["value"] == "a:=b"
+
+
 def test_text(launch: Path, preflight: Run) -> None:
     done = preflight("tree", launch, "need:=1")
     assert "node /lab/t  preflight_demo/talker.py" in done.out

@@ -36,7 +36,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
     what the settings name, once with each of their profiles of arguments. Raises `CannotDoError` for a path that does
     not exist, and for a folder without launch files.
     """
-    values = options.launch_args([each for each in args.launch_args if ":=" in each])
+    values = [each for each in args.launch_args if ":=" in each]
     paths = [each for each in args.launch_args if ":=" not in each]
     if not paths and values:
         raise CannotDoError("name:=value is for a launch file, and none is named")
@@ -53,7 +53,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
             opened[home] = open_workspace(detect(home, package_path=options.package_path(args)), args)
         if folder and values:
             raise CannotDoError(f"{given} is a folder; arguments for its launch files stand in .ros-preflight.yaml")
-        named = _named_below(path, home) if folder else [Root.of(path, values)]
+        named = _named_below(path, home) if folder else [Root.of(path, options.launch_args(values, path))]
         found = _roots_below(path, named, opened[home]) if folder else named
         if not found:
             raise CannotDoError(f"there are no launch files in {given}")

@@ -6,9 +6,11 @@ import argparse
 import os
 from collections.abc import Iterable, Sequence
 
-from preflight_analysis.evaluation.arguments import parse_arguments
+from preflight_analysis.evaluation.arguments import parse_arguments, parse_ros2_arguments
 from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.tracing.cache_folder import VARIABLE
+from preflight_analysis.workspace.sources import Sources
 
 from preflight_server.cli.errors import CannotDoError
 
@@ -76,12 +78,15 @@ def launch_file(args: argparse.Namespace) -> str:
     return path
 
 
-def launch_args(given: list[str]) -> dict[str, str]:
-    """`name:=value` words as roslaunch takes them. Raises `CannotDoError` for a word that is nothing of the kind."""
+def launch_args(given: list[str], path: str) -> dict[str, str]:
+    """`name:=value` words as roslaunch or `ros2 launch` takes them, whichever the file at `path` is for. Raises
+    `CannotDoError` for a word that is nothing of the kind."""
     for each in given:
         if not is_assignment(each):
             raise CannotDoError(f"{each!r} is not of the form name:=value")
-    return parse_arguments(given)
+    found = Sources().launch_file(path) if given else None
+    is_ros2 = isinstance(found, LaunchFile) and found.generation == 2
+    return parse_ros2_arguments(given) if is_ros2 else parse_arguments(given)
 
 
 def is_assignment(word: str) -> bool:

@@ -50,7 +50,7 @@ def open_project(args: argparse.Namespace) -> Project:
     Raises `CannotDoError` for a file that is not there.
     """
     path = options.launch_file(args)
-    values = options.launch_args(args.launch_args)
+    values = options.launch_args(args.launch_args, path)
     return analyse(path, values, detect(path, package_path=options.package_path(args)), args)
 
 

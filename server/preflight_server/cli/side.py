@@ -57,8 +57,8 @@ def snapshot_of_side(side: Side, args: argparse.Namespace, cleanup: ExitStack) -
 
     Raises `CannotDoError`.
     """
-    values = options.launch_args(list(side.args))
     path = os.path.abspath(side.file)
+    values = options.launch_args(list(side.args), path)
     if os.path.isdir(path):
         raise CannotDoError(f"{side.file} is a folder; name a launch file or a snapshot")
     if not os.path.exists(path):

@@ -39,7 +39,8 @@ def run(args: argparse.Namespace) -> int:
     """Write the snapshot."""
     if args.format == "nodl" and args.output is None:
         raise CannotDoError("--format nodl writes several files: name their folder with --output")
-    analysis, snapshot = from_launch(options.launch_file(args), options.launch_args(args.launch_args), args)
+    path = options.launch_file(args)
+    analysis, snapshot = from_launch(path, options.launch_args(args.launch_args, path), args)
     if args.format == "nodl":
         _write_nodl(analysis, args.output)
         say_errors(analysis)
