@@ -441,3 +441,34 @@ def test_an_include_that_raises_and_is_never_executed(desk: PythonDesk) -> None:
     assert not desk.launch(path).tree.problems
     path = _described(desk, f"{include})")
     assert [problem.kind for problem in desk.launch(path).tree.problems] == ["python-exception"]
+
+
+def test_an_argument_that_nothing_uses(desk: PythonDesk) -> None:
+    actions = (
+        "DeclareLaunchArgument('speed', default_value='1')",
+        "DeclareLaunchArgument('name', default_value='n')",
+        "Node(package='p', executable='x', name=LaunchConfiguration('name'))",
+    )
+    findings = desk.launch(_described(desk, *actions)).findings
+    assert [f.message for f in findings if f.rule == "ARG008"] == [
+        "argument 'speed' is declared and never used in this launch"
+    ]
+
+
+def test_helpers_of_the_project_may_use_an_argument(desk: PythonDesk) -> None:
+    desk.write(
+        "launch/helper.py",
+        """
+        from launch.substitutions import LaunchConfiguration
+        SPEED = LaunchConfiguration('speed')
+        """,
+    )
+    path = _described(
+        desk,
+        "DeclareLaunchArgument('speed', default_value='1')",
+        "Node(package='p', executable='x', name='n', parameters=[{'speed': SPEED}])",
+        before="import os, sys\nsys.path.insert(0, os.path.dirname(__file__))\nfrom helper import SPEED\n",
+    )
+    analysis = desk.launch(path)
+    assert [node.name for node in analysis.tree.nodes] == ["/n"]
+    assert "ARG008" not in {f.rule for f in analysis.findings}

@@ -1,6 +1,7 @@
 """ARG008: an argument that its file declares and does not use."""
 
 import re
+import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -20,6 +21,12 @@ _VARIABLE = re.compile(r"\$\(\s*var\s+['\"]?([^\s()$'\"]+)")
 _ANY = re.compile(r"\$\(\s*var\s+['\"]?\$\(")
 """Where the name of an argument is itself computed."""
 _ANY_IN_PYTHON = re.compile(r"IncludeLaunchDescription|launch_configurations|LaunchConfiguration\(\s*[^'\"\s]")
+_IMPORT = re.compile(r"^[ \t]*(?:from|import)[ \t]+(\w*)", re.MULTILINE)
+_WITHOUT_NAMES = sys.stdlib_module_names | {
+    "launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python", "lifecycle_msgs", "nav2_common",
+    "xacro", "yaml",
+}  # fmt: skip
+"""Modules that take arguments by no name of their own."""
 _FALSE = ("false", "0", "")
 
 
@@ -75,6 +82,8 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     if any(problem.kind == "root-arg-required" for problem in context.tree.problems):
         return  # made to be included by another, which knows the argument too
+    if python and (not context.tree.complete or _uses_others(launch_file.document.text)):
+        return  # what it was not seen to do may use it, and what helpers of the project do is not in its text
     texts = [document.text for document in context.documents.values()]
     if any((_ANY_IN_PYTHON if python else _ANY).search(text) for text in texts):
         return
@@ -91,6 +100,10 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
             Location(path, value.span),
             fixes=(Fix(f"Remove the declaration of '{name}'", edits),) if edits else (),
         )
+
+
+def _uses_others(text: str) -> bool:
+    return not set(_IMPORT.findall(text)) <= _WITHOUT_NAMES
 
 
 @per_file
