@@ -547,3 +547,25 @@ def test_descriptors_of_parameters(desk: Desk) -> None:
         "~gain": ("double", False, False, None),
         "~names": ("string array", False, False, None),
     }
+
+
+def test_parameters_of_a_node_with_unknown_arguments_may_be_those_of_the_launch_file(tmp_path: Path) -> None:
+    body = """
+    class Own : public rclcpp::Node {
+    public:
+      explicit Own(const rclcpp::NodeOptions & options) : Node("own", options) { declare_parameter("frame", "base"); }
+    };
+    int main(int argc, char ** argv) {
+      rclcpp::init(argc, argv);
+      rclcpp::NodeOptions options;
+      options.arguments(other::arguments(argc, argv));
+      auto helper = std::make_shared<rclcpp::Node>("helper");
+      helper->declare_parameter("rate", 1.0);
+      rclcpp::spin(std::make_shared<Own>(options));
+    }
+    """
+    desk = Desk(tmp_path)
+    desk.write("src/t.cpp", HEAD + textwrap.dedent(body))
+    found, findings = desk.start(NODE.format(inner='<param name="frame" value="odom"/>'))
+    assert ("/", "list") in {(use.name, use.access) for use in found.params}
+    assert "PRM013" not in {finding.rule for finding in findings}

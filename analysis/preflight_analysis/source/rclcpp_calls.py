@@ -610,6 +610,7 @@ class RclcppCalls:
         """Note a declaration; the value that the parameter has then. `about` has what its descriptor says."""
         full = node.param(name)
         if full is UNKNOWN:
+            self._any_parameter(place)  # it may be the node that the launch file starts
             return UNKNOWN
         known = default if has_default and typed and is_plain(default) else None
         use = replace(
