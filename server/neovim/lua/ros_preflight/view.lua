@@ -8,6 +8,8 @@ local client = require('ros_preflight.client')
 
 local M = {}
 
+local STATUS_MS = 100 -- news of the status are gathered for so long: there may be one for each node that is run
+
 local views = {} -- by the name of their kind
 local colours = vim.api.nvim_create_namespace('ros_preflight_view')
 
@@ -31,12 +33,48 @@ local function row_at(view, window)
   return view.rows[vim.api.nvim_win_get_cursor(window)[1]]
 end
 
-local function set_lines(view, rows)
-  local lines, same = {}, {}
-  for number, row in ipairs(rows) do
+-- A row as text and as what is compared: its text with its colours.
+local function written(row)
+  local words, look = {}, {}
+  for _, chunk in ipairs(row.chunks) do
     -- A line break in what is shown would be refused.
-    lines[number] = table.concat(vim.tbl_map(function(chunk) return chunk[1] end, row.chunks)):gsub('%s*\n%s*', ' ')
-    same[row.id] = same[row.id] or number
+    local text = chunk[1]:gsub('%s*\n%s*', ' ')
+    table.insert(words, text)
+    vim.list_extend(look, { text, chunk[2] or '' })
+  end
+  return words, table.concat(look, '\0')
+end
+
+local function colour(view, number, row, words)
+  local column = 0
+  for index, text in ipairs(words) do
+    local group = row.chunks[index][2]
+    if group and text ~= '' then
+      vim.api.nvim_buf_set_extmark(view.bufnr, colours, number - 1, column, {
+        end_col = column + #text,
+        hl_group = 'RosPreflight' .. group,
+      })
+    end
+    column = column + #text
+  end
+end
+
+-- Shows these rows; only those between the first and the last that changed are written, for there may be thousands, and
+-- news with every node that is run.
+local function set_rows(view, rows)
+  local old = view.rows
+  local words, line_of = {}, {}
+  for number, row in ipairs(rows) do
+    words[number], row.look = written(row)
+    line_of[row.id] = line_of[row.id] or number
+  end
+  local same, same_at_end = 0, 0
+  local least = math.min(#old, #rows)
+  while same < least and old[same + 1].look == rows[same + 1].look do
+    same = same + 1
+  end
+  while same_at_end < least - same and old[#old - same_at_end].look == rows[#rows - same_at_end].look do
+    same_at_end = same_at_end + 1
   end
   local cursors = {}
   for _, window in ipairs(windows_of(view.bufnr)) do
@@ -44,28 +82,27 @@ local function set_lines(view, rows)
     cursors[window] = { row and row.id, vim.api.nvim_win_get_cursor(window) }
   end
   view.rows = rows
-  vim.bo[view.bufnr].modifiable = true
+  if same == #rows and same == #old then
+    return
+  end
+
+  local lines = {}
+  for number = same + 1, #rows - same_at_end do
+    table.insert(lines, table.concat(words[number]))
+  end
+  -- An empty buffer has a line all the same.
+  local stop = #old == 0 and -1 or #old - same_at_end
   -- Marks would outlive their lines.
-  vim.api.nvim_buf_clear_namespace(view.bufnr, colours, 0, -1)
-  vim.api.nvim_buf_set_lines(view.bufnr, 0, -1, false, lines)
+  vim.api.nvim_buf_clear_namespace(view.bufnr, colours, same, stop)
+  vim.bo[view.bufnr].modifiable = true
+  vim.api.nvim_buf_set_lines(view.bufnr, same, stop, false, lines)
   vim.bo[view.bufnr].modifiable = false
+  for number = same + 1, #rows - same_at_end do
+    colour(view, number, rows[number], words[number])
+  end
   for window, before in pairs(cursors) do
     local id, cursor = before[1], before[2]
-    local line = same[id] or math.min(cursor[1], #lines)
-    vim.api.nvim_win_set_cursor(window, { line, math.min(cursor[2], #lines[line]) })
-  end
-  for number, row in ipairs(rows) do
-    local column = 0
-    for _, chunk in ipairs(row.chunks) do
-      local stop = math.min(column + #chunk[1], #lines[number])
-      if chunk[2] and stop > column then
-        vim.api.nvim_buf_set_extmark(view.bufnr, colours, number - 1, column, {
-          end_col = stop,
-          hl_group = 'RosPreflight' .. chunk[2],
-        })
-      end
-      column = stop
-    end
+    vim.api.nvim_win_set_cursor(window, { line_of[id] or math.min(cursor[1], #rows), cursor[2] })
   end
 end
 
@@ -95,7 +132,7 @@ local function draw(view)
   if view.data then
     vim.list_extend(rows, view.kind.rows(view))
   end
-  set_lines(view, rows)
+  set_rows(view, rows)
 end
 
 -- Asks for newer data: once at a time, and again when news came meanwhile.
@@ -211,8 +248,12 @@ local function follow_news()
       for _, view in pairs(views) do
         if args.match == 'RosPreflightAnalysed' then
           refresh(view)
-        else
-          draw(view)
+        elseif not view.draws then
+          view.draws = true
+          vim.defer_fn(function()
+            view.draws = false
+            draw(view)
+          end, STATUS_MS)
         end
       end
     end,
