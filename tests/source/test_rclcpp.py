@@ -569,3 +569,27 @@ def test_parameters_of_a_node_with_unknown_arguments_may_be_those_of_the_launch_
     found, findings = desk.start(NODE.format(inner='<param name="frame" value="odom"/>'))
     assert ("/", "list") in {(use.name, use.access) for use in found.params}
     assert "PRM013" not in {finding.rule for finding in findings}
+
+
+def test_a_constructor_that_is_not_found_may_declare_anything(tmp_path: Path) -> None:
+    body = """
+    class Base {
+    public:
+      explicit Base(rclcpp::Node & node) { node.declare_parameter("rate", 1.0); }
+    };
+    class Own : public rclcpp::Node, public Base {
+    public:
+      explicit Own(const rclcpp::NodeOptions & options);
+    };
+    int main(int argc, char ** argv) {
+      rclcpp::init(argc, argv);
+      auto node = std::make_shared<rclcpp::Node>("own");
+      node->declare_parameter("rate", 1.0);
+      auto own = std::make_shared<Own>(rclcpp::NodeOptions());
+    }
+    """
+    desk = Desk(tmp_path)
+    for text, told in ((body, False), (body.replace("& options);", '& options) : Node("own"), Base(*this) {}'), True)):
+        desk.write("src/t.cpp", HEAD + textwrap.dedent(text))
+        findings = desk.start(NODE.format(inner='<param name="frame" value="odom"/>'))[1]
+        assert ("PRM013" in {finding.rule for finding in findings}) is told

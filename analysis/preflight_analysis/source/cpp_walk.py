@@ -758,7 +758,10 @@ class _Walk:
         self._active.add(key)
         self._depth += 1
         try:
-            text = _fitting(self._program.functions.get((*cls.text.path, cls.text.name), ()), len(args))
+            declared = self._program.functions.get((*cls.text.path, cls.text.name), ())
+            text = _fitting(declared, len(args))
+            if text is None and args and declared and cls.text.bases:
+                self._calls.cut_short()  # it is defined in a file that is not known
             types = dict(cls.types)
             file = text.file if text is not None else cls.text.file
             scope = Scope({}, cls.text.path, file, types, instance)
