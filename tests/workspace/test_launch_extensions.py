@@ -61,3 +61,26 @@ def test_a_tag_that_a_package_defines(tmp_path: Path, *, installed: bool) -> Non
         write(package / "setup.cfg", ENTRY)
         extension(package)
     assert [line for line, _ in said(tmp_path)] == [3], "no action may stand in a node"
+
+
+def test_what_an_entry_point_names_elsewhere_is_not_read(tmp_path: Path) -> None:
+    """It may be the root of the file system, which takes for ever."""
+    outside = tmp_path / "outside"
+    extension(outside)
+    write(tmp_path / "opt" / "share" / "ament_index" / "resource_index" / "packages" / "launch_ros", "")
+    site = tmp_path / "opt" / "lib" / "python3.12" / "site-packages"
+    entry = f"[launch.frontend.launch_extension]\nsim = {outside}\n"
+    write(site / "sim-1.0-py3.12.egg-info" / "entry_points.txt", entry)
+    assert said(tmp_path) == [(1, "warning"), (2, "warning"), (3, "warning")]
+
+
+def test_a_huge_package_is_not_walked_to_its_end(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "sim"
+    write(package / "package.xml", MANIFEST.format("sim"))
+    write(package / "setup.cfg", ENTRY)
+    for number in range(600):
+        (package / "sim" / f"a{number}").mkdir(parents=True)
+    extension(package)
+    write(package / "sim" / "z" / "late.py", "@expose_action('sim_server')\n")
+    (package / "sim" / "actions" / "server.py").unlink()
+    assert [line for line, _ in said(tmp_path)] == [1, 2, 3]

@@ -20,6 +20,7 @@ _EXPOSED = re.compile(r"@expose_action\(\s*['\"]([^'\"]+)['\"]\s*\)")
 _OWN = frozenset({"launch", "launch_ros"})
 """What these expose is the language itself."""
 _MAX_FILES = 500
+"""Of one package, with its folders: what a file of the workspace names may be anything."""
 
 
 def exposed_actions(environment: Environment) -> Mapping[str, str]:
@@ -43,7 +44,7 @@ def _signatures(shares: tuple[tuple[str, str], ...]) -> Iterator[tuple[int, int]
 def _exposed(shares: tuple[tuple[str, str], ...], prefixes: tuple[str, ...], _: object) -> Mapping[str, str]:
     found: dict[str, str] = {}
     for name, share in shares:
-        if any(_GROUP in _text(os.path.join(share, setup)) for setup in _SETUP):
+        if name.isidentifier() and any(_GROUP in _text(os.path.join(share, setup)) for setup in _SETUP):
             for folder in (os.path.join(share, name), os.path.join(share, "src", name)):
                 found.update(dict.fromkeys(_tags_of(folder), name))
     for prefix in prefixes:
@@ -62,7 +63,7 @@ def _installed(prefix: str) -> Iterator[tuple[str, str]]:
                 _, group, below = _text(os.path.join(site, folder, "entry_points.txt")).partition(f"[{_GROUP}]")
                 for line in below.partition("\n[")[0].splitlines() if group else ():
                     module = line.partition("=")[2].strip().partition(":")[0].partition(".")[0]
-                    if module:
+                    if module.isidentifier():
                         yield os.path.join(site, module), module
 
 
@@ -70,10 +71,12 @@ def _tags_of(folder: str) -> Iterator[str]:
     count = 0
     for place, folders, names in os.walk(folder):
         folders.sort()
-        for name in sorted(names):
-            count += name.endswith(".py")
-            if name.endswith(".py") and count <= _MAX_FILES:
-                yield from _EXPOSED.findall(_text(os.path.join(place, name)))
+        programs = sorted(name for name in names if name.endswith(".py"))
+        count += 1 + len(programs)
+        if count > _MAX_FILES:
+            return
+        for name in programs:
+            yield from _EXPOSED.findall(_text(os.path.join(place, name)))
 
 
 def _listed(folder: str) -> list[str]:

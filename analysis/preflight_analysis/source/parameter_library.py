@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import isnan
 from typing import Any
 
 import yaml
@@ -94,7 +95,11 @@ def _collect(node: yaml.Node, names: tuple[str, ...], line: int, path: str, foun
 def _range(rules: Any, type_: str) -> Range | None:
     """The range that the generated code puts into the descriptor, for which it takes `bounds<>` alone."""
     bounds = rules.get("bounds<>") if isinstance(rules, dict) and type_ in ("int", "double") else None
-    if not isinstance(bounds, list) or len(bounds) != 2 or not all(type(each) in (int, float) for each in bounds):
+    if (
+        not isinstance(bounds, list)
+        or len(bounds) != 2
+        or not all(type(each) in (int, float) and not isnan(each) for each in bounds)
+    ):
         return None
     return Range(*bounds)
 
