@@ -44,13 +44,15 @@ class PythonDesk:
         args: Mapping[str, str] | None = None,
         *,
         why_not: str | None = None,
+        variables: Mapping[str, str] | None = None,
         sources: Sources | None = None,
     ) -> Analysis:
-        """The analysis after all that it asks for was run; `why_not` is why nothing is."""
+        """The analysis after all that it asks for was run; `why_not` is why nothing is, `variables` are set
+        beside those of ROS."""
         manifest = self.folder / "src" / "p" / "package.xml"
         manifest.write_text(MANIFEST.format("p"))
-        variables = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
-        environment = detect_environment(None, variables, (str(self.folder / "src"),))
+        ros = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
+        environment = detect_environment(None, {**ros, **(variables or {})}, (str(self.folder / "src"),))
         results = CommandResults(lambda: why_not)
         workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
         if why_not is not None:

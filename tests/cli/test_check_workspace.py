@@ -123,7 +123,7 @@ def test_known_findings_do_not_count(workspace: Path, preflight: Run) -> None:
     check = ("check", "--no-run", "--fail-on", "warning")
     assert preflight(*check, cwd=workspace).code == 1
     done = preflight(*check, "--write-baseline", "known.json", cwd=workspace)
-    assert (done.code, done.out, done.err) == (0, "", "ros-preflight: known.json has 1 findings\n")
+    assert (done.code, done.out, done.err) == (0, "", "ros-preflight: known.json has 1 finding\n")
     text = (workspace / "known.json").read_text()
     (entry,) = json.loads(text)["findings"]
     assert (entry["file"], entry["rule"]) == ("inner.launch", "LCH004")
@@ -167,6 +167,10 @@ def repository(workspace: Path, desk: Desk) -> Callable[..., None]:
 
 
 def test_only_launches_that_changed(workspace: Path, repository: Callable[..., None], preflight: Run) -> None:
+    missing = preflight("check", "--no-run", "--changed-since", "v9", cwd=workspace)
+    assert missing.code == 2
+    assert "'v9' is no revision of " in missing.err
+
     def checked(revision: str = "HEAD", folder: Path = workspace) -> int:
         options = ("--no-run", "--format", "json", "--fail-on", "never", "--changed-since", revision)
         files: int = preflight("check", *options, cwd=folder).json["files"]

@@ -243,3 +243,17 @@ def test_a_launch_prefix_does_not_stand_in_the_way(desk: Desk, preflight: Run) -
     )
     (node,) = preflight("graph", desk.launch_file, "--format", "json").json["nodes"]
     assert (node["interface_source"], node["outcome"]) == ("trace", "spinning")
+
+
+def test_the_help_of_a_verb_has_its_own_exit_codes(preflight: Run) -> None:
+    assert "findings at or above --fail-on" in preflight("check", "--help").out
+    for verb in ("diff", "watch", "capture"):
+        told = " ".join(preflight(verb, "--help").out.split())
+        assert "--fail-on" not in told
+        assert "Exit codes: 0 " in told
+
+
+def test_only_the_file_is_required(preflight: Run) -> None:
+    done = preflight("graph")
+    assert done.code == 2
+    assert done.err.endswith("the following arguments are required: FILE\n")

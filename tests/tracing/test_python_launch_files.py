@@ -308,6 +308,24 @@ def test_what_the_file_sets_in_the_environment_stays(desk: PythonDesk) -> None:
     assert dict(node.env) == {"ROBOT": "r9"}
 
 
+def test_variables_that_the_file_names_are_those_of_the_environment(desk: PythonDesk) -> None:
+    path = _described(
+        desk,
+        "Node(package='p', executable='x', name=MODEL + os.getenv('SIZE', '_small') + str(len(OTHERS)))",
+        before="import os\nMODEL = os.environ['ROBOT']\nOTHERS = [v for v in os.environ if v.startswith('NOT_N')]\n",
+    )
+    for robot in ("r7", "r8"):
+        tree = desk.launch(path, variables={"ROBOT": robot, "NOT_NAMED": "x"}).tree
+        assert [node.name for node in tree.nodes] == [f"/{robot}_small0"]
+
+
+def test_secrets_are_not_handed_on_and_not_said_to_be_unset(desk: PythonDesk) -> None:
+    path = _described(desk, "Node(package='p', executable='x', name='n')", before="import os\nos.environ['MY_TOKEN']\n")
+    tree = desk.launch(path, variables={"MY_TOKEN": "hidden"}).tree
+    assert not tree.problems
+    assert "the sandbox is not told what MY_TOKEN is" in [unknown.reason for unknown in tree.unknowns]
+
+
 def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(desk: PythonDesk) -> None:
     params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
     _described(

@@ -23,7 +23,10 @@ def changed_since(revision: str, folder: str) -> frozenset[str]:
     if revision.startswith("-"):
         raise CannotDoError(f"{revision} is no revision")
     top = _git(folder, "rev-parse", "--show-toplevel").rstrip("\n")
-    commit = _git(top, "rev-parse", "--verify", f"{revision}^{{commit}}").strip()
+    try:
+        commit = _git(top, "rev-parse", "--verify", f"{revision}^{{commit}}").strip()
+    except CannotDoError:
+        raise CannotDoError(f"'{revision}' is no revision of {top}, or this clone does not have it") from None
     with contextlib.suppress(CannotDoError):  # nothing in common that this clone has, a shallow one for instance
         commit = _git(top, "merge-base", commit, "HEAD").strip()
     changed = _git(top, "diff", "--name-only", "-z", "--no-renames", "--no-ext-diff", "--no-textconv", commit, "--")

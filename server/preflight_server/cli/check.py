@@ -163,7 +163,8 @@ def _write_baseline(report: Report, file: str) -> int:
         Path(file).write_text(dumps(to_baseline(report, _folder(file)), indent=2) + "\n", encoding="utf-8")
     except OSError as error:
         raise CannotDoError(f"{file} cannot be written: {error}") from None
-    say(f"ros-preflight: {file} has {len(report.findings)} findings")
+    count = len(report.findings)
+    say(f"ros-preflight: {file} has {count} finding{'' if count == 1 else 's'}")
     return CLEAN
 
 

@@ -53,8 +53,10 @@ def _parse(argv: Sequence[str]) -> argparse.Namespace:
     verbs = parser.add_subparsers(metavar="VERB", required=True)
     for verb in _VERBS:
         module = importlib.import_module(f"preflight_server.cli.{verb}")
-        sub = verbs.add_parser(verb, help=module.HELP, description=module.DESCRIPTION, epilog=_EPILOG)
+        sub = verbs.add_parser(verb, help=module.HELP, description=module.DESCRIPTION)
         module.add_arguments(sub)
+        if sub.get_default("fail_on") is not None:
+            sub.epilog = _EPILOG  # the others tell theirs themselves
         sub.set_defaults(run=module.run, verb=verb)
     args, rest = parser.parse_known_args(argv)
     if args.verb == "lsp":

@@ -20,9 +20,7 @@ _ASSIGNMENT = ":="
 
 def add_format(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
     """`--format`; the first one is the default."""
-    parser.add_argument(
-        "--format", choices=formats, default=formats[0], help="json goes to standard output, with sorted keys"
-    )
+    parser.add_argument("--format", choices=formats, default=formats[0], help="what is printed (default: %(default)s)")
 
 
 def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
@@ -65,7 +63,9 @@ def _positive(text: str) -> int:
 def add_file(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
     """The launch file and its arguments."""
     parser.add_argument("file", metavar="FILE", nargs="?" if optional else None, help="a launch file")
-    parser.add_argument("launch_args", metavar="name:=value", nargs="*", help="arguments of the launch file")
+    parser.add_argument(
+        "launch_args", metavar="name:=value", nargs="*", default=[], help="arguments of the launch file"
+    )
 
 
 def launch_file(args: argparse.Namespace) -> str:

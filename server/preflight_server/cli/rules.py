@@ -59,5 +59,5 @@ def _json(rule: Rule) -> dict[str, str]:
 def _page(rule: Rule) -> str:
     return (
         f"{rule.id} {rule.name} ({rule.severity})\n\n{rule.what}\n\nWhy: {rule.why}\n\n"
-        f"Example:\n\n{rule.example}\n\nInstead: {rule.instead}\n"
+        f"Example:\n\n{rule.example}\n\nInstead:\n\n{rule.instead}\n"
     )

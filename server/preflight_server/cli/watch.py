@@ -22,7 +22,8 @@ HELP = "compare a running system with what the launch file should have started"
 DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID), compares its
 nodes, topics, services and actions with those that the launch file should have started, and says what is missing, extra
 or of the wrong type, until it is interrupted; with --once until the system is as expected. What is expected is what
-`graph` shows: the nodes are run in a sandbox to see what they do; --no-run executes nothing."""
+`graph` shows: the nodes are run in a sandbox to see what they do; --no-run executes nothing. Exit codes:
+0 as expected, 1 not, 2 there was no system to attach to."""
 _POLL_SECONDS = 0.5
 
 
@@ -127,10 +128,13 @@ class _Text:
             self.shown, self.same = {}, None
             print_text(f"{stamp} {'attached to a new run of' if event.again else 'attached to'} {event.place}\n")
         else:
-            issues = dict.fromkeys(event.comparison.issues)
+            found = event.comparison
+            if self.same is None and found.same and "missing" in found.nodes.values():
+                return  # what is missing has not lasted yet: this would be no news, and not true for long
+            issues = dict.fromkeys(found.issues)
             lines = [f"{stamp} - {line(issue, os.getcwd())}\n" for issue in self.shown if issue not in issues]
             lines += [f"{stamp} + {line(issue, os.getcwd())}\n" for issue in issues if issue not in self.shown]
-            if event.comparison.same != self.same or lines:
-                lines.append(f"{stamp} {summary(event.comparison)}\n")
-            self.shown, self.same = issues, event.comparison.same
+            if found.same != self.same or lines:
+                lines.append(f"{stamp} {summary(found)}\n")
+            self.shown, self.same = issues, found.same
             print_text("".join(lines))

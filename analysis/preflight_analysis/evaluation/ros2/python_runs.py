@@ -34,6 +34,10 @@ MARK = "\0launch file "
 """What no command line begins with."""
 _PACKAGE = re.compile(r"package '([^']*)' not found")
 _ENVIRON = re.compile(r"environ\s*\[\s*['\"]([^'\"]+)['\"]\s*\]")
+_READS_ENVIRONMENT = re.compile(r"\b(?:environ|getenv)\b")
+_NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
+_SECRET = re.compile("TOKEN|SECRET|PASS|KEY|CREDENTIAL|AUTH|COOKIE", re.IGNORECASE)
+"""What no run is told, whatever its file asks for."""
 _PACKAGE_ERROR = "PackageNotFoundError"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
 
@@ -62,6 +66,8 @@ def request(run: PythonRun) -> str:
     told = {"file": run.file, "text": run.text, "env": dict(run.variables), "calls": list(run.calls)}
     if run.files:
         told["files"] = dict(run.files)
+    if run.given:
+        told["given"] = dict(run.given)
     return MARK + json.dumps(told, sort_keys=True)
 
 
@@ -78,7 +84,8 @@ def recorded(
 ) -> tuple[LaunchFile, PythonRun | None]:
     """The launch file as its run tells it, and the run; without one as it can be read."""
     document, whole = launch_file.document, Span(0, 0)
-    run = PythonRun(launch_file.path, document.text, _variables(context), (), _source(document.text))
+    given = _given(document.text, context.initial_environment)
+    run = PythonRun(launch_file.path, document.text, _variables(context), (), _source(document.text), given=given)
     place, unknowns, problems = Place(launch_file.path, chain, run), len(state.unknowns), len(state.problems)
     told = None
     if document.problems:
@@ -180,6 +187,14 @@ def _variables(context: Context) -> dict[str, str]:
     return {k: v for k, v in context.scope.environment.items() if initial.get(k) != v}
 
 
+def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
+    """The variables of the environment that a launch file names, as `os.environ['ROBOT']`: XML reads them as well."""
+    if _READS_ENVIRONMENT.search(text) is None:
+        return {}
+    names = {name for _, name in _NAMED.findall(text)}
+    return {name: environment[name] for name in sorted(names & environment.keys()) if not _SECRET.search(name)}
+
+
 def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
     """What is configured, as far as it is known, and whether all of it is."""
     scope = context.scope
@@ -273,6 +288,8 @@ def _raised(
     variable = _variable(run, here[-1], message) if name == "KeyError" and here else None
     if package is not None:
         state.problem("package-not-found", origin, name=package[1])
+    elif variable is not None and variable in state.environment.variables:
+        state.note_unknown(name, f"the sandbox is not told what {variable} is", origin[-1])
     elif variable is not None:
         state.problem("env-unset", origin, name=variable)
     elif name in _IMPORT_ERRORS:

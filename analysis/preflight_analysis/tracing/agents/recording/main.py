@@ -30,6 +30,8 @@ def main() -> None:
     output = os.dup(1)
     os.dup2(2, 1)
     RECORDER.file, RECORDER.packages = job["file"], job["packages"]
+    for name, value in job.get("given", {}).items():
+        os.environ.setdefault(name, value)  # what the sandbox sets itself, such as HOME, is so in it
     os.environ.update(job["env"])
     sys.argv = ["ros2", "launch", job["file"]]
     sys.path[:0] = job["paths"]

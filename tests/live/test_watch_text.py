@@ -1,0 +1,23 @@
+"""What `watch` says of each state."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from preflight_analysis.live.model import Comparison, Issue
+from preflight_analysis.live.watcher import State
+from preflight_server.cli.watch import _Text
+
+
+def test_what_is_missing_and_has_not_lasted_yet_is_not_said_to_be_as_expected(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    text = _Text()
+    missing = Comparison((), {"/a": "missing"}, {}, {}, {})
+    text.tell(State(missing))
+    assert capsys.readouterr().out == ""
+    text.tell(State(replace(missing, issues=(Issue("missing", "node", "/a"),))))
+    assert "1 difference, 0 nodes as expected" in capsys.readouterr().out
+    text.tell(State(replace(missing, nodes={"/a": "present"})))
+    assert "no differences, 1 node as expected" in capsys.readouterr().out
