@@ -250,6 +250,34 @@ def test_a_parameter_that_is_not_declared() -> None:
     """)
 
 
+def test_parameters_that_are_written_once_for_several_nodes() -> None:
+    """Each takes what it declares: `speed` is one node's, `gain` perhaps the unknown one's, `limt` nobody's."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="left" name="left"><param from="/all.yaml"/></node>
+          <node pkg="p" exec="right" name="right"><param from="/all.yaml"/></node>
+          <node pkg="p" exec="unknown" name="unknown"><param from="/some.yaml"/></node>
+          <node pkg="p" exec="left" name="other"><param from="/some.yaml"/></node>
+        </launch>
+        //- /all.yaml
+        /**:
+          ros__parameters:
+            speed: 1.0
+            limt: 2.0
+            ^^^^ warning[PRM013] /left declares no parameter 'limt'
+            ^^^^ warning[PRM013] /right declares no parameter 'limt'
+        //- /some.yaml
+        /**:
+          ros__parameters:
+            gain: 1.0
+        //- interfaces
+        {"/left": {"params": {"~speed": 6.0, "~limit": 1.0}},
+         "/right": {"params": {"~limit": 1.0}},
+         "/other": {"params": {"~limit": 1.0}}}
+    """)
+
+
 def test_a_parameter_of_another_type() -> None:
     check("""
         //- /robot.launch.xml

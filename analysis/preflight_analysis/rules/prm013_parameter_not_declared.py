@@ -18,13 +18,18 @@ _PREFIXES = ("qos_overrides.",)
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
-        declared = _declared(interface)
-        if not node.params or declared is None:
+    if graph is None:
+        return
+    nodes = [(n, _declared(i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
+    wanted = {p.name_location for n, declared, _ in nodes for p in n.params if declared is None or p.name in declared}
+    for node, declared, interface in nodes:
+        if declared is None:
             continue
         for param in node.params:
             if param.name in declared or param.name in _OF_ALL_NODES or param.name.startswith(_PREFIXES):
                 continue
+            if param.name_location is not None and param.name_location in wanted:
+                continue  # what is written once for several nodes, one of which wants it
             near = nearest(param.name, declared)
             severity: Severity = "warning" if near or interface.complete else "info"
             use = declared.get(near) if near is not None else None
@@ -68,7 +73,8 @@ RULE = Rule(
     name="parameter-not-declared",
     severity="warning",
     what="Reports a parameter, in the launch file or in a parameter file, that the node it is for does not declare, "
-    "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters.",
+    "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters, nor of "
+    "what is written once for several nodes of which one declares it.",
     why="The client libraries drop it without a word, and the node keeps its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',
