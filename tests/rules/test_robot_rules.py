@@ -41,6 +41,7 @@ def test_commands_of_one_robot_reach_the_other() -> None:
         ("cmd_vel", TWIST, False),
         ("/tf", "tf2_msgs/msg/TFMessage", False),
         ("/markers", "visualization_msgs/msg/Marker", False),
+        ("/joint_states", "sensor_msgs/msg/JointState", False),
         ("/fleet/offers", "std_msgs/msg/String", True),
     ],
 )

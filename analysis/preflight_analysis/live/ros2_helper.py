@@ -83,7 +83,8 @@ def _end_with_input() -> None:
 
 def main() -> None:
     """Show the graph until standard input ends."""
-    del sys.path[0]  # this folder, whose modules are not for this interpreter
+    here = os.path.dirname(os.path.abspath(__file__))  # its modules are not for this interpreter
+    sys.path[:] = [folder for folder in sys.path if folder != here]
     threading.Thread(target=_end_with_input, daemon=True).start()
     try:
         rclpy = importlib.import_module("rclpy")

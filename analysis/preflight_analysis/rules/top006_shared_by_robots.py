@@ -14,7 +14,14 @@ from preflight_analysis.rules.well_known import is_transform, may_dangle
 _Kind = tuple[str, str]
 """Package and executable of a node."""
 _Pair = tuple[Connection, Connection]
-_SHARED = ("visualization_msgs/", "diagnostic_msgs/", "rosgraph_msgs/", "std_msgs/Header")
+_SHARED = (
+    "visualization_msgs/",
+    "diagnostic_msgs/",
+    "rosgraph_msgs/",
+    "std_msgs/Header",
+    "sensor_msgs/JointState",
+    "sensor_msgs/msg/JointState",
+)
 """Types whose messages say whose they are."""
 
 
