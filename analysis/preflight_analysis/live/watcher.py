@@ -93,12 +93,16 @@ class Watcher:
             self._since.clear()
             return self._new(Waiting(str(error), error.final))
         events: list[Event] = []
-        # roslaunch gives the run its id a moment after the master has started.
-        restarted = self._was_there and self._run not in (None, live.run)
-        if not self._was_there or isinstance(self._told, Waiting) or restarted:
+        # roslaunch gives the run its id a moment after the master has started; one that ends may lack it again.
+        lost, known = isinstance(self._told, Waiting), live.run is not None
+        other = live.run != self._run if known else lost
+        restarted = self._run is not None and other
+        if not self._was_there or lost or restarted:
             events.append(Attached(self._observer.place, restarted))
             self._told = None
-        self._was_there, self._run = True, live.run
+        self._was_there = True
+        if known or restarted:
+            self._run = live.run
         found = compare(self._expected(), live)
         if self._allow_extra:
             issues = (replace(i, counts=False) if i.kind == "extra" else i for i in found.issues)
