@@ -40,6 +40,7 @@ KINDS: dict[str, str] = {
     "name) of an argument that is not declared before. fatal if nothing may have set it",
     "arg-required": "name, file (the included), passed (list): an include without a value for a required arg. fatal",
     "root-arg-required": "name: the root file needs name:=value on the command line. fatal",
+    "root-arg-undeclared": "name, declared (list): name:=value of the command line, which nothing asks for",
     "include-arg-undeclared": "name, file (the included), declared (list): roslaunch stops with 'unused args'. fatal",
     "arg-not-a-choice": "name, value, choices (list), declared (Location): ROS 2. fatal",
     "arg-redeclared": "name, first (Location), passed: declared twice in a file, or passed twice in an include. fatal",

@@ -11,6 +11,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.memo import Memo, arg_origins, key_of
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
@@ -66,6 +67,8 @@ def evaluate(
         scope.args = {name: ArgValue(value, None) for name, value in args.items()}
         _file(state, scope, found, None)
         state.args = _root_args(scope, found)
+        if (asked_for := _asked_for(found)) is not None:
+            report_undeclared(state, found, args, asked_for)
     _check_machines(state)
     _check_language(state)
     return LaunchTree(
@@ -380,6 +383,20 @@ def _root_args(scope: Scope, launch_file: LaunchFile) -> dict[str, Arg]:
             doc.text if doc else None,
         )
     return found
+
+
+def _asked_for(launch_file: LaunchFile) -> set[str] | None:
+    """The names of all `<arg>`s of a file, taken or not; None if an include may hand on what it does not declare, or a
+    name is made up, or half typed."""
+    if launch_file.document.problems:
+        return None
+    values = []
+    for action in launch_file.root.walk() if launch_file.root else ():
+        if action.kind == "include" and action.attribute("pass_all_args") is not None:
+            return None
+        if action.kind == "arg" and (value := action.value("name")) is not None:
+            values.append(value)
+    return {value.text for value in values} if all(value.is_literal for value in values) else None
 
 
 def _check_machines(state: State) -> None:

@@ -15,6 +15,7 @@ from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap, PythonRun
 from preflight_analysis.evaluation.ros2.declared import Declared, required_arguments
@@ -119,6 +120,8 @@ class _Walk:
         found, run = self._as_run(found, ())
         self._required_arguments(found, sorted(args), None)
         self._file(Place(path, (), run, found.partial), found)
+        if (asked_for := self._names[-1]) is not None:
+            report_undeclared(self._state, found, args, asked_for | IMPLICIT)
         self._root_args(found)
         while self._later:
             self._deferred = True
