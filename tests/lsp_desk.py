@@ -414,6 +414,25 @@ class Editor:
                 end = offset(text, each.range.end, self.encoding)
                 self.replace(path, start, end, each.new_text)
 
+    async def everything(self, path: Path, where: types.Position) -> None:
+        """All that can be asked of a place; any error of the server is one of the test."""
+        await asyncio.gather(
+            self.hover(path, where),
+            self.definition(path, where),
+            self.references(path, where),
+            self.completion(path, where),
+            self.signature(path, where),
+            self.symbols(path),
+            self.folds(path),
+            self.links(path),
+            self.hints(path),
+            self.tokens(path),
+            self.lenses(path),
+            self.actions(path, types.Range(where, where)),
+            self.hierarchy(path, where),
+            self.client.workspace_symbol_async(types.WorkspaceSymbolParams("t")),
+        )
+
 
 @contextlib.asynccontextmanager
 async def editing(

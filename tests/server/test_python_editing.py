@@ -269,27 +269,10 @@ async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, pa
         editor.open(path, MAIN, language="python")
         for end in range(len(HEAD), len(MAIN) + 1, 29):
             editor.change(path, MAIN[:end])
-            await ask_everything(editor, path, position(MAIN[:end], end, editor.encoding))
+            await editor.everything(path, position(MAIN[:end], end, editor.encoding))
         editor.change(path, MAIN)
         for at in range(len(HEAD), len(MAIN), 23):
-            await ask_everything(editor, path, position(MAIN, at, editor.encoding))
-
-
-async def ask_everything(editor: Editor, path: Path, where: types.Position) -> None:
-    await asyncio.gather(
-        editor.hover(path, where),
-        editor.definition(path, where),
-        editor.references(path, where),
-        editor.completion(path, where),
-        editor.signature(path, where),
-        editor.symbols(path),
-        editor.folds(path),
-        editor.links(path),
-        editor.hints(path),
-        editor.tokens(path),
-        editor.lenses(path),
-        editor.actions(path, types.Range(where, where)),
-    )
+            await editor.everything(path, position(MAIN, at, editor.encoding))
 
 
 def line(text: str, needle: str) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 
 import pytest
@@ -195,30 +194,11 @@ async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, pa
                     editor.change(path, text[:end])
                 else:
                     editor.open(path, text[:end], language="yaml" if name.endswith("yaml") else "roslaunch")
-                await ask_everything(editor, path, position(text[:end], end, editor.encoding))
+                await editor.everything(path, position(text[:end], end, editor.encoding))
             editor.change(path, text)
             for at in range(0, len(text), 37):
-                await ask_everything(editor, path, position(text, at, editor.encoding))
+                await editor.everything(path, position(text, at, editor.encoding))
             editor.close(path)
-
-
-async def ask_everything(editor: Editor, path: Path, where: types.Position) -> None:
-    await asyncio.gather(
-        editor.hover(path, where),
-        editor.definition(path, where),
-        editor.references(path, where),
-        editor.completion(path, where),
-        editor.signature(path, where),
-        editor.symbols(path),
-        editor.folds(path),
-        editor.links(path),
-        editor.hints(path),
-        editor.tokens(path),
-        editor.lenses(path),
-        editor.actions(path, types.Range(where, where)),
-        editor.hierarchy(path, where),
-        editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("t")),
-    )
 
 
 async def test_a_node_and_what_names_it(desk: Desk, package: Path) -> None:
