@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache_folder import VARIABLE
@@ -31,7 +32,6 @@ _PASSED = frozenset(
     (*_SEARCH_PATHS, "PATH", "LANG", "LANGUAGE", "TZ", "PYTHONUNBUFFERED", "PYTHONIOENCODING", "CMAKE_PREFIX_PATH")
 )
 _PASSED_PREFIXES = ("ROS_", "ROSCONSOLE_", "LC_")
-_NEVER_PASSED = ("TOKEN", "SECRET", "PASSWORD", "PASSWD", "CREDENTIAL", "_KEY")
 _DEFAULT_PATH = "/usr/local/bin:/usr/bin:/bin"
 
 
@@ -164,9 +164,7 @@ def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dic
     kept = {
         name: value
         for name, value in environment.variables.items()
-        if (name in _PASSED or name.startswith(_PASSED_PREFIXES))
-        and name not in overridden
-        and not any(word in name.upper() for word in _NEVER_PASSED)
+        if (name in _PASSED or name.startswith(_PASSED_PREFIXES)) and name not in overridden and not is_secret(name)
     }
     kept.setdefault("PATH", _DEFAULT_PATH)
     kept.update((name, value) for name, value in extra if name and "=" not in name and "\0" not in name + value)

@@ -20,6 +20,7 @@ from preflight_analysis.documents.change import Change, change
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
+from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
@@ -36,7 +37,6 @@ _PACKAGE = re.compile(r"package '([^']*)' not found")
 _ENVIRON = re.compile(r"environ\s*\[\s*['\"]([^'\"]+)['\"]\s*\]")
 _READS_ENVIRONMENT = re.compile(r"\b(?:environ|getenv)\b")
 _NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
-_SECRET = re.compile("TOKEN|SECRET|PASS|KEY|CREDENTIAL|AUTH|COOKIE", re.IGNORECASE)
 """What no run is told, whatever its file asks for."""
 _PACKAGE_ERROR = "PackageNotFoundError"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
@@ -192,7 +192,7 @@ def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
     if _READS_ENVIRONMENT.search(text) is None:
         return {}
     names = {name for _, name in _NAMED.findall(text)}
-    return {name: environment[name] for name in sorted(names & environment.keys()) if not _SECRET.search(name)}
+    return {name: environment[name] for name in sorted(names & environment.keys()) if not is_secret(name)}
 
 
 def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
