@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 
 import view_desk
+from preflight_analysis.documents.span import Place
 from preflight_analysis.view.layout import lay_out
-from preflight_analysis.view.model import GraphView, Place, ViewEdge
+from preflight_analysis.view.model import GraphView, ViewEdge
 from preflight_analysis.view.view_json import view_json
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
+from dataclasses import dataclass
 from typing import NamedTuple
 
 _LINE_END = re.compile(r"\r\n?|\n")
@@ -62,3 +63,12 @@ class LineIndex:
     def line_span(self, line: int) -> Span:
         """The whole line, its line break included."""
         return Span(self.line_start(line), self.line_start(line + 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A place in a file for people and other programs: line and column counted from 1, the column in code points."""
+
+    file: str
+    line: int
+    column: int = 1

@@ -6,12 +6,12 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Place
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.actions import topic_ends
 from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.live.model import Expected, ExpectedEnd, ExpectedNode, Place
+from preflight_analysis.live.model import Expected, ExpectedEnd, ExpectedNode
 from preflight_analysis.rules.places import connection_location, node_location
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.nodelets import nodelet_of

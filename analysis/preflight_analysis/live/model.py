@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from preflight_analysis.documents.span import Place
 from preflight_analysis.tracing.interface import Role
 
 
@@ -49,15 +50,6 @@ class Observation:
     ends: tuple[LiveEnd, ...]
     run: str | None = None
     """What tells one run of the system from the next: the `run_id` of a master of ROS 1."""
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A place in a file, line and column counted from 1."""
-
-    file: str
-    line: int
-    column: int = 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,20 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from preflight_analysis.documents.span import Place
 from preflight_analysis.findings.report import printable, relative
-from preflight_analysis.live.model import Comparison, Issue, Place
+from preflight_analysis.live.model import Comparison, Issue
 from preflight_analysis.live.watcher import Attached, Event, State, Waiting
+from preflight_analysis.tracing.interface import DOES
 
 SCHEMA = "ros-preflight/watch/1"
 
-_DOES = {
-    "publisher": "publishes",
-    "subscriber": "subscribes to",
-    "service": "offers the service",
-    "client": "calls the service",
-    "action_server": "offers the action",
-    "action_client": "uses the action",
-}
 _DOES_NOT = {
     "publisher": "does not publish",
     "subscriber": "does not subscribe to",
@@ -43,12 +37,12 @@ def message(issue: Issue) -> str:
     kind = f" ({known})" if (known := issue.expected or issue.actual) else ""
     if issue.kind == "missing":
         unsure = "" if issue.counts else "; it may not do so in each case"
-        instead = f"; it {_DOES[issue.what]} {issue.similar}" if issue.similar else unsure
+        instead = f"; it {DOES[issue.what]} {issue.similar}" if issue.similar else unsure
         return f"{node} {_DOES_NOT[issue.what]} {name}{kind}{instead}"
     if issue.kind == "extra":
-        return f"{node} {_DOES[issue.what]} {name}{kind}, which was not expected"
+        return f"{node} {DOES[issue.what]} {name}{kind}, which was not expected"
     what = "with the type " if issue.kind == "wrong-type" else "with "
-    return f"{node} {_DOES[issue.what]} {name} {what}{issue.actual}; {issue.expected} was expected"
+    return f"{node} {DOES[issue.what]} {name} {what}{issue.actual}; {issue.expected} was expected"
 
 
 def line(issue: Issue, base: str | None) -> str:

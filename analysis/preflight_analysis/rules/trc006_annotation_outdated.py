@@ -11,18 +11,10 @@ from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compar
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.tracing.interface import DOES, Endpoint, Interface, ParamUse
 
 _MOST = 5
 """How many names a message has."""
-_DOES = {
-    "publisher": "publishes",
-    "subscriber": "subscribes to",
-    "service": "offers the service",
-    "client": "calls the service",
-    "action_server": "offers the action",
-    "action_client": "calls the action",
-}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -76,7 +68,7 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
 
 
 def _does(what: Endpoint | ParamUse) -> str:
-    return _DOES[what.role] if isinstance(what, Endpoint) else "reads the parameter"
+    return DOES[what.role] if isinstance(what, Endpoint) else "reads the parameter"
 
 
 RULE = Rule(

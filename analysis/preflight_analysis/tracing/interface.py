@@ -10,6 +10,15 @@ from typing import Any, Literal
 from preflight_analysis.evaluation import names
 
 Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
+DOES: Mapping[str, str] = {
+    "publisher": "publishes",
+    "subscriber": "subscribes to",
+    "service": "offers the service",
+    "client": "calls the service",
+    "action_server": "offers the action",
+    "action_client": "uses the action",
+}
+"""What a node does at an end of each role, in words for the user; the name follows."""
 Status = Literal["spinning", "exited", "crashed", "timed-out", "not-run"]
 PENDING = "its run has not ended yet"
 REASON_COLUMNS = 200

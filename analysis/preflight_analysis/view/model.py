@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Location, Origin, Place
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.tree_json import json_value
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
@@ -21,15 +21,6 @@ State = Literal["normal", "missing", "extra", "wrong"]
 
 TOWARDS_CHANNEL: frozenset[Role] = frozenset(("publisher", "client", "action_client"))
 """The roles from which messages, calls and goals go out: their edges point at the channel, the others away from it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A line to go to; line and column are counted from 1, the column in code points."""
-
-    file: str
-    line: int
-    column: int = 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from preflight_analysis.documents.span import Place
 from preflight_analysis.findings.report import relative
 from preflight_analysis.view.layout import Layout
-from preflight_analysis.view.model import GraphView, Place
+from preflight_analysis.view.model import GraphView
 from preflight_analysis.view.svg import svg
 
 SCHEMA = "ros-preflight/view/1"
