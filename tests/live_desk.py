@@ -192,6 +192,14 @@ class Watching:
         """The next state in which these are exactly the differences that count."""
         return self.until(lambda event: event["event"] == "state" and differences(event) == sorted(messages))
 
+    def interrupted(self) -> tuple[int, dict[str, Any]]:
+        """Its exit code after an interrupt, and the last event: on a busy machine a node may have failed to answer."""
+        self.process.send_signal(signal.SIGINT)
+        code = self.process.wait(LIMIT_SECONDS)
+        while (event := self._lines.get(timeout=LIMIT_SECONDS)) is not None:
+            self.seen.append(event)
+        return code, self.seen[-1]
+
     def close(self) -> None:
         """Interrupt it, as a user does."""
         if self.process.poll() is None:
