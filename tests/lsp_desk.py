@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 from urllib.parse import unquote
@@ -213,6 +213,14 @@ class Editor:
                 await asyncio.wait_for(self._news.wait(), min(left, 0.2))
         return found
 
+    async def once(self, ask: Callable[[], Awaitable[T]], is_so: Callable[[T], bool], seconds: float = 60) -> T:
+        """Ask again and again until the answer is as expected."""
+        deadline = asyncio.get_running_loop().time() + seconds
+        while not is_so(found := await ask()):
+            assert asyncio.get_running_loop().time() < deadline, f"waited {seconds} s; last answer: {found}"
+            await asyncio.sleep(0.1)
+        return found
+
     def summary(self) -> dict[str, list[str]]:
         return {uri: [f"{d.code} {d.message}" for d in p.diagnostics] for uri, p in self.published.items()}
 
@@ -272,8 +280,16 @@ class Editor:
         events = [types.FileEvent(path.as_uri(), kind) for path in paths]
         self.client.workspace_did_change_watched_files(types.DidChangeWatchedFilesParams(events))
 
+    def folders_changed(self, *, added: Sequence[Path] = (), removed: Sequence[Path] = ()) -> None:
+        event = types.WorkspaceFoldersChangeEvent(_folders(added), _folders(removed))
+        self.client.workspace_did_change_workspace_folders(types.DidChangeWorkspaceFoldersParams(event))
+
     def trust(self, trusted: bool = True) -> None:
         self.client.protocol.notify("rosPreflight/workspaceTrust", {"trusted": trusted})
+
+    async def doctor(self) -> str:
+        answer = await self.client.protocol.send_request_async("rosPreflight/doctor", {})
+        return str(answer.text)
 
     def id(self, path: Path) -> types.TextDocumentIdentifier:
         return types.TextDocumentIdentifier(path.as_uri())
@@ -443,6 +459,7 @@ async def editing(
     settings: dict[str, Any] | None = None,
     environment: dict[str, str] | None = None,
     folder: Path | None = None,
+    folders: Sequence[Path] = (),
     without_folder: bool = False,
 ) -> AsyncIterator[Editor]:
     """The server, started as editors start it, on the desk's workspace (or on no folder at all); shut down as editors
@@ -454,14 +471,14 @@ async def editing(
     if settings is not None:
         editor.client.set_configuration({"rosPreflight": settings})
     await editor.client.start_io(str(desk.server), "lsp", "--stdio", env={**desk.environment, **(environment or {})})
-    folder = folder or desk.workspace
+    opened = [] if without_folder else list(folders) or [folder or desk.workspace]
     try:
         editor.result = await editor.client.initialize_session(
             types.InitializeParams(
                 capabilities=client,
                 process_id=os.getpid(),
-                root_uri=None if without_folder else folder.as_uri(),
-                workspace_folders=None if without_folder else [types.WorkspaceFolder(folder.as_uri(), folder.name)],
+                root_uri=opened[0].as_uri() if opened else None,
+                workspace_folders=_folders(opened) or None,
                 initialization_options={"workspaceTrusted": trusted, **(settings or {})},
             )
         )
@@ -472,6 +489,10 @@ async def editing(
         if server is not None and server.returncode is None:
             server.kill()
         await editor.client.stop()
+
+
+def _folders(paths: Sequence[Path]) -> list[types.WorkspaceFolder]:
+    return [types.WorkspaceFolder(path.as_uri(), path.name) for path in paths]
 
 
 def from_uri(uri: str) -> Path:

@@ -11,11 +11,14 @@ import { servedFiles } from "./documents";
 import type { ServerCommand } from "./findServer";
 import { clientCommands } from "./rootCommands";
 
+/** The environments of folders that have one of their own, by URI; the others have the server's. */
+export type Environments = Readonly<Record<string, NodeJS.ProcessEnv>>;
+
 /** Tells a running server that the user has come to trust the workspace. */
 export const workspaceTrust = new NotificationType<{ trusted: boolean }>("rosPreflight/workspaceTrust");
 
 /** What the server must know before it may run anything. */
-function initializationOptions(): Record<string, unknown> {
+function initializationOptions(environments: Environments): Record<string, unknown> {
   const settings = workspace.getConfiguration("rosPreflight");
   return {
     workspaceTrusted: workspace.isTrusted,
@@ -24,16 +27,18 @@ function initializationOptions(): Record<string, unknown> {
     packagePath: settings.get("packagePath"),
     clientCommands,
     status: true,
+    environments,
   };
 }
 
 /**
- * Makes a client for one life of the server, which runs in this environment; `closed` is called when its connection
- * ends without having been asked to.
+ * Makes a client for one life of the server, which runs in `environment` and looks at folders in theirs; `closed` is
+ * called when its connection ends without having been asked to.
  */
 export function createClient(
   server: ServerCommand,
   environment: NodeJS.ProcessEnv,
+  environments: Environments,
   log: LogOutputChannel,
   closed: () => void,
 ): LanguageClient {
@@ -51,7 +56,7 @@ export function createClient(
       outputChannel: log,
       traceOutputChannel: log,
       revealOutputChannelOn: RevealOutputChannelOn.Never,
-      initializationOptions,
+      initializationOptions: () => initializationOptions(environments),
       initializationFailedHandler: () => false, // start() rejects with the reason
       errorHandler: {
         error: () => ({ action: ErrorAction.Continue, handled: true }),

@@ -93,6 +93,7 @@ export function activate(context: ExtensionContext): void {
       void server.restart();
       context.subscriptions.push(
         statusBar,
+        workspace.onDidChangeWorkspaceFolders(() => server.foldersChanged()),
         workspace.onDidGrantWorkspaceTrust(() => server.trustGranted()),
         workspace.onDidChangeConfiguration((change) => {
           if (OF_THE_START.some((name) => change.affectsConfiguration(`rosPreflight.${name}`))) {

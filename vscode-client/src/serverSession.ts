@@ -1,6 +1,6 @@
 import { readdirSync } from "node:fs";
 import * as path from "node:path";
-import { commands, type ExtensionContext, type LogOutputChannel, ProgressLocation, window, workspace } from "vscode";
+import { commands, type ExtensionContext, type LogOutputChannel, ProgressLocation, window, workspace, type WorkspaceFolder } from "vscode";
 import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
 import { createClient, workspaceTrust } from "./client";
 import { findServer, type ServerCommand, ServerNotFound } from "./findServer";
@@ -25,6 +25,14 @@ export interface Listener {
   analysed(): void;
   /** The running system, which is watched, is not what it was. */
   live(told: Live): void;
+}
+
+/** Whether the settings name set-ups, for some folder or for the whole window. */
+function sourcesSetups(): boolean {
+  return [undefined, ...(workspace.workspaceFolders ?? [])].some((folder) => {
+    const setting = workspace.getConfiguration("rosPreflight", folder).get<unknown[]>("environment.setup") ?? [];
+    return setting.length > 0;
+  });
 }
 
 type Fact = readonly [what: string, value: string];
@@ -65,8 +73,7 @@ export class ServerSession {
 
   /** Passes on that the workspace is trusted now; where no server runs, this may be what it takes to find one. */
   async trustGranted(): Promise<void> {
-    const sources = workspace.getConfiguration("rosPreflight").get<unknown[]>("environment.setup") ?? [];
-    if (this.client === undefined || this.client.state === State.Stopped || sources.length > 0) {
+    if (this.client === undefined || this.client.state === State.Stopped || sourcesSetups()) {
       return this.restart();
     }
     try {
@@ -74,6 +81,13 @@ export class ServerSession {
     } catch (error) {
       // The next start passes trust on by itself.
       this.log.debug(`The server was not told of the workspace's trust: ${String(error)}`);
+    }
+  }
+
+  /** The client tells the server which folders came or went; what to source for them only a new server is told. */
+  async foldersChanged(): Promise<void> {
+    if (sourcesSetups()) {
+      await this.restart();
     }
   }
 
@@ -103,11 +117,19 @@ export class ServerSession {
     if (server === undefined) {
       return;
     }
-    const environment = await this.environment();
+    const [first, ...others] = workspace.workspaceFolders ?? [];
+    const environment = await this.environment(first);
+    const environments: Record<string, NodeJS.ProcessEnv> = {};
+    for (const folder of others) {
+      const own = await this.environment(folder);
+      if (own !== environment) {
+        environments[folder.uri.toString()] = own;
+      }
+    }
     this.log.info(`Starting ${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`);
     this.facts.push(["server", `${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`]);
     let started = false;
-    const client = createClient(server, environment, this.log, () => {
+    const client = createClient(server, environment, environments, this.log, () => {
       if (started && client === this.client) {
         this.died();
       }
@@ -192,11 +214,11 @@ export class ServerSession {
     });
   }
 
-  /** What the server runs in: this process's environment, with what the user's set-ups make of it. */
-  private async environment(): Promise<NodeJS.ProcessEnv> {
-    const setting = workspace.getConfiguration("rosPreflight").get<unknown>("environment.setup");
+  /** What a folder is looked at in: this process's environment, with what the user's set-ups make of it. */
+  private async environment(folder: WorkspaceFolder | undefined): Promise<NodeJS.ProcessEnv> {
+    const setting = workspace.getConfiguration("rosPreflight", folder).get<unknown>("environment.setup");
     try {
-      const files = setupPaths(setting, workspace.workspaceFolders?.[0]?.uri.fsPath);
+      const files = setupPaths(setting, folder?.uri.fsPath);
       // Sourcing a file is running it, and what it sources in turn may be the workspace's.
       if (files.length > 0 && !workspace.isTrusted) {
         this.log.info("The set-ups of the settings are sourced once the workspace is trusted.");

@@ -36,8 +36,10 @@ class _Python:
     problem: str | None = None
 
 
-def detect(place: str | None, package_path: Sequence[str] | None = None) -> Environment:
-    """The environment of this process's own variables for a workspace folder, or for the workspace of a file.
+def detect(
+    place: str | None, package_path: Sequence[str] | None = None, variables: Mapping[str, str] | None = None
+) -> Environment:
+    """The environment of `variables` (None: this process's own) for a workspace folder, or for the workspace of a file.
 
     A folder inside of a package, as editors take that of the first file for one, is no workspace: it is like a file.
     """
@@ -45,7 +47,7 @@ def detect(place: str | None, package_path: Sequence[str] | None = None) -> Envi
         place = workspace_of(place)
     elif place and any(map(_is_package, _with_parents(os.path.dirname(os.path.abspath(place))))):
         place = workspace_of(os.path.join(place, "any.launch"))
-    return detect_environment(place, os.environ, package_path)
+    return detect_environment(place, os.environ if variables is None else variables, package_path)
 
 
 def workspace_of(file: str) -> str:

@@ -1,4 +1,4 @@
-"""The server object: what the client can do, the open texts and the session; handlers are in `features/`."""
+"""The server object: what the client can do, the open texts and the sessions; handlers are in `features/`."""
 
 from __future__ import annotations
 
@@ -9,16 +9,20 @@ import logging
 import os
 import pkgutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from lsprotocol import types
 from preflight_analysis import __version__
+from preflight_analysis.workspace.sources import Sources
 from pygls.lsp.server import LanguageServer
 
 from preflight_server.lsp import features
+from preflight_server.lsp.folders import Folders
+from preflight_server.lsp.live import LiveWatch
 from preflight_server.lsp.protocol import PreflightProtocol, RefusedError, is_failure
-from preflight_server.lsp.session import Session
+from preflight_server.lsp.publisher import Publisher
+from preflight_server.lsp.session import Session, View
 from preflight_server.lsp.settings import Settings, as_mapping
 from preflight_server.lsp.status import Status
 from preflight_server.lsp.text_store import TextStore, to_path
@@ -27,7 +31,7 @@ _log = logging.getLogger(__name__)
 
 
 class PreflightServer(LanguageServer):
-    """One client's server. `session` is there once the client has initialised it."""
+    """One client's server. `folders` are there once the client has initialised it."""
 
     protocol: PreflightProtocol
 
@@ -39,10 +43,15 @@ class PreflightServer(LanguageServer):
             protocol_cls=PreflightProtocol,
         )
         self.texts = TextStore()
-        self.session: Session | None = None
+        self.sources = Sources()
+        self.folders: Folders | None = None
         self.after_analysis: list[Callable[[], None]] = []
         """Called on the event loop whenever analyses were replaced by newer ones."""
         self.status = Status(self)
+        self.publisher = Publisher(self)
+        self.live = LiveWatch(self)
+        self.turn_to_run = asyncio.Lock()
+        """Held while the nodes of one folder are run: the machine has no more cores for several folders."""
         self.client_commands: frozenset[str] = frozenset()
         """Our commands that the client carries out itself."""
         self._background: set[asyncio.Task[Any]] = set()
@@ -57,8 +66,28 @@ class PreflightServer(LanguageServer):
         self.client_commands = frozenset(map(str, commands)) if isinstance(commands, list) else frozenset()
         self.status.wanted = options.get("status") is True
         folders = [f.uri for f in params.workspace_folders or ()] or [params.root_uri or ""]
-        folder = next((path for uri in folders if (path := to_path(uri)) is not None), None)
-        self.session = Session(self, folder, Settings.read(options), trusted=options.get("workspaceTrusted") is True)
+        paths = [path for uri in folders if (path := to_path(uri)) is not None]
+        self.folders = Folders(
+            self,
+            paths,
+            Settings.read(options),
+            trusted=options.get("workspaceTrusted") is True,
+            environments=_environments(options),
+        )
+
+    @property
+    def sessions(self) -> tuple[Session, ...]:
+        """Those of all workspace folders; none before the client has initialised the server."""
+        return tuple(self.folders or ())
+
+    def session_of(self, uri: str) -> Session | None:
+        """The session that a document belongs to."""
+        return self.folders.of(to_path(uri)) if self.folders is not None else None
+
+    async def view_of(self, uri: str, *, python: bool = False) -> View | None:
+        """An open launch file as it is now: see `Session.view`."""
+        session = self.session_of(uri)
+        return await session.view(uri, python=python) if session is not None else None
 
     def report_server_error(self, error: Exception, source: Any) -> None:
         """A handler broke: that belongs in the log, not in a message box for each keystroke."""
@@ -76,6 +105,17 @@ class PreflightServer(LanguageServer):
         self._background.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
             _log.error("a background task broke", exc_info=error)
+
+
+def _environments(options: Mapping[str, Any]) -> dict[str, Mapping[str, str]]:
+    """`environments` of the initialisation options, `{folder URI: {name: value}}`: what a client sourced for a folder,
+    in place of the server's own environment."""
+    given = as_mapping(options.get("environments"))
+    return {
+        path: {str(name): str(value) for name, value in as_mapping(variables).items()}
+        for uri, variables in given.items()
+        if (path := to_path(uri)) is not None
+    }
 
 
 def serve() -> int:
@@ -97,6 +137,6 @@ def serve() -> int:
         try:
             server.start_io(stdout=out)
         finally:
-            if server.session is not None:
-                server.session.close()
+            if server.folders is not None:
+                server.folders.close()
     return 0 if server.protocol.was_shut_down else 1

@@ -20,7 +20,7 @@ def contributed(manifest: str) -> str:
     data = json.loads(manifest)
     properties = data["contributes"]["configuration"]["properties"]
     for name, described in SCHEMA.items():
-        properties[f"rosPreflight.{name}"] = {**described, "scope": "window"}
+        properties[f"rosPreflight.{name}"] = {**described, "scope": "window" if name == "runNodes" else "resource"}
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 

@@ -19,6 +19,7 @@ from preflight_server.lsp.text_store import to_uri
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
 
 _log = logging.getLogger(__name__)
 
@@ -32,7 +33,8 @@ _CLOSE_SECONDS = 5.0
 class _Watch:
     """One root, watched from a thread. `analysis` is the newest one, which the event loop replaces."""
 
-    def __init__(self, analysis: Analysis) -> None:
+    def __init__(self, session: Session, analysis: Analysis) -> None:
+        self.session = session
         self.analysis = analysis
         self.observer: Observer = observer(analysis.tree.generation, analysis.environment)
         self.stopped = threading.Event()
@@ -57,10 +59,10 @@ class LiveWatch:
         self._thread: threading.Thread | None = None
         server.after_analysis.append(self._analysed)
 
-    def start(self, analysis: Analysis) -> None:
+    def start(self, session: Session, analysis: Analysis) -> None:
         """Watch what the root of this analysis starts, in place of what was watched before."""
         self.stop(None)
-        self._watch = watch = _Watch(analysis)
+        self._watch = watch = _Watch(session, analysis)
         loop = asyncio.get_running_loop()
         self._thread = threading.Thread(target=self._run, args=(watch, loop), name="live", daemon=True)
         self._thread.start()
@@ -73,6 +75,11 @@ class LiveWatch:
             watch.observer.close()
             self._notify(watch, {"event": "stopped", "reason": reason})
 
+    def forget(self, session: Session) -> None:
+        """A folder was closed."""
+        if self._watch is not None and self._watch.session is session:
+            self.stop("the folder was closed")
+
     def close(self) -> None:
         """Leave nothing running; may be called from any thread."""
         watch, self._watch = self._watch, None
@@ -83,9 +90,9 @@ class LiveWatch:
             self._thread.join(_CLOSE_SECONDS)
 
     def _analysed(self) -> None:
-        watch, session = self._watch, self._server.session
-        if watch is not None and session is not None:
-            newest = (a for a in session.roots() if a.launch == watch.analysis.launch)
+        watch = self._watch
+        if watch is not None:
+            newest = (a for a in watch.session.roots() if a.launch == watch.analysis.launch)
             watch.analysis = next(newest, watch.analysis)
 
     def _run(self, watch: _Watch, loop: asyncio.AbstractEventLoop) -> None:

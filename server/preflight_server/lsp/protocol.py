@@ -56,7 +56,7 @@ def pulls_diagnostics(capabilities: types.ClientCapabilities) -> bool:
 
 
 class PreflightProtocol(LanguageServerProtocol):
-    """Hands document and progress messages to our own handlers alone."""
+    """Hands messages about documents, folders and progress to our own handlers alone."""
 
     @property
     def was_shut_down(self) -> bool:
@@ -89,6 +89,13 @@ class PreflightProtocol(LanguageServerProtocol):
     def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> Generator[Any, Any, None]:
         """`textDocument/didClose`."""
         yield from self._pass_on(types.TEXT_DOCUMENT_DID_CLOSE, params)
+
+    @lsp_method(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
+    def lsp_workspace__did_change_workspace_folders(
+        self, params: types.DidChangeWorkspaceFoldersParams
+    ) -> Generator[Any, Any, None]:
+        """`workspace/didChangeWorkspaceFolders`."""
+        yield from self._pass_on(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, params)
 
     @lsp_method(types.WINDOW_WORK_DONE_PROGRESS_CANCEL)
     def lsp_work_done_progress_cancel(self, params: types.WorkDoneProgressCancelParams) -> Generator[Any, Any, None]:

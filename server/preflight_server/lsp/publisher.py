@@ -19,6 +19,7 @@ from preflight_server.lsp.text_store import to_uri
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
 
 _log = logging.getLogger(__name__)
 
@@ -35,6 +36,8 @@ class Publisher:
 
     def __init__(self, server: PreflightServer) -> None:
         self._server = server
+        self._found: dict[Session, Mapping[str, list[types.Diagnostic]]] = {}
+        """By folder."""
         self._current: dict[str, list[types.Diagnostic]] = {}
         self._published: dict[str, _Told] = {}
         self._pulled: dict[str, list[types.Diagnostic]] = {}
@@ -44,10 +47,31 @@ class Publisher:
         """Whether the client fetches the diagnostics of open files itself."""
         return pulls_diagnostics(self._server.client_capabilities)
 
-    def update(self, diagnostics: Mapping[str, list[types.Diagnostic]], edited: str | None) -> None:
-        """`diagnostics` are those of all files that have any, or that must be told that they have none. `edited` is
-        the file whose edit led to them: its editor asks for them by itself."""
-        self._current = dict(diagnostics)
+    def update(self, session: Session, found: Mapping[str, list[types.Diagnostic]], edited: str | None) -> None:
+        """`found` are those of all files that have any in that folder, or that must be told that they have none.
+        `edited` is the file whose edit led to them: its editor asks for them by itself."""
+        self._found[session] = found
+        self._tell(edited)
+
+    def forget(self, session: Session) -> None:
+        """A folder was closed."""
+        if self._found.pop(session, None) is not None:
+            self._tell(None)
+
+    def _merged(self) -> dict[str, list[types.Diagnostic]]:
+        """What is told of each file: what its own folder says of it, else what the others do."""
+        merged: dict[str, list[types.Diagnostic]] = {}
+        for found in self._found.values():
+            for path, diagnostics in found.items():
+                known = merged.setdefault(path, [])
+                known += [each for each in diagnostics if each not in known]
+        for session, found in self._found.items():
+            own = (path for path in found if self._server.session_of(to_uri(path)) is session)
+            merged.update({path: list(found[path]) for path in own})
+        return merged
+
+    def _tell(self, edited: str | None) -> None:
+        diagnostics = self._current = self._merged()
         stale = False
         for path in dict.fromkeys((*diagnostics, *self._published)):
             document = self._server.texts.by_path(path)

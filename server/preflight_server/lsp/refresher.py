@@ -48,8 +48,9 @@ class Refresher:
             self._task = self._server.spawn(self._compare())
 
     async def _compare(self) -> None:
-        while self._again and self._server.session is not None:
-            await self._server.session.quiet()
+        while self._again:
+            for session in self._server.sessions:
+                await session.quiet()
             self._again = False
             for uri, told in tuple(self._told.items()):
                 if self._server.texts.get(uri) is not told.document:

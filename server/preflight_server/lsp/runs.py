@@ -246,8 +246,9 @@ class Runs:
             await self._probe()
             if self.why_not_run is None:
                 for analysis in self._session.roots():
-                    if not self._wanted and self.why_not_run is None:
-                        await self._round(analysis)
+                    async with self._server.turn_to_run:
+                        if not self._wanted and not self._closing and self.why_not_run is None:
+                            await self._round(analysis)
 
     async def _probe(self) -> None:
         """Find out, once, whether a sandbox works here."""

@@ -9,24 +9,21 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.queries.scene import Scene
 
 from preflight_server.lsp.convert import Converter
-from preflight_server.lsp.session import View
+from preflight_server.lsp.session import Session, View
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
 
-async def scene_of(ls: PreflightServer, view: View) -> Scene:
+async def scene_of(view: View) -> Scene:
     """The scene of an open launch file. What was not analysed since the last edit is left out: its places are gone."""
-    assert ls.session is not None
-    session, workspace = ls.session, await ls.session.workspace()
+    session, workspace = view.session, await view.session.workspace()
     others = await session.in_pool(lambda: [a for a in view.analyses[1:] if workspace.is_current(a.tree)])
     return Scene(view.path, (view.analysis, *others), view.index, workspace)
 
 
-async def scene_of_workspace(ls: PreflightServer, path: str = "") -> Scene:
-    """The scene of any launch file, open or not, or of none: with the analyses of all that is open."""
-    assert ls.session is not None
-    session = ls.session
+async def scene_of_workspace(session: Session, path: str = "") -> Scene:
+    """The scene of any launch file of a folder, open or not, or of none: with the analyses of all that is open."""
     await session.settled()
     workspace, analyses = await session.workspace(), session.roots()
     current = await session.in_pool(lambda: tuple(a for a in analyses if workspace.is_current(a.tree)))

@@ -1,4 +1,4 @@
-"""What the server knows of the workspace: environment, index, analyses of the roots that reach open files, findings.
+"""What the server knows of a workspace folder: environment, index, findings, analyses of the roots of open files.
 
 All state belongs to the event loop. The analysis itself runs in threads of our own (pygls' pool also reads standard
 input), and what comes back is dropped if the text has changed in the meantime.
@@ -26,14 +26,11 @@ from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
-from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
-from preflight_server.lsp.live import LiveWatch
-from preflight_server.lsp.publisher import Publisher
 from preflight_server.lsp.runs import Runs, with_known
 from preflight_server.lsp.settings import Settings
 from preflight_server.lsp.text_store import OpenDocument
@@ -56,6 +53,7 @@ class View:
     """An open launch file as one request sees it: its text, the analysis of the root in whose context it is shown,
     those of all roots that reach it (the shown one first), its findings, and the index of the workspace."""
 
+    session: Session
     document: OpenDocument
     path: str
     analysis: Analysis
@@ -75,14 +73,23 @@ class _Round:
 
 
 class Session:
-    """One workspace of one client. Create, change and close it on the event loop."""
+    """One workspace folder of one client, or what is open without a folder. Create and change it on the event loop."""
 
-    def __init__(self, server: PreflightServer, folder: str | None, settings: Settings, *, trusted: bool) -> None:
+    def __init__(
+        self,
+        server: PreflightServer,
+        folder: str | None,
+        settings: Settings,
+        *,
+        trusted: bool,
+        variables: Mapping[str, str] | None = None,
+    ) -> None:
         self._server = server
+        self._variables = variables
+        """The environment that the client gives the folder, None for the server's own."""
         self.folder = folder
         self.settings = settings
-        self.publisher = Publisher(server)
-        self._sources = Sources()
+        self._sources = server.sources
         self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
         self._workspace: Workspace | None = None
         self._analyses: dict[Root, Analysis] = {}
@@ -114,22 +121,17 @@ class Session:
         self._every_root = frozenset(rule.id for rule in all_rules() if rule.every_root)
         self.runs = Runs(server, self, trusted=trusted)
         self.indexing = Indexing(server, self)
-        self.live = LiveWatch(server)
 
     # What the handlers report
 
-    def opened(self, document: OpenDocument) -> None:
-        """A document was opened, or its text taken over anew."""
-        self._take_over(document, quiet=0)
-
-    def changed(self, document: OpenDocument) -> None:
-        """Its text changed."""
-        self._take_over(document, quiet=PAUSE_AFTER_TYPING)
-
-    def _take_over(self, document: OpenDocument, quiet: float) -> None:
+    def text_changed(self, document: OpenDocument, *, own: bool, quiet: float) -> None:
+        """A document was opened or its text changed, and the user will not type for `quiet` seconds. `own`: it belongs
+        to this folder, and is shown in the context of its roots."""
         if document.path is None:
             return
-        self._sources.open(document.path, document.text)
+        if not own:
+            self._touch([document.path], None, quiet=quiet)
+            return
         if is_launch_file(document) or may_be_parameter_file(document):
             self._focus = [document.path, *(p for p in self._focus if p != document.path)]
             if self.folder is None and is_launch_file(document):
@@ -140,13 +142,24 @@ class Session:
             self._focus = [p for p in self._focus if p != document.path]
         self._touch([document.path], document.path, quiet=quiet)
 
-    def closed(self, document: OpenDocument) -> None:
+    def closed(self, path: str) -> None:
         """The file on disk counts again."""
-        if document.path is None or self._server.texts.by_path(document.path) is not None:
-            return
-        self._sources.close(document.path)
-        self._focus = [p for p in self._focus if p != document.path]
-        self._touch([document.path], None, quiet=0)
+        self._focus = [p for p in self._focus if p != path]
+        self._touch([path], None, quiet=0)
+
+    def released(self, path: str) -> None:
+        """An open file belongs to another folder now."""
+        if self.shows(path):
+            self.closed(path)
+
+    def shows(self, path: str) -> bool:
+        """Whether a file is open and belongs to this folder."""
+        return path in self._focus
+
+    def depends_on(self, path: str) -> bool:
+        """Whether some launch of this folder reads the file."""
+        analysed = any(path in analysis.tree.inputs for analysis in self._analyses.values())
+        return analysed or any(path in entry.inputs for entry in self.indexing.index.entries.values())
 
     def files_changed(self, paths: Iterable[str], *, came_or_went: bool = False) -> None:
         """Files changed on disk: launch files, parameter files or sources of nodes. If some came or went, so may have
@@ -176,8 +189,6 @@ class Session:
     def set_trusted(self, trusted: bool) -> None:
         """Whether the user trusts the workspace, so that its nodes may be run in the sandbox."""
         self.runs.set_trusted(trusted)
-        if not trusted:
-            self.live.stop("the workspace is not trusted any more")
         self._touch(None, None, quiet=0)
 
     def traces_cleared(self) -> None:
@@ -215,7 +226,6 @@ class Session:
     def close(self) -> None:
         """Leave nothing running. Returns when the threads have ended; may be called from any thread, and twice."""
         self._closed = True
-        self.live.close()
         self.runs.close()
         self.indexing.close()
         self._pool.shutdown(wait=True, cancel_futures=True)
@@ -238,7 +248,7 @@ class Session:
         findings = self._findings.get(document.path, ())
         converter = Converter(self._server.texts, analyses[0].documents)
         index = self.indexing.index
-        return View(document, document.path, analyses[0], analyses, index, findings, converter)
+        return View(self, document, document.path, analyses[0], analyses, index, findings, converter)
 
     async def latest(self, uri: str, *, python: bool = False) -> tuple[LaunchFile, Analysis] | None:
         """The file as it is now, and the newest analysis that there is, which may be one of an earlier text: for what
@@ -311,7 +321,9 @@ class Session:
     async def _detect(self) -> None:
         folder, package_path = self.folder, self.settings.package_path
         try:
-            environment = await self.in_pool(lambda: detect(folder, package_path=package_path))
+            environment = await self.in_pool(
+                lambda: detect(folder, package_path=package_path, variables=self._variables)
+            )
         finally:
             self._detecting = None
         if (folder, package_path) == (self.folder, self.settings.package_path):
@@ -411,6 +423,8 @@ class Session:
         round_ = await self._round(workspace, root)
         if root is not None and round_ is not None and self._missed_an_edit(round_.analyses[root]):
             self._dirty[root] = self._edits
+        if self._closed:
+            return
         if self._workspace is not workspace or (root is not None and self._dirty.get(root, asked) != asked):
             self._remerge = True
             return  # superseded by a newer text
@@ -473,7 +487,7 @@ class Session:
         self._findings = round_.findings
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
-        self.publisher.update({**clean, **round_.diagnostics}, self._edited)
+        self._server.publisher.update(self, {**clean, **round_.diagnostics}, self._edited)
         for told in self._server.after_analysis:
             told()
 

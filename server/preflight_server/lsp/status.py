@@ -41,13 +41,13 @@ class Status:
 
     def tell(self) -> None:
         """Send what there is to say if it is news."""
-        session = self._server.session
-        if not self.wanted or session is None:
+        if not self.wanted or not self._server.sessions:
             return
         # Runs of nodes are shown rather than the index, which is made beside them.
         state, done, total = max(self._work.values(), key=lambda work: work[0] == "tracing", default=("idle", 0, 0))
-        kind = session.runs.not_run_since
-        not_run = {"kind": kind, "message": session.runs.why_not_run} if kind is not None else None
+        runs = (session.runs for session in self._server.sessions)
+        stopped = ({"kind": each.not_run_since, "message": each.why_not_run} for each in runs if each.not_run_since)
+        not_run = next(stopped, None)
         now = {"state": state, "done": done, "total": total, "notRun": not_run}
         if now != self._told:
             self._told = now

@@ -33,10 +33,10 @@ def _item(converter: Converter, item: Item) -> types.CallHierarchyItem:
 async def _calls(
     ls: PreflightServer, uri: str, query: Callable[[Scene], Sequence[Call]]
 ) -> list[tuple[types.CallHierarchyItem, list[types.Range]]] | None:
-    path = to_path(uri)
-    if ls.session is None or path is None:
+    path, session = to_path(uri), ls.session_of(uri)
+    if session is None or path is None:
         return None
-    scene = await scene_of_workspace(ls, path)
+    scene = await scene_of_workspace(session, path)
 
     def work() -> list[tuple[types.CallHierarchyItem, list[types.Range]]]:
         found = query(scene)
@@ -44,7 +44,7 @@ async def _calls(
         converter = converter_for(ls, scene, (*heads, *(place for call in found for place in call.places)))
         return [(_item(converter, call.item), [converter.range(place) for place in call.places]) for call in found]
 
-    return await ls.session.in_pool(work)
+    return await session.in_pool(work)
 
 
 def register(server: PreflightServer) -> None:
@@ -54,17 +54,17 @@ def register(server: PreflightServer) -> None:
     async def prepare(
         ls: PreflightServer, params: types.CallHierarchyPrepareParams
     ) -> list[types.CallHierarchyItem] | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri)
+        if view is None:
             return None
-        offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(ls, view)
+        offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(view)
 
         def work() -> list[types.CallHierarchyItem]:
             found = items_at(scene, offset)
             converter = converter_for(ls, scene, (Location(item.path, item.head) for item in found))
             return [_item(converter, item) for item in found]
 
-        return await ls.session.in_pool(work)
+        return await view.session.in_pool(work)
 
     @server.feature(types.CALL_HIERARCHY_INCOMING_CALLS)
     async def incoming_calls(

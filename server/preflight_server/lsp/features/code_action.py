@@ -50,7 +50,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=list(_KINDS)))
     async def code_action(ls: PreflightServer, params: types.CodeActionParams) -> list[types.CodeAction] | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
-        return await ls.session.in_pool(lambda: _actions(view, params))
+        return await view.session.in_pool(lambda: _actions(view, params))

@@ -42,10 +42,10 @@ def register(server: PreflightServer) -> None:
         return types.Command(title, name if name in server.client_commands else "", arguments=list(arguments))
 
     async def answer(uri: str) -> list[types.CodeLens] | None:
-        view = await server.session.view(uri, python=True) if server.session else None
-        if server.session is None or view is None:
+        view = await server.view_of(uri, python=True)
+        if view is None:
             return None
-        scene = await scene_of(server, view)
+        scene = await scene_of(view)
 
         def work() -> list[types.CodeLens] | None:
             found = lenses(scene)
@@ -61,7 +61,7 @@ def register(server: PreflightServer) -> None:
                 types.CodeLens(range_, command(root, SELECT_ROOT, uri)),
             ]
 
-        return await server.session.in_pool(work)
+        return await view.session.in_pool(work)
 
     def supported() -> bool:
         workspace = server.client_capabilities.workspace

@@ -58,14 +58,15 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list(TRIGGERS)))
     async def completion(ls: PreflightServer, params: types.CompletionParams) -> types.CompletionList | None:
-        latest = await ls.session.latest(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or latest is None:
+        session = ls.session_of(params.text_document.uri)
+        latest = await session.latest(params.text_document.uri, python=True) if session else None
+        if session is None or latest is None:
             return None
-        (launch_file, analysis), workspace = latest, await ls.session.workspace()
+        (launch_file, analysis), workspace = latest, await session.workspace()
         positions = Positions(launch_file.document.text, launch_file.document.lines, ls.texts.encoding)
         offset = positions.offset(params.position)
         trigger = params.context.trigger_character if params.context else None
-        found = await ls.session.in_pool(
+        found = await session.in_pool(
             lambda: query(analysis, launch_file, offset, workspace.sources, workspace.executables, trigger)
         )
         if found is None:

@@ -20,11 +20,11 @@ def register(server: PreflightServer) -> None:
     async def definition(
         ls: PreflightServer, params: types.DefinitionParams
     ) -> list[types.LocationLink] | list[types.Location] | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)
-        scene = await scene_of(ls, view)
+        scene = await scene_of(view)
         document = ls.client_capabilities.text_document
         links = document is not None and document.definition is not None and document.definition.link_support
 
@@ -35,4 +35,4 @@ def register(server: PreflightServer) -> None:
                 return [converter.link(t.location, t.source) for t in found]
             return [converter.location(t.location) for t in found]
 
-        return await ls.session.in_pool(work)
+        return await view.session.in_pool(work)

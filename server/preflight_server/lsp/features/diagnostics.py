@@ -22,7 +22,8 @@ def register(server: PreflightServer) -> None:
     ) -> types.RelatedFullDocumentDiagnosticReport:
         found: list[types.Diagnostic] = []
         document = ls.texts.get(params.text_document.uri)
-        if ls.session is not None and document is not None and document.path is not None:
-            await ls.session.settled()
-            found = ls.session.publisher.pull(document.path)
+        session = ls.session_of(params.text_document.uri)
+        if session is not None and document is not None and document.path is not None:
+            await session.settled()
+            found = ls.publisher.pull(document.path)
         return types.RelatedFullDocumentDiagnosticReport(found)

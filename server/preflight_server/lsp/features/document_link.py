@@ -16,10 +16,10 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_LINK)
     async def document_link(ls: PreflightServer, params: types.DocumentLinkParams) -> list[types.DocumentLink] | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
-        found = await ls.session.in_pool(lambda: query(view.analysis, view.path))
+        found = await view.session.in_pool(lambda: query(view.analysis, view.path))
         positions = view.converter.positions(view.path)
         return [
             types.DocumentLink(positions.range(link.span), target=view.converter.uri(link.path), tooltip=link.path)

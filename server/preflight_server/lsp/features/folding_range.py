@@ -18,9 +18,9 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
     async def folding_range(ls: PreflightServer, params: types.FoldingRangeParams) -> list[types.FoldingRange] | None:
-        view = await ls.session.view(params.text_document.uri) if ls.session else None
+        view = await ls.view_of(params.text_document.uri)
         launch_file = view.analysis.launch_files.get(view.path) if view else None
-        if ls.session is None or launch_file is None:
+        if view is None or launch_file is None:
             return None
-        found = await ls.session.in_pool(lambda: query(launch_file))
+        found = await view.session.in_pool(lambda: query(launch_file))
         return [types.FoldingRange(fold.start, fold.end, kind=_KINDS.get(fold.kind)) for fold in found]

@@ -39,10 +39,10 @@ def register(server: PreflightServer) -> None:
     @server.feature(GRAPH)
     async def graph(ls: PreflightServer, params: Any) -> dict[str, Any] | None:
         given = as_mapping(params)
-        view = await ls.session.view(str(given.get("uri", "")), python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(str(given.get("uri", "")), python=True)
+        if view is None:
             return None
-        analysis, folder = view.analysis, ls.session.folder
+        analysis, folder = view.analysis, view.session.folder
 
         def work() -> dict[str, Any]:
             shown = _view(analysis, builtin=given.get("builtin") is True)
@@ -50,4 +50,4 @@ def register(server: PreflightServer) -> None:
             is_known = digest == given.get("known")
             return {"digest": digest, "graph": None if is_known else view_json(shown, lay_out(shown), folder)}
 
-        return await ls.session.in_pool(work)
+        return await view.session.in_pool(work)

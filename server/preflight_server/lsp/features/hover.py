@@ -24,12 +24,12 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(ls: PreflightServer, params: types.HoverParams) -> types.Hover | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
         positions = view.converter.positions(view.path)
         offset = positions.offset(params.position)
-        scene = await scene_of(ls, view)
-        unseen = max(0, len(ls.session.roots_of(view.path)) - len(view.analyses))
-        found = await ls.session.in_pool(lambda: query(scene.analyses, view.path, offset, unseen))
+        scene = await scene_of(view)
+        unseen = max(0, len(view.session.roots_of(view.path)) - len(view.analyses))
+        found = await view.session.in_pool(lambda: query(scene.analyses, view.path, offset, unseen))
         return types.Hover(_content(ls, found.markdown), positions.range(found.span)) if found else None

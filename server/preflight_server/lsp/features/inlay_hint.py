@@ -29,12 +29,12 @@ class _Told:
 
 
 async def _hints(ls: PreflightServer, uri: str, within: Span | types.Range) -> tuple[_Told, Positions] | None:
-    view = await ls.session.view(uri, python=True) if ls.session else None
-    if ls.session is None or view is None:
+    view = await ls.view_of(uri, python=True)
+    if view is None:
         return None
     span = within if isinstance(within, Span) else view.converter.span(view.path, within)
-    shown = ls.session.settings.inlay_hints
-    found = await ls.session.in_pool(lambda: query(view.analyses, view.path, span)) if shown else ()
+    shown = view.session.settings.inlay_hints
+    found = await view.session.in_pool(lambda: query(view.analyses, view.path, span)) if shown else ()
     return _Told(view.document, span, found), view.converter.positions(view.path)
 
 

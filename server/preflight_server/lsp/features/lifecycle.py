@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from lsprotocol import types
 
+from preflight_server.lsp.features.workspace import own_settings
+
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
@@ -52,12 +54,14 @@ def register(server: PreflightServer) -> None:
     @server.feature(types.INITIALIZED)
     async def initialized(ls: PreflightServer, params: types.InitializedParams) -> None:
         ls.spawn(_register(ls))
-        if ls.session is not None:
-            ls.status.tell()
-            await ls.session.workspace()  # detect the environment while the user still reads
-            ls.session.indexing.changed(None)
+        ls.status.tell()
+        if len(ls.sessions) > 1:
+            ls.spawn(own_settings(ls))
+        for session in ls.sessions:
+            await session.workspace()  # detect the environment while the user still reads
+            session.indexing.changed(None)
 
     @server.feature(types.SHUTDOWN)
     async def shutdown(ls: PreflightServer, params: None) -> None:
-        if ls.session is not None:
-            await asyncio.get_running_loop().run_in_executor(None, ls.session.close)
+        if ls.folders is not None:
+            await asyncio.get_running_loop().run_in_executor(None, ls.folders.close)

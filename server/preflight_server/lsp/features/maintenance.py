@@ -4,7 +4,8 @@
   nodes of the shown root anew: the one of that name, or the one at the position, or all where neither is given.
   `message` says why nothing is run.
 - `rosPreflight/clearCache`, `{}` → `{"entries", "bytes"}`: forget what runs told, on the disk as well.
-- `rosPreflight/doctor`, `{}` → `{"text"}`: what launch files and nodes are looked at with, as `ros-preflight doctor`.
+- `rosPreflight/doctor`, `{}` → `{"text"}`: what launch files and nodes are looked at with, as `ros-preflight doctor`,
+  for each workspace folder.
 """
 
 from __future__ import annotations
@@ -50,28 +51,29 @@ def register(server: PreflightServer) -> None:
     @server.feature(TRACE)
     async def trace(ls: PreflightServer, params: Any) -> dict[str, Any]:
         given = as_mapping(params)
-        view = await ls.session.view(str(given.get("uri", "")), python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(str(given.get("uri", "")), python=True)
+        if view is None:
             return {"nodes": [], "message": "this is no launch file, or it cannot be read"}
         names = _named(view, given)
         if names is not None and not names.intersection(node.name for node in view.analysis.tree.nodes):
             return {"nodes": [], "message": "no node is started here"}
-        nodes = ls.session.runs.again(view.analysis, names)
+        nodes = view.session.runs.again(view.analysis, names)
         ls.status.tell()
-        return {"nodes": nodes, "message": ls.session.runs.why_not_run}
+        return {"nodes": nodes, "message": view.session.runs.why_not_run}
 
     @server.feature(CLEAR_CACHE)
     async def clear_cache(ls: PreflightServer, params: Any) -> dict[str, Any]:
-        if ls.session is None:
+        if ls.folders is None:
             return {"entries": 0, "bytes": 0}
-        cleared = await ls.session.in_pool(lambda: [store.clear() for store in (TraceCache(), CommandCache())])
-        ls.session.traces_cleared()
+        cleared = await ls.sessions[0].in_pool(lambda: [store.clear() for store in (TraceCache(), CommandCache())])
+        ls.folders.each(lambda session: session.traces_cleared())
         return {"entries": sum(entries for entries, _ in cleared), "bytes": sum(freed for _, freed in cleared)}
 
     @server.feature(DOCTOR)
     async def doctor(ls: PreflightServer, params: Any) -> dict[str, Any]:
-        if ls.session is None:
-            return {"text": ""}
-        workspace = await ls.session.workspace()
-        # An empty command is run, nothing of the workspace's.
-        return {"text": await ls.session.in_pool(lambda: page(workspace.environment, sandbox.probe()))}
+        pages = []
+        for session in ls.sessions:
+            environment = (await session.workspace()).environment
+            # An empty command is run, nothing of the workspace's.
+            pages.append(page(environment, await session.in_pool(sandbox.probe)))
+        return {"text": "\n".join(pages)}

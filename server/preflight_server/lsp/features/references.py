@@ -18,15 +18,15 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(ls: PreflightServer, params: types.ReferenceParams) -> list[types.Location] | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)
-        scene = await scene_of(ls, view)
+        scene = await scene_of(view)
 
         def work() -> list[types.Location]:
             found = [r.location for r in query(scene, offset) if params.context.include_declaration or not r.declares]
             converter = converter_for(ls, scene, found)
             return [converter.location(place) for place in found]
 
-        return await ls.session.in_pool(work)
+        return await view.session.in_pool(work)

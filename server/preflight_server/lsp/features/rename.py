@@ -33,20 +33,20 @@ def register(server: PreflightServer) -> None:
     async def prepare_rename(
         ls: PreflightServer, params: types.PrepareRenameParams
     ) -> types.PrepareRenamePlaceholder | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
         positions = view.converter.positions(view.path)
-        offset, scene = positions.offset(params.position), await scene_of(ls, view)
-        found = await ls.session.in_pool(lambda: _answered(lambda: prepare(scene, offset)))
+        offset, scene = positions.offset(params.position), await scene_of(view)
+        found = await view.session.in_pool(lambda: _answered(lambda: prepare(scene, offset)))
         return types.PrepareRenamePlaceholder(positions.range(found.span), found.name) if found else None
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def rename_symbol(ls: PreflightServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
-        view = await ls.session.view(params.text_document.uri, python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(params.text_document.uri, python=True)
+        if view is None:
             return None
-        offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(ls, view)
+        offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(view)
 
         def work() -> types.WorkspaceEdit:
             edits = rename(scene, offset, params.new_name)
@@ -55,7 +55,7 @@ def register(server: PreflightServer) -> None:
             converter = converter_for(ls, scene, (edit.location for edit in edits))
             return converter.workspace_edit(edits, versioned=_versioned(ls.client_capabilities))
 
-        return await ls.session.in_pool(lambda: _answered(work))
+        return await view.session.in_pool(lambda: _answered(work))
 
 
 def _typed_on(ls: PreflightServer, scene: Scene, path: str) -> bool:

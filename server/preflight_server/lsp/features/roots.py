@@ -45,20 +45,22 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(ROOTS)
     async def roots(ls: PreflightServer, params: Any) -> dict[str, Any]:
-        path = to_path(str(as_mapping(params).get("uri", "")))
-        if ls.session is None or path is None:
+        uri = str(as_mapping(params).get("uri", ""))
+        path, session = to_path(uri), ls.session_of(uri)
+        if session is None or path is None:
             return {"shown": None, "roots": []}
-        found = [_to_json(ls.session, root) for root in ls.session.roots_of(path)]
+        found = [_to_json(session, root) for root in session.roots_of(path)]
         return {"shown": next(iter(found), None), "roots": found}
 
     @server.feature(SELECT_ROOT)
     async def select_root(ls: PreflightServer, params: Any) -> dict[str, Any]:
         given = as_mapping(params)
-        path = to_path(str(given.get("uri", "")))
-        if ls.session is None or path is None:
+        uri = str(given.get("uri", ""))
+        path, session = to_path(uri), ls.session_of(uri)
+        if session is None or path is None:
             return {"shown": None, "message": "there is no such file"}
         wanted = given.get("root")
         root = _from_json(wanted)
-        message = await ls.session.select(path, root) if wanted is None or root else "the root is no file"
-        shown = next(iter(ls.session.roots_of(path)), None)
-        return {"shown": _to_json(ls.session, shown) if shown is not None else None, "message": message}
+        message = await session.select(path, root) if wanted is None or root else "the root is no file"
+        shown = next(iter(session.roots_of(path)), None)
+        return {"shown": _to_json(session, shown) if shown is not None else None, "message": message}

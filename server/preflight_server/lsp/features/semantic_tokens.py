@@ -30,13 +30,13 @@ def _encoded(tokens: Iterable[Token], positions: Positions) -> types.SemanticTok
 
 
 async def _tokens(ls: PreflightServer, uri: str, range_: types.Range | None) -> types.SemanticTokens | None:
-    view = await ls.session.view(uri) if ls.session else None
+    view = await ls.view_of(uri)
     launch_file = view.analysis.launch_files.get(view.path) if view else None
-    if ls.session is None or view is None or launch_file is None:
+    if view is None or launch_file is None:
         return None
     positions = view.converter.positions(view.path)
     within = Span(positions.offset(range_.start), positions.offset(range_.end)) if range_ is not None else None
-    return await ls.session.in_pool(lambda: _encoded(query(launch_file, within), positions))
+    return await view.session.in_pool(lambda: _encoded(query(launch_file, within), positions))
 
 
 def register(server: PreflightServer) -> None:

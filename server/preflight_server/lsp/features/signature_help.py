@@ -40,13 +40,14 @@ def register(server: PreflightServer) -> None:
         types.SignatureHelpOptions(trigger_characters=["<", '"', "'"], retrigger_characters=[" ", ">"]),
     )
     async def signature_help(ls: PreflightServer, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
-        latest = await ls.session.latest(params.text_document.uri) if ls.session else None
-        if ls.session is None or latest is None:
+        session = ls.session_of(params.text_document.uri)
+        latest = await session.latest(params.text_document.uri) if session else None
+        if session is None or latest is None:
             return None
-        (launch_file, analysis), workspace = latest, await ls.session.workspace()
+        (launch_file, analysis), workspace = latest, await session.workspace()
         document = launch_file.document
         offset = Positions(document.text, document.lines, ls.texts.encoding).offset(params.position)
-        found = await ls.session.in_pool(lambda: query(analysis, launch_file, offset, workspace.sources))
+        found = await session.in_pool(lambda: query(analysis, launch_file, offset, workspace.sources))
         client = ls.client_capabilities.text_document
         asked = client.signature_help.signature_information if client and client.signature_help else None
         return _help(found, asked or types.ClientSignatureInformationOptions()) if found else None

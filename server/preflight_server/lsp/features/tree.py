@@ -27,10 +27,10 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(TREE)
     async def tree(ls: PreflightServer, params: Any) -> dict[str, Any] | None:
-        view = await ls.session.view(str(as_mapping(params).get("uri", "")), python=True) if ls.session else None
-        if ls.session is None or view is None:
+        view = await ls.view_of(str(as_mapping(params).get("uri", "")), python=True)
+        if view is None:
             return None
-        analysis, findings = view.analysis, ls.session.findings
+        analysis, findings = view.analysis, view.session.findings
 
         def work() -> dict[str, Any]:
             found = node_tree(analysis, findings)
@@ -42,7 +42,7 @@ def register(server: PreflightServer) -> None:
                 "items": [_json(item, files, view.converter) for item in found.items],
             }
 
-        return await ls.session.in_pool(work)
+        return await view.session.in_pool(work)
 
 
 def _json(item: Item, files: Mapping[str, int], converter: Converter) -> dict[str, Any]:

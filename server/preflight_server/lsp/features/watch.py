@@ -19,14 +19,13 @@ def register(server: PreflightServer) -> None:
     @server.feature(WATCH)
     async def watch(ls: PreflightServer, params: Any) -> dict[str, Any]:
         given = as_mapping(params)
-        if ls.session is None or given.get("watch") is not True:
-            if ls.session is not None:
-                ls.session.live.stop(None)
+        if given.get("watch") is not True:
+            ls.live.stop(None)
             return {"watching": False, "message": None}
-        view = await ls.session.view(str(given.get("uri", "")), python=True)
+        view = await ls.view_of(str(given.get("uri", "")), python=True)
         if view is None:
             return {"watching": False, "message": "this is no launch file, or it cannot be read"}
-        if not ls.session.runs.trusted:
+        if not view.session.runs.trusted:
             return {"watching": False, "message": _NOT_TRUSTED}
-        ls.session.live.start(view.analysis)
+        ls.live.start(view.session, view.analysis)
         return {"watching": True, "message": None}

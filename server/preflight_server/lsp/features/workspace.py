@@ -11,10 +11,13 @@ from lsprotocol import types
 from preflight_analysis.environment.detect import SETTINGS_FILE
 
 from preflight_server.lsp.settings import Settings, as_mapping
-from preflight_server.lsp.text_store import to_path
+from preflight_server.lsp.text_store import to_path, to_uri
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
 
 _log = logging.getLogger(__name__)
 
@@ -26,14 +29,32 @@ _OF_THE_ENVIRONMENT = frozenset({"package.xml", "manifest.xml", "CATKIN_IGNORE",
 }
 
 
-async def _settings(ls: PreflightServer, pushed: Any) -> Settings:
-    """The section `rosPreflight`: asked for where the client can be asked, else what it sent along."""
+def _can_be_asked(ls: PreflightServer) -> bool:
     workspace = ls.client_capabilities.workspace
-    if workspace is not None and workspace.configuration:
-        item = types.ConfigurationItem(section="rosPreflight")
-        answer = await ls.workspace_configuration_async(types.ConfigurationParams([item]))
-        return Settings.read(as_mapping(answer[0] if answer else None))
-    return Settings.read(as_mapping(as_mapping(pushed).get("rosPreflight")))
+    return workspace is not None and bool(workspace.configuration)
+
+
+async def _asked(ls: PreflightServer, sessions: Sequence[Session]) -> list[Any]:
+    """The section `rosPreflight` for the whole window and for the folder of each session."""
+    scopes = [None, *(to_uri(session.folder) if session.folder else None for session in sessions)]
+    items = [types.ConfigurationItem(scope_uri=scope, section="rosPreflight") for scope in scopes]
+    answer = await ls.workspace_configuration_async(types.ConfigurationParams(items))
+    return [*(answer or ()), *(None for _ in items)][: len(items)]
+
+
+async def own_settings(ls: PreflightServer) -> None:
+    """Ask for what each folder has in settings of its own: the initialisation options are the window's."""
+    if not _can_be_asked(ls):
+        return
+    sessions = ls.sessions
+    try:
+        _, *answers = await _asked(ls, sessions)
+    except (Exception, asyncio.CancelledError) as error:
+        _log.info("the settings of the folders are not known: %s", error)
+        return
+    for session, own in zip(sessions, answers, strict=True):
+        if own is not None:
+            session.configure(Settings.read(as_mapping(own)))
 
 
 def register(server: PreflightServer) -> None:
@@ -41,35 +62,55 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def did_change_watched_files(ls: PreflightServer, params: types.DidChangeWatchedFilesParams) -> None:
-        if ls.session is None:
+        if ls.folders is None:
             return
         changes = [(path, change.type) for change in params.changes if (path := to_path(change.uri)) is not None]
         came_or_went = (types.FileChangeType.Created, types.FileChangeType.Deleted)
         if any(os.path.basename(path) in _OF_THE_ENVIRONMENT for path, _ in changes):
-            ls.session.environment_changed()
+            ls.folders.each(lambda session: session.environment_changed())
         elif changes:
             # An executable that was missing may be there now.
             new = any(kind in came_or_went for _, kind in changes)
-            ls.session.files_changed([path for path, _ in changes], came_or_went=new)
+            paths = [path for path, _ in changes]
+            ls.folders.each(lambda session: session.files_changed(paths, came_or_went=new))
 
     @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
     async def did_change_configuration(ls: PreflightServer, params: types.DidChangeConfigurationParams) -> None:
+        if ls.folders is None:
+            return
+        if not _can_be_asked(ls):
+            ls.folders.configure(Settings.read(as_mapping(as_mapping(params.settings).get("rosPreflight"))))
+            return
+        sessions = ls.sessions
         try:
-            settings = await _settings(ls, params.settings)
+            of_window, *of_folders = await _asked(ls, sessions)
         except asyncio.CancelledError:  # the client leaves
             return
         except Exception as error:
             _log.warning("the settings could not be read: %s", error)
             return
-        if ls.session is not None:
-            ls.session.configure(settings)
+        read = [Settings.read(as_mapping(answer)) for answer in (of_window, *of_folders)]
+        ls.folders.configure(read[0], dict(zip(sessions, read[1:], strict=True)))
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
+    async def did_change_folders(ls: PreflightServer, params: types.DidChangeWorkspaceFoldersParams) -> None:
+        if ls.folders is None:
+            return
+        added = [path for folder in params.event.added if (path := to_path(folder.uri)) is not None]
+        removed = [path for folder in params.event.removed if (path := to_path(folder.uri)) is not None]
+        made = ls.folders.change(added, removed)
+        ls.status.tell()
+        ls.spawn(own_settings(ls))
+        for session in made:
+            await session.workspace()
+            session.indexing.changed(None)
 
     @server.feature(WORKSPACE_TRUST)
     def workspace_trust(ls: PreflightServer, params: Any) -> None:
-        if ls.session is not None:
-            ls.session.set_trusted(as_mapping(params).get("trusted") is True)
+        if ls.folders is not None:
+            ls.folders.set_trusted(as_mapping(params).get("trusted") is True)
 
     @server.feature(types.WINDOW_WORK_DONE_PROGRESS_CANCEL)
     def cancel_progress(ls: PreflightServer, params: types.WorkDoneProgressCancelParams) -> None:
-        if ls.session is not None:
-            ls.session.runs.cancel(params.token)
+        for session in ls.sessions:
+            session.runs.cancel(params.token)

@@ -11,6 +11,7 @@ from preflight_server.lsp.scenes import converter_for, scene_of_workspace
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
+    from preflight_server.lsp.session import Session
 
 _KINDS = {"node": types.SymbolKind.Class, "launch": types.SymbolKind.File, "topic": types.SymbolKind.Event}
 
@@ -22,13 +23,22 @@ def register(server: PreflightServer) -> None:
     async def workspace_symbol(
         ls: PreflightServer, params: types.WorkspaceSymbolParams
     ) -> list[types.SymbolInformation] | None:
-        session = ls.session
-        if session is None:
-            return None
-        scene = await scene_of_workspace(ls)
+        symbols = [symbol for session in ls.sessions for symbol in await of_folder(ls, session, params.query)]
+        known: set[tuple[str, types.SymbolKind, str, int]] = set()
+        first = []
+        for symbol in symbols:  # a folder within another one has its symbols once
+            where = symbol.location
+            key = (symbol.name, symbol.kind, where.uri, where.range.start.line)
+            if key not in known:
+                known.add(key)
+                first.append(symbol)
+        return first
+
+    async def of_folder(ls: PreflightServer, session: Session, query_: str) -> list[types.SymbolInformation]:
+        scene = await scene_of_workspace(session)
 
         def work() -> list[types.SymbolInformation]:
-            found = query(scene.current, scene.analyses, session.folder, params.query)
+            found = query(scene.current, scene.analyses, session.folder, query_)
             converter = converter_for(ls, scene, (symbol.location for symbol in found))
             return [
                 types.SymbolInformation(
