@@ -22,14 +22,15 @@ MANIFEST = """<package format="3"><name>{}</name><version>0.1.0</version><descri
 
 @dataclass
 class PythonDesk:
-    """A folder with the package `p`."""
+    """A folder with one package."""
 
     folder: Path
+    name: str = "p"
 
     @property
     def package(self) -> Path:
         """The folder of the package."""
-        return self.folder / "src" / "p"
+        return self.folder / "src" / self.name
 
     def write(self, name: str, text: str) -> Path:
         """A file of the package."""
@@ -49,8 +50,7 @@ class PythonDesk:
     ) -> Analysis:
         """The analysis after all that it asks for was run; `why_not` is why nothing is, `variables` are set
         beside those of ROS."""
-        manifest = self.folder / "src" / "p" / "package.xml"
-        manifest.write_text(MANIFEST.format("p"))
+        (self.package / "package.xml").write_text(MANIFEST.format(self.name))
         ros = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
         environment = detect_environment(None, {**ros, **(variables or {})}, (str(self.folder / "src"),))
         results = CommandResults(lambda: why_not)

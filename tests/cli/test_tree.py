@@ -132,6 +132,51 @@ def test_a_batch_answers_each_job_in_order_from_its_own_environment(desk: Desk, 
     assert all(list(each) == sorted(each) for each in (first, second, third, fourth))
 
 
+COMMAND_XML = """<launch>
+  <arg name="x" default="b"/>
+  <node pkg="arm" exec="a">
+    <param name="d" value="$(command 'cat $(find-pkg-share {package})/a.urdf')"/>
+    <param name="e" value="$(command 'cat $(var {argument}).urdf')"/>
+  </node>
+</launch>
+"""
+COMMAND_PYTHON = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import Command, LaunchConfiguration
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("x", default_value="b"),
+        Node(package="arm", executable="a", parameters=[
+            {{"d": Command(["cat ", FindPackageShare("{package}"), "/a.urdf"])}},
+            {{"e": Command(["cat ", LaunchConfiguration("{argument}"), ".urdf"])}},
+        ]),
+    ])
+"""
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(("name", "text"), [("a.launch.xml", COMMAND_XML), ("a.launch.py", COMMAND_PYTHON)])
+@pytest.mark.parametrize(
+    ("package", "argument", "rules"), [("arm", "x", []), ("amr", "x", ["PKG001"]), ("arm", "y", ["ARG001"])]
+)
+def test_a_batch_reports_what_a_command_cannot_be_made_of(
+    tmp_path: Path, preflight: Run, name: str, text: str, package: str, argument: str, rules: list[str]
+) -> None:
+    prefix = tmp_path / "prefix"
+    for folder in ("share/ament_index/resource_index/packages", "share/arm"):
+        (prefix / folder).mkdir(parents=True)
+    (prefix / "share/ament_index/resource_index/packages/arm").touch()
+    (tmp_path / name).write_text(text.format(package=package, argument=argument))
+    jobs = tmp_path / "jobs.jsonl"
+    jobs.write_text(json.dumps({"file": name, "env": {"AMENT_PREFIX_PATH": "$ROOT/prefix"}}))
+    done = preflight("tree", "--batch", jobs)
+    (answer,) = map(json.loads, done.out.splitlines())
+    assert [error["rule"] for error in answer["errors"]] == rules
+
+
 @pytest.mark.parametrize(
     ("line", "message"),
     [("{", "jobs.jsonl:2"), ("[]", "jobs.jsonl:2"), ('{"args": []}', "jobs.jsonl:2"), ('{"file": 3}', "jobs.jsonl:2")],

@@ -72,13 +72,15 @@ def detect_environment(
     workspace: str | None,
     variables: Mapping[str, str],
     package_path: Sequence[str] | None = None,
+    prefixes: Sequence[str] = (),
     *,
     root: str = "/",
 ) -> Environment:
     """What launch files and nodes of a workspace (a folder, or None) see, given a process's environment variables.
 
-    `package_path`, if given, is where packages are looked for, and nowhere else. Otherwise it is ROS_ROOT and
-    ROS_PACKAGE_PATH, the workspace, and the installed ROS, which comes last wherever ROS_PACKAGE_PATH has it.
+    `package_path`, if given, is where packages are looked for, then in the `prefixes` of ROS 2, and nowhere else.
+    Otherwise it is ROS_ROOT and ROS_PACKAGE_PATH, the workspace, and the installed ROS, which comes last wherever
+    ROS_PACKAGE_PATH has it; the prefixes are then found as well.
     `root` is the folder that holds `opt` and `usr`. Never raises, whatever the folders and files look like.
     """
     workspace = os.path.abspath(workspace) if workspace else None
@@ -109,7 +111,8 @@ def detect_environment(
     if has_debian:
         system.append(debian)
     found = find_packages(path, skip=BUILT)
-    prefixes = ament_prefixes(variables, colcon or workspace, root) if package_path is None else []
+    if package_path is None:
+        prefixes = ament_prefixes(variables, colcon or workspace, root)
     packages = {**installed_packages(prefixes), **found.packages}
     ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
     if ros2 and package_path is None:

@@ -26,7 +26,7 @@ from typing import Any
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
-from preflight_analysis.tracing import compiled, launch_files, run, sandbox
+from preflight_analysis.tracing import compiled, launch_files, ros2_recipe, run, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.observation import paths, stderr_tail
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
@@ -160,12 +160,16 @@ class CommandRunner:
         if not words:
             return CommandResult("failed", reason="it is empty")
         program = os.path.join(self.cwd, words[0]) if "/" in words[0] else words[0]
-        executable = shutil.which(program, path=recipes.search_path(self.environment))
+        of_ros2 = self.environment.generation == 2
+        path = (ros2_recipe if of_ros2 else recipes).variables(self.environment, ())["PATH"]
+        executable = shutil.which(program, path=path)
         if executable is None:
             return CommandResult("missing", reason=f"there is no program {words[0]}")
-        if words[0] in ("python3", "python") and self.environment.python is not None:
-            executable = self.environment.python  # as for `#!/usr/bin/env python3`
-        recipe = recipes.make_command(self.environment, executable, words[1:], self.cwd)
+        python = self.environment.ros2_python if of_ros2 else self.environment.python
+        if words[0] in ("python3", "python") and python is not None:
+            executable = python  # as for `#!/usr/bin/env python3`
+        make = ros2_recipe.make_command if of_ros2 else recipes.make_command
+        recipe = make(self.environment, executable, words[1:], self.cwd)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
         beyond = recipes.command_paths(recipe, executable, named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))

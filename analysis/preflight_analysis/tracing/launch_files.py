@@ -16,7 +16,7 @@ from typing import Any
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing import ros2_recipe, sandbox
 from preflight_analysis.tracing.backend import AGENTS
 
 _NETWORK = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.ECONNREFUSED, errno.ENETDOWN)
@@ -40,10 +40,8 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()
     words = [data[start : start + _WORD] for start in range(0, len(data), _WORD)]
-    recipe = recipes.make_command(environment, python, ("-c", _START, *words), cwd)
+    recipe = ros2_recipe.make_command(environment, python, ("-c", _START, *words), cwd)
     fixed = {"PYTHONHASHSEED": "0"}
-    if "AMENT_PREFIX_PATH" in environment.variables:
-        fixed["AMENT_PREFIX_PATH"] = environment.variables["AMENT_PREFIX_PATH"]
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "recording": _edition()}
     return replace(recipe, env={**recipe.env, **fixed}, stable=stable)

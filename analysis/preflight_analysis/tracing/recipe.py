@@ -62,7 +62,7 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
 
         return ros2_recipe.make(environment, request, preload)
     stable = variables(environment, request.env)
-    interpreter, python = _interpreter(environment, request.executable, stable["PATH"])
+    interpreter, python = shebang_interpreter(environment.python, request.executable, stable["PATH"])
     argv = [*interpreter, request.executable, *request.args]
     remapped = python or preload is not None
     if remapped:
@@ -88,13 +88,8 @@ def preloading(library: str, stable: Mapping[str, str]) -> str:
 def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
     """The recipe of a command of a parameter, whose program was found as `executable`."""
     stable = variables(environment, ())
-    interpreter, python = _interpreter(environment, executable, stable["PATH"])
+    interpreter, python = shebang_interpreter(environment.python, executable, stable["PATH"])
     return Recipe((*interpreter, executable, *args), inside(stable), stable, cwd, python)
-
-
-def search_path(environment: Environment) -> str:
-    """The PATH of what is run."""
-    return variables(environment, ())["PATH"]
 
 
 def inside(stable: Mapping[str, str]) -> dict[str, str]:
@@ -180,7 +175,7 @@ def _shebang(executable: str) -> list[str]:
     return line[2:].decode(errors="replace").split() if line.startswith(b"#!") else []
 
 
-def _interpreter(environment: Environment, executable: str, path: str) -> tuple[list[str], bool]:
+def shebang_interpreter(user_python: str | None, executable: str, path: str) -> tuple[list[str], bool]:
     """What to put before the script, and whether it is Python.
 
     `#!/usr/bin/env python3` means the interpreter that the user's nodes have, which is not always the first of the
@@ -194,8 +189,8 @@ def _interpreter(environment: Environment, executable: str, path: str) -> tuple[
     names_after = [word for word in words[1:] if not word.startswith("-") and "=" not in word]
     name = names_after[0] if names_after else ""
     python = name.startswith("python") and not name.startswith("python2")
-    if python and len(words) == 2 and environment.python and shutil.which(name, path=path):
-        return [environment.python], True
+    if python and len(words) == 2 and user_python and shutil.which(name, path=path):
+        return [user_python], True
     return [], python
 
 

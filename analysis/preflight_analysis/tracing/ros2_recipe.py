@@ -44,16 +44,9 @@ _ELSEWHERE = (
 def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
     """The recipe of a request of generation 2: of a program, which `preload` is the library for, or of a node in
     Python."""
-    stable = {k: v for k, v in recipes.variables(environment, request.env).items() if k not in _ELSEWHERE}
+    stable = variables(environment, request.env)
+    stable["PYTHONPATH"] = _joined([*_roots(request), *_split(stable, "PYTHONPATH")])
     python = environment.ros2_python or sys.executable
-    stable["PYTHONPATH"] = _joined(
-        [*_roots(request), *_split(stable, "PYTHONPATH"), *_sources(environment), *_installed(environment)]
-    )
-    prefixes = environment.ament_prefixes
-    beside = os.path.dirname(os.path.dirname(python))
-    own = [beside] if os.path.isdir(os.path.join(beside, INDEX)) else []
-    stable["AMENT_PREFIX_PATH"] = _joined([*_split(stable, "AMENT_PREFIX_PATH"), *prefixes, *own])
-    stable["LD_LIBRARY_PATH"] = _joined([*_split(stable, "LD_LIBRARY_PATH"), *(f"{p}/lib" for p in prefixes)])
     if request.entry_point is not None:
         argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]
     else:
@@ -80,6 +73,33 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     return Recipe(
         tuple(argv), env, stable, recipes.folder(request), python=preload is None, preload=preload, files=files
     )
+
+
+def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
+    """The recipe of a command, whose program was found as `executable`. Packages that are not built are offered to
+    it as to nodes: xacro's `$(find)` asks `ament_index_python` for them."""
+    stable = variables(environment, ())
+    interpreter, python = recipes.shebang_interpreter(environment.ros2_python, executable, stable["PATH"])
+    env = recipes.inside(stable) | {hooks.SHARES: json.dumps(_shares(environment))}
+    return Recipe((*interpreter, executable, *args), env, stable, cwd, python)
+
+
+def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """The variables of what is run for ROS 2: as if all prefixes were sourced, with what the launch file sets."""
+    found = {k: v for k, v in recipes.variables(environment, extra).items() if k not in _ELSEWHERE}
+    prefixes = environment.ament_prefixes
+    beside = os.path.dirname(os.path.dirname(environment.ros2_python or sys.executable))
+    own = [beside] if os.path.isdir(os.path.join(beside, INDEX)) else []
+    sourced = _split(environment.variables, "AMENT_PREFIX_PATH")
+    path = _split(found, "PATH")
+    programs = [folder for prefix in prefixes if os.path.isdir(folder := f"{prefix}/bin") and folder not in path]
+    folders = {
+        "PATH": [*programs, *path],
+        "PYTHONPATH": [*_split(found, "PYTHONPATH"), *_sources(environment), *_installed(environment)],
+        "AMENT_PREFIX_PATH": [*_split(found, "AMENT_PREFIX_PATH"), *prefixes, *sourced, *own],
+        "LD_LIBRARY_PATH": [*_split(found, "LD_LIBRARY_PATH"), *(f"{prefix}/lib" for prefix in prefixes)],
+    }
+    return found | {name: _joined(each) for name, each in folders.items() if each}
 
 
 def _split(variables: Mapping[str, str], name: str) -> list[str]:

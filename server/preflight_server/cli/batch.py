@@ -93,7 +93,8 @@ def answer_all(jobs: Path, *, no_run: bool = False) -> int:
 def _environment(generation: int, package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]) -> Environment:
     base = BASE_ENV if generation == 1 else BASE_ENV_ROS2
     variables = {**base, "ROS_PACKAGE_PATH": os.pathsep.join(package_path), **dict(env)}
-    return detect_environment(None, variables, package_path)
+    prefixes = [prefix for prefix in dict(env).get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix]
+    return detect_environment(None, variables, package_path, prefixes)
 
 
 def _read(jobs: Path) -> Iterator[Job]:

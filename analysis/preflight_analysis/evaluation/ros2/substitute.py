@@ -194,13 +194,13 @@ class Performer:
         return self.context.launch_file
 
     def _command(self, part: Substitution) -> str:
-        if self.state.results.placeholder is not None:
-            return self.state.results.placeholder
         line = self._word(part, 0)
         try:
             shlex.split(line)
         except ValueError as error:
             raise _Failure("command-malformed", command=line, message=str(error)) from error
+        if self.state.results.placeholder is not None:
+            return self.state.results.placeholder
         result = self.state.results.result(line)
         self.state.commands.append(Command(line, "", self.place.origin(part.span), result))
         if result is not None and result.status == "done":

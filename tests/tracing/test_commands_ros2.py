@@ -1,0 +1,105 @@
+"""Commands of ROS 2 launch files, as `xacro`, find the packages that `ament_index_python` finds outside."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.workspace.workspace import Analysis
+from python_launch_desk import MANIFEST, PythonDesk
+from ros2_desk import ros2_prefix
+
+pytestmark = pytest.mark.ros
+
+DESCRIBE = """#!/usr/bin/env python3
+import sys
+from ament_index_python.packages import get_package_share_directory
+package, file = open(sys.argv[1]).read().strip().split("/", 1)
+print("<robot>" + open(get_package_share_directory(package) + "/" + file).read() + "</robot>")
+"""
+"""As `$(find)` of xacro: the file that is named in the file."""
+XML = """
+<launch>
+  <node pkg="bot" exec="state_publisher" name="n">
+    <param name="robot_description" value="$(command 'describe $(find-pkg-share bot)/urdf/robot.txt')" type="str"/>
+  </node>
+</launch>
+"""
+YAML = """
+launch:
+- node:
+    pkg: bot
+    exec: state_publisher
+    name: n
+    param:
+    - {name: robot_description, value: "$(command 'describe $(find-pkg-share bot)/urdf/robot.txt')", type: str}
+"""
+PYTHON = """
+from launch import LaunchDescription
+from launch.substitutions import Command, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+def generate_launch_description():
+    model = PathJoinSubstitution([FindPackageShare("bot"), "urdf", "robot.txt"])
+    description = ParameterValue(Command(["describe ", model]), value_type=str)
+    return LaunchDescription([
+        Node(package="bot", executable="state_publisher", name="n", parameters=[{"robot_description": description}])])
+"""
+OPAQUE = """
+from launch import LaunchDescription
+from launch.actions import OpaqueFunction
+from launch.substitutions import Command
+from launch_ros.actions import Node
+from ament_index_python.packages import get_package_share_directory
+
+def made(context):
+    description = Command(["describe ", get_package_share_directory("bot"), "/urdf/robot.txt"]).perform(context)
+    given = {"robot_description": description}
+    return [Node(package="bot", executable="state_publisher", name="n", parameters=[given])]
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=made)])
+"""
+FORMS = {"a.launch.xml": XML, "a.launch.yaml": YAML, "a.launch.py": PYTHON, "b.launch.py": OPAQUE}
+
+
+@pytest.fixture
+def variables(tmp_path: Path) -> dict[str, str]:
+    """A PATH with `describe` and the interpreter of an rclpy."""
+    program = tmp_path / "tools" / "describe"
+    program.parent.mkdir()
+    program.write_text(DESCRIBE)
+    program.chmod(0o755)
+    return {"PATH": f"{program.parent}:{ros2_prefix() / 'bin'}:/usr/bin:/bin"}
+
+
+def described(analysis: Analysis) -> object:
+    (node,) = analysis.tree.nodes
+    return {param.name: param.value for param in node.params}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_package_that_was_never_built_is_found(tmp_path: Path, variables: dict[str, str], name: str) -> None:
+    desk = PythonDesk(tmp_path, "bot")
+    desk.write("urdf/robot.txt", "bot/urdf/wheel.txt")
+    desk.write("urdf/wheel.txt", "wheel")
+    analysis = desk.launch(desk.write(f"launch/{name}", FORMS[name]), variables=variables)
+    assert described(analysis) == {"robot_description": "<robot>wheel</robot>\n"}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_package_of_the_prefixes_is_found(tmp_path: Path, variables: dict[str, str], name: str) -> None:
+    desk = PythonDesk(tmp_path, "bot")
+    prefix = tmp_path / "underlay"
+    index, share = prefix / "share/ament_index/resource_index/packages", prefix / "share/arm"
+    index.mkdir(parents=True)
+    share.mkdir()
+    (index / "arm").touch()
+    (share / "package.xml").write_text(MANIFEST.format("arm"))
+    (share / "arm.txt").write_text("arm")
+    desk.write("urdf/robot.txt", "arm/arm.txt")
+    path = desk.write(f"launch/{name}", FORMS[name])
+    analysis = desk.launch(path, variables={**variables, "AMENT_PREFIX_PATH": str(prefix)})
+    assert described(analysis) == {"robot_description": "<robot>arm</robot>\n"}
