@@ -33,6 +33,7 @@ _KEYWORDS = {
     "argument": "arguments",
     "choice": "choices",
     "arg": "launch_arguments",
+    "arg_passed": "launch_arguments",
 }
 # Arguments that may be given without their keyword, in order.
 _POSITIONAL: Mapping[str, tuple[str, ...]] = {

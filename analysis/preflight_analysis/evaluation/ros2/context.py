@@ -44,20 +44,18 @@ class PushedParam:
 
 @dataclass(slots=True)
 class Scope:
-    """What `push` saves and `pop` brings back."""
+    """What `push_configurations` saves and `pop_configurations` brings back."""
 
     configurations: dict[str, Configuration] = field(default_factory=dict)
     namespace: Resolved | None = None
     remaps: list[PushedRemap] | None = None
     params: list[PushedParam] | None = None
-    environment: dict[str, str] = field(default_factory=dict)
     not_followed: Location | None = None
     """The first include, or whatever else, that could not be evaluated: it may set any configuration."""
 
     def copy(self) -> Scope:
         """As launch copies it."""
-        configurations, environment = dict(self.configurations), dict(self.environment)
-        return Scope(configurations, self.namespace, self.remaps, self.params, environment, self.not_followed)
+        return Scope(dict(self.configurations), self.namespace, self.remaps, self.params, self.not_followed)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,30 +80,40 @@ class Context:
     """The state of one launch."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
-        self.scope = Scope(environment=dict(environment))
+        self.scope = Scope()
         self.initial_environment = dict(environment)
+        self.environment = dict(environment)
+        """What processes and substitutions see: launch scopes it by a stack of its own."""
         self.launch_file = ""
         """The launch file that was included last: that of `$(dirname)`, also after the include."""
-        self._stack: list[Scope] = []
+        self._scopes: list[Scope] = []
+        self._environments: list[dict[str, str]] = []
         self.declared: dict[tuple[str, str], Location] = {}
         """Where each file declares or sets a configuration, by file and name: the latest place."""
 
-    def push(self) -> None:
-        """Begin a scope."""
-        self._stack.append(self.scope.copy())
+    def push_configurations(self) -> None:
+        """Begin a scope of configurations."""
+        self._scopes.append(self.scope.copy())
 
-    def pop(self) -> None:
-        """End it."""
-        self.scope = self._stack.pop()
+    def pop_configurations(self) -> None:
+        """End it; IndexError where none was begun."""
+        self.scope = self._scopes.pop()
 
-    def pop_if_pushed(self) -> None:
-        """End a scope, where one was begun by the file itself."""
-        if self._stack:
-            self.pop()
+    def push_environment(self) -> None:
+        """Begin a scope of variables."""
+        self._environments.append(dict(self.environment))
 
-    def reset(self) -> None:
-        """Forget all that was configured; the environment is the first one again."""
-        self.scope = Scope(environment=dict(self.initial_environment))
+    def pop_environment(self) -> None:
+        """End it; IndexError where none was begun."""
+        self.environment = self._environments.pop()
+
+    def reset_configurations(self) -> None:
+        """Forget all that was configured."""
+        self.scope = Scope()
+
+    def reset_environment(self) -> None:
+        """The variables are the first ones again."""
+        self.environment = dict(self.initial_environment)
 
     def get(self, name: str) -> Configuration | None:
         """A launch configuration."""

@@ -14,6 +14,9 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.launch.model import Action, LaunchFile
 
 MAX_FILES = 500
+PASSED = {"include": "arg", "inline": "arg_passed"}
+"""Actions that pass arguments on, with the kind of child that does. An `inline` is a launch description by itself, in
+which an `arg` declares one."""
 
 Included = Callable[[str, Action], LaunchFile | None]
 """The file that an include of a launch file (by path) leads to without any configuration."""
@@ -47,7 +50,7 @@ def required_arguments(launch_file: LaunchFile, included: Included) -> list[Decl
 
 def passed_names(include: Action) -> list[str]:
     """The names of the arguments that an include passes, those that are plain text."""
-    values = (child.value("name") for child in include.children if child.kind == "arg")
+    values = (child.value("name") for child in include.children if child.kind == PASSED[include.kind])
     return [value.text for value in values if value is not None and value.is_literal]
 
 
@@ -68,7 +71,7 @@ class _Reader:
             if action.kind == "reset":
                 return
             below = includes
-            if action.kind == "include":
+            if action.kind in PASSED:
                 if below is None:
                     below = []
                 below.append(action)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
@@ -18,7 +18,8 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap, PythonRun
-from preflight_analysis.evaluation.ros2.declared import Declared, required_arguments
+from preflight_analysis.evaluation.ros2.declared import PASSED, Declared, required_arguments
+from preflight_analysis.evaluation.ros2.events import Events
 from preflight_analysis.evaluation.ros2.nodes import (
     evaluate_composable,
     evaluate_executable,
@@ -62,7 +63,8 @@ def evaluate_ros2(
     """What `ros2 launch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What
-    timers start comes after the rest and is marked as deferred. Reads through `files` only; runs nothing.
+    starts of processes bring about comes after the rest, then, marked as deferred, what timers and other events do.
+    Reads through `files` only; runs nothing.
     """
     state = Collector(2, files, executables, environment, cwd, commands)
     context = Context(environment.variables)
@@ -96,7 +98,7 @@ class _Walk:
 
     def __init__(self, state: Collector, context: Context) -> None:
         self._state, self._context = state, context
-        self._later: list[tuple[Place, tuple[Action, ...]]] = []
+        self._events = Events()
         self._deferred = False
         self._depth = 0
         self._exhausted = False
@@ -123,10 +125,9 @@ class _Walk:
         if (asked_for := self._names[-1]) is not None:
             report_undeclared(self._state, found, args, asked_for | IMPLICIT)
         self._root_args(found)
-        while self._later:
-            self._deferred = True
-            place, actions = self._later.pop(0)
-            self._actions(place, actions)
+        while (upcoming := self._events.upcoming(sure=not self._state.unknowns)) is not None:
+            self._deferred = upcoming.deferred
+            self._actions(upcoming.place, upcoming.actions)
         self._report_missing_below()
         self._report_duplicates()
 
@@ -208,6 +209,9 @@ class _Walk:
         for action in actions:
             execute = _EXECUTE.get(action.kind)
             if execute is None:
+                if action.kind not in MEANS_NOTHING and place.run is not None:
+                    at = Location(place.file, action.head_span)
+                    self._state.note_unknown(action.kind, "what it does is not known", at)
                 continue
             if applies(performer, action):
                 error = action.value("error")
@@ -216,7 +220,10 @@ class _Walk:
                     origin = place.origin(action.head_span)
                     self._state.problem("python-exception", origin, error=name, message=message, frames=())
                 else:
+                    before = len(self._state.nodes)
                     execute(self, performer, action)
+                    if action.kind in _PROCESSES and len(self._state.nodes) > before:
+                        self._events.started(place, action)
                     if place.run is not None:
                         self._on_exit(place, action)
             elif any(below.kind == "include" for below in action.walk()):
@@ -275,25 +282,24 @@ class _Walk:
 
     def _group(self, performer: Performer, action: Action) -> None:
         """`GroupAction`: scoped and forwarding unless it says otherwise."""
-        scoped, forwarding = _flag(action, "scoped"), _flag(action, "forwarding")
-        kept = []
-        for child in action.children:
-            name, value = child.value("name"), child.value("value")
-            if child.kind == "keep" and name is not None and value is not None:
-                origin = performer.place.origin(child.head_span)
-                kept.append((performer.value(name).text, performer.value(value), origin))
+        scoped, forwarding, context = _flag(action, "scoped"), _flag(action, "forwarding"), self._context
         if self._too_deep(performer.place, action):
             return
         self._depth += 1
         if scoped:
-            self._context.push()
-            if not forwarding:
-                self._context.reset()
-        for name_text, result, origin in kept:
-            self._context.set(name_text, result, origin)
+            context.push_configurations()
+            context.push_environment()
+        if scoped and not forwarding:
+            context.reset_environment()
+            self._reset(performer, action)
+        else:
+            # One after the other: the value of one may name those before it.
+            for name, result, origin in _kept(performer, action):
+                context.set(name, result, origin)
         self._actions(performer.place, action.children)
         if scoped:
-            self._context.pop()
+            context.pop_environment()
+            context.pop_configurations()
         self._depth -= 1
 
     def _include(self, performer: Performer, action: Action) -> None:
@@ -370,7 +376,7 @@ class _Walk:
         found = []
         for child in action.children:
             name = child.value("name")
-            if child.kind == "arg" and name is not None:
+            if child.kind == PASSED[action.kind] and name is not None:
                 text = performer.value(name).text
                 found.append((text, child))
                 self._state.uses.append(Use("argument", Location(performer.place.file, name.span), text, text))
@@ -531,19 +537,19 @@ class _Walk:
         scope.params.append(param)
 
     def _timer(self, performer: Performer, action: Action) -> None:
-        self._later.append((performer.place, action.children))
+        self._events.later(performer.place, action.children)
 
     def _set_env(self, performer: Performer, action: Action) -> None:
         name, value = action.value("name"), action.value("value")
         if name is not None and value is not None:
             result = performer.value(value)
             if result.known:
-                self._context.scope.environment[performer.value(name).text] = result.text
+                self._context.environment[performer.value(name).text] = result.text
 
     def _unset_env(self, performer: Performer, action: Action) -> None:
         name = action.value("name")
         if name is not None:
-            self._context.scope.environment.pop(performer.value(name).text, None)
+            self._context.environment.pop(performer.value(name).text, None)
 
     def _append_env(self, performer: Performer, action: Action) -> None:
         name, value = action.value("name"), action.value("value")
@@ -552,7 +558,7 @@ class _Walk:
         key, result = performer.value(name).text, performer.value(value)
         separator = action.value("separator")
         between = performer.value(separator).text if separator is not None else os.pathsep
-        environment = self._context.scope.environment
+        environment = self._context.environment
         old = environment.get(key)
         if old is None:
             environment[key] = result.text
@@ -562,18 +568,11 @@ class _Walk:
             environment[key] = old + between + result.text
 
     def _reset_env(self, performer: Performer, action: Action) -> None:
-        self._context.scope.environment = dict(self._context.initial_environment)
+        self._context.reset_environment()
 
     def _reset(self, performer: Performer, action: Action) -> None:
-        kept = []
-        for child in action.children:
-            name, value = child.value("name"), child.value("value")
-            if child.kind == "keep" and name is not None and value is not None:
-                origin = performer.place.origin(child.head_span)
-                kept.append((performer.value(name).text, performer.value(value), origin))
-        environment = self._context.scope.environment
-        self._context.reset()
-        self._context.scope.environment = environment
+        kept = list(_kept(performer, action))
+        self._context.reset_configurations()
         for text, result, origin in kept:
             self._context.set(text, result, origin)
 
@@ -590,7 +589,7 @@ class _Walk:
                 self._context.set(name, performer.value(value), performer.place.origin(value.span))
         if not self._too_deep(performer.place, action):
             self._depth += 1
-            self._actions(performer.place, tuple(child for child in action.children if child.kind != "arg"))
+            self._actions(performer.place, action.children)
             self._depth -= 1
 
     def _opaque(self, performer: Performer, action: Action) -> None:
@@ -609,7 +608,7 @@ class _Walk:
                 context.set(key, Resolved(text), origin)
         for key in answer.removed:
             context.scope.configurations.pop(key, None)
-        context.scope.environment.update(answer.variables or {})
+        context.environment.update(answer.variables or {})
         self._depth += 1
         self._actions(answer.place, answer.actions)
         self._depth -= 1
@@ -619,22 +618,38 @@ class _Walk:
         self._state.note_unknown("OpaqueCoroutine", "what it does is known only when it is launched", at)
 
     def _handler(self, performer: Performer, action: Action) -> None:
-        """`RegisterEventHandler`: nobody knows when, so it comes after the rest."""
+        """`RegisterEventHandler`."""
         if any(child.kind == "function" for child in action.children):
             at = Location(performer.place.file, action.head_span)
             self._state.note_unknown("an event handler", "what its function does depends on the event", at)
-        self._timer(performer, action)
+        self._events.register(performer.place, action)
+
+    def _remove_handler(self, performer: Performer, action: Action) -> None:
+        self._events.unregister(performer.place, action)
 
     def _on_exit(self, place: Place, action: Action) -> None:
         for child in action.children:
             if child.kind == "on_exit":
-                self._later.append((place, child.children))
+                self._events.later(place, child.children)
 
     def _push_configurations(self, performer: Performer, action: Action) -> None:
-        self._context.push()
+        self._context.push_configurations()
 
     def _pop_configurations(self, performer: Performer, action: Action) -> None:
-        self._context.pop_if_pushed()
+        self._pop(performer, action, self._context.pop_configurations, "launch_configurations")
+
+    def _push_environment(self, performer: Performer, action: Action) -> None:
+        self._context.push_environment()
+
+    def _pop_environment(self, performer: Performer, action: Action) -> None:
+        self._pop(performer, action, self._context.pop_environment, "environment")
+
+    def _pop(self, performer: Performer, action: Action, pop: Callable[[], None], name: str) -> None:
+        try:
+            pop()
+        except IndexError:
+            origin, message = performer.place.origin(action.head_span), f"{name} stack unexpectedly empty"
+            self._state.problem("python-exception", origin, error="RuntimeError", message=message, frames=())
 
     def _set_use_sim_time(self, performer: Performer, action: Action) -> None:
         """The frontends hand the text over where the action wants a bool: it fails when it is executed."""
@@ -655,7 +670,7 @@ class _Walk:
     def _set_log_dir(self, performer: Performer, action: Action) -> None:
         value = action.value("new_log_dir")
         if value is not None:
-            result, environment = performer.value(value), self._context.scope.environment
+            result, environment = performer.value(value), self._context.environment
             folder = os.path.join(environment.get("ROS_LOG_DIR", ""), result.text)
             if result.known and os.path.isabs(folder):
                 environment["ROS_LOG_DIR"] = folder
@@ -700,11 +715,37 @@ _EXECUTE: dict[str, Callable[[_Walk, Performer, Action], None]] = {
     "event_handler": _Walk._handler,
     "push_configurations": _Walk._push_configurations,
     "pop_configurations": _Walk._pop_configurations,
+    "push_env": _Walk._push_environment,
+    "pop_env": _Walk._pop_environment,
+    "unregister_event_handler": _Walk._remove_handler,
     "unknown": _Walk._only_read,
 }
 
+MEANS_NOTHING = frozenset(
+    {
+        # They belong to the action around them, which reads them.
+        *("keep", "arg_passed", "choice", "argument", "ros_argument", "env", "param", "param_dict", "item", "remap"),
+        *("composable_node", "target", "on_exit", "function"),
+        "emit_event",  # handlers wait for it; what they start is deferred
+        "lifecycle_transition",  # a state of a node, not its configuration
+        "test",  # `launch_testing` starts no node
+    }
+)
+"""Kinds that are recorded of a Python launch file, or written in others, and that no walk executes."""
+_PROCESSES = frozenset({"node", "node_container", "lifecycle_node", "executable"})
+
+EXECUTED = frozenset(_EXECUTE)
+"""Kinds that are."""
 _MAY_SET = frozenset({"arg", "let", "include", "group", "inline", "opaque"})
 """Actions after which there may be other configurations."""
+
+
+def _kept(performer: Performer, action: Action) -> Iterator[tuple[str, Resolved, Origin]]:
+    """What the `<keep>`s of an action set, each evaluated when it is asked for."""
+    for child in action.children:
+        name, value = child.value("name"), child.value("value")
+        if child.kind == "keep" and name is not None and value is not None:
+            yield performer.value(name).text, performer.value(value), performer.place.origin(child.head_span)
 
 
 def applies(performer: Performer, action: Action) -> bool:

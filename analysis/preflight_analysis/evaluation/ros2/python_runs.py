@@ -101,7 +101,7 @@ def recorded(
     if told is None or launch_file.root is None:
         return launch_file, None
     children = _actions(told.output, run.source, whole)
-    context.scope.environment.update(_texts(told.values.get("env")) or {})
+    context.environment.update(_texts(told.values.get("env")) or {})
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
@@ -184,7 +184,7 @@ def calls_own_code(launch_file: LaunchFile) -> bool:
 
 def _variables(context: Context) -> dict[str, str]:
     initial = context.initial_environment
-    return {k: v for k, v in context.scope.environment.items() if initial.get(k) != v}
+    return {k: v for k, v in context.environment.items() if initial.get(k) != v}
 
 
 def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:

@@ -130,7 +130,7 @@ class Performer:
 
     def _env(self, part: Substitution) -> str:
         name = self._word(part, 0)
-        found = self.context.scope.environment.get(name)
+        found = self.context.environment.get(name)
         if found is None:
             if len(part.words) == 2:
                 return self._word(part, 1)
@@ -162,7 +162,7 @@ class Performer:
 
     def _executable(self, part: Substitution) -> str:
         name = self._word(part, 0)
-        found = shutil.which(name, path=self.context.scope.environment.get("PATH", ""))
+        found = shutil.which(name, path=self.context.environment.get("PATH", ""))
         if found is None:
             self.state.note_unknown(part.text, f"'{name}' is not on the PATH", self._at(part))
             raise _Failure

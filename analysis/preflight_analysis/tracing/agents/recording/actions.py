@@ -18,7 +18,7 @@ from .base import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from .events import OnActionEventBase
+from .events import OnActionEventBase, OnProcessStart
 
 
 class LaunchDescriptionSource(Made):
@@ -306,7 +306,7 @@ class IncludeLaunchDescription(Action):
             t.attribute("source", self.__source.kind or None)
         for pair in self.__arguments:
             name, value = pair
-            t.child("arg", name=name, value=value)
+            t.child("arg" if description is None else "arg_passed", name=name, value=value)
         if description is not None:
             t.entities(description.entities)
 
@@ -388,6 +388,11 @@ class RegisterEventHandler(Action):
         t.kind = "event_handler"
         handler = self.__event_handler
         t.attribute("event", type(handler).__name__)
+        t.attribute("handler", str(handler.preflight_id))
+        if isinstance(handler, OnProcessStart) and not callable(handler.preflight_target):
+            # The number of the process, nothing for all of them.
+            target = handler.preflight_target
+            t.attribute("starts", "" if target is None else str(target.preflight_id))
         for entity in getattr(handler, "preflight_entities", ()):
             t.entities([entity])
         if isinstance(handler, OnActionEventBase) and handler.preflight_function is not None:
@@ -397,9 +402,15 @@ class RegisterEventHandler(Action):
 class UnregisterEventHandler(Action):
     def __init__(self, event_handler: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        self.__event_handler = event_handler
+
+    @property
+    def event_handler(self) -> Any:
+        return self.__event_handler
 
     def preflight_tell(self, t: Any) -> None:
         t.kind = "unregister_event_handler"
+        t.attribute("handler", str(self.__event_handler.preflight_id))
 
 
 class OpaqueFunction(Action):
@@ -533,6 +544,7 @@ class ExecuteLocal(Action):
     def preflight_process(self, t: Any) -> None:
         prefix, _, cwd, env, additional = self.__process_description.preflight
         output, respawn, _, on_exit = self.__told
+        t.attribute("id", str(self.preflight_id))
         t.attribute("launch-prefix", prefix)
         t.attribute("cwd", cwd)
         for name, value in {**(env or {}), **(additional or {})}.items():

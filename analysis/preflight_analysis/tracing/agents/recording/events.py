@@ -5,7 +5,7 @@ from __future__ import annotations
 import collections.abc
 from typing import Any
 
-from .base import Event, LaunchDescriptionEntity, Made
+from .base import Action, Event, LaunchDescriptionEntity, Made
 
 
 class BaseEventHandler(Made):
@@ -61,7 +61,17 @@ class OnActionEventBase(BaseEventHandler):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
+        wanted = target_action_cls or Action
+        if not (action_matcher is None or isinstance(action_matcher, wanted) or callable(action_matcher)):
+            raise TypeError(f"action_matcher must be an '{wanted.__name__}' instance or a callable")
+        self.preflight_target = action_matcher
         self._does(on_event)
+
+
+def _processes() -> Any:
+    from . import actions  # noqa: PLC0415 - that module needs ours
+
+    return actions
 
 
 class OnExecutionComplete(OnActionEventBase):
@@ -71,12 +81,14 @@ class OnExecutionComplete(OnActionEventBase):
 
 class OnProcessExit(OnActionEventBase):
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_exit, **kwargs)
+        wanted = _processes().ExecuteLocal
+        super().__init__(action_matcher=target_action, on_event=on_exit, target_action_cls=wanted, **kwargs)
 
 
 class OnProcessStart(OnActionEventBase):
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_start, **kwargs)
+        wanted = _processes().ExecuteProcess
+        super().__init__(action_matcher=target_action, on_event=on_start, target_action_cls=wanted, **kwargs)
 
 
 class OnProcessIO(OnActionEventBase):
@@ -89,7 +101,12 @@ class OnProcessIO(OnActionEventBase):
         on_stderr: Any = None,
         **kwargs: Any,
     ) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_stdout or on_stderr or on_stdin, **kwargs)
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_stdout or on_stderr or on_stdin,
+            target_action_cls=_processes().ExecuteLocal,
+            **kwargs,
+        )
 
 
 class OnIncludeLaunchDescription(EventHandler):

@@ -1,0 +1,204 @@
+"""Python launch files: scopes, event handlers, and whether all that is recorded is evaluated."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from preflight_analysis.evaluation.ros2.evaluate import EXECUTED, MEANS_NOTHING
+from preflight_analysis.tracing.backend import AGENTS
+from python_launch_desk import PythonDesk
+
+HEAD = """\
+from launch import LaunchDescription, LaunchDescriptionSource
+from launch.actions import *
+from launch.conditions import IfCondition
+from launch.event_handlers import *
+from launch.substitutions import *
+from launch_ros.actions import *
+def n(name, **more):
+    return Node(package='p', executable='x', name=name, **more)
+"""
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> PythonDesk:
+    return PythonDesk(tmp_path)
+
+
+def _described(desk: PythonDesk, *actions: str, before: str = "") -> Path:
+    text = HEAD + before + "\ndef generate_launch_description():\n    return LaunchDescription([\n"
+    return desk.write("launch/a.launch.py", text + "".join(f"        {action},\n" for action in actions) + "    ])\n")
+
+
+def _started(desk: PythonDesk, *actions: str, before: str = "", args: dict[str, str] | None = None) -> list[str]:
+    """The names of the nodes in order, those that are deferred in brackets."""
+    tree = desk.launch(_described(desk, *actions, before=before), args).tree
+    assert not tree.problems
+    return [f"({node.name})" if node.deferred else node.name for node in tree.nodes if node.kind != "process"]
+
+
+def _kinds() -> Iterator[str]:
+    """What the recording gives as the kind of an action or a child, wherever it does."""
+    for path in (AGENTS.library / "recording").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Assign):
+                targets = [getattr(target, "attr", getattr(target, "id", "")) for target in node.targets]
+                if {"kind", "preflight_kind"} & set(targets) and path.name != "substitutions.py":
+                    yield from _texts(node.value)
+            elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") in ("child", "inside"):
+                yield from _texts(node.args[0])
+            elif isinstance(node, ast.Dict):
+                for key, value in zip(node.keys, node.values, strict=True):
+                    if isinstance(key, ast.Constant) and key.value == "k":
+                        yield from _texts(value)
+
+
+def _texts(node: ast.expr) -> Iterator[str]:
+    for each in ast.walk(node):
+        if isinstance(each, ast.Constant) and isinstance(each.value, str) and each.value:
+            yield each.value
+
+
+OF_SOURCES = {"python", "xml", "yaml"}
+"""Kinds of sources of launch descriptions, not of actions."""
+
+
+def test_what_is_recorded_is_evaluated_or_named_as_meaning_nothing() -> None:
+    recorded = set(_kinds()) - OF_SOURCES
+    assert {"push_env", "append_env", "node", "arg_passed", "param"} <= recorded
+    assert not recorded - EXECUTED - MEANS_NOTHING
+    assert not EXECUTED & MEANS_NOTHING
+
+
+def test_environments_have_a_stack_of_their_own(desk: PythonDesk) -> None:
+    names = _started(
+        desk,
+        "SetEnvironmentVariable('A', 'one')",
+        "SetLaunchConfiguration('c', 'one')",
+        "PushEnvironment()",
+        "PushLaunchConfigurations()",
+        "SetEnvironmentVariable('A', 'two')",
+        "AppendEnvironmentVariable('A', 'end', separator='_')",
+        "SetLaunchConfiguration('c', 'two')",
+        "n(['a_', EnvironmentVariable('A'), '_', LaunchConfiguration('c')])",
+        "PopLaunchConfigurations()",
+        "n(['b_', EnvironmentVariable('A'), '_', LaunchConfiguration('c')])",
+        "PopEnvironment()",
+        "n(['c_', EnvironmentVariable('A'), '_', LaunchConfiguration('c')])",
+        "ResetEnvironment()",
+        "n(['d_', EnvironmentVariable('A', default_value='none')])",
+    )
+    assert names == ["/a_two_end_two", "/b_two_end_one", "/c_one_one", "/d_none"]
+
+
+@pytest.mark.parametrize("kind", ["Environment", "LaunchConfigurations"])
+def test_a_pop_without_a_push_stops_launch(desk: PythonDesk, kind: str) -> None:
+    path = _described(desk, f"Push{kind}()", f"Pop{kind}()", f"Pop{kind}()")
+    (finding,) = desk.launch(path).findings
+    assert (finding.rule, finding.stops_launch) == ("LCH032", True)
+    assert finding.message.endswith("stack unexpectedly empty")
+    assert path.read_text()[: finding.location.span.start].count("Pop") == 1
+
+
+def test_what_a_group_keeps_is_set_one_after_the_other(desk: PythonDesk) -> None:
+    kept = "launch_configurations={'a': '2', 'b': LaunchConfiguration('a')}"
+    names = _started(
+        desk,
+        "SetLaunchConfiguration('a', '1')",
+        f"GroupAction([n(['x', LaunchConfiguration('b')])], {kept})",
+        f"GroupAction([n(['y', LaunchConfiguration('b')])], forwarding=False, {kept})",
+    )
+    assert names == ["/x2", "/y1"]
+
+
+def test_a_description_within_another_is_no_scope(desk: PythonDesk) -> None:
+    before = (
+        "arguments = LaunchDescription([DeclareLaunchArgument('rate', default_value='5'),"
+        " SetLaunchConfiguration('frame', 'base')])\n"
+    )
+    used = "n(['r', LaunchConfiguration('rate'), LaunchConfiguration('frame')])"
+    assert _started(desk, "arguments", used, before=before) == ["/r5base"]
+    assert _started(desk, "arguments", used, before=before, args={"rate": "6"}) == ["/r6base"]
+
+
+def test_a_description_that_is_included_without_a_file_gets_arguments(desk: PythonDesk) -> None:
+    before = "inner = LaunchDescription([DeclareLaunchArgument('rate'), n(['r', LaunchConfiguration('rate')])])\n"
+    include = "IncludeLaunchDescription(LaunchDescriptionSource(inner), launch_arguments={'rate': '7'}.items())"
+    assert _started(desk, include, before=before) == ["/r7"]
+
+
+FIRST = "first = n('first')\nother = n('other', condition=IfCondition('false'))\n"
+
+
+def _on_start(target: str, *nodes: str) -> str:
+    return f"RegisterEventHandler(OnProcessStart({target}on_start=[{', '.join(nodes)}]))"
+
+
+@pytest.mark.parametrize(
+    ("actions", "expected"),
+    [
+        (("first", _on_start("target_action=first, ", "n('late')"), "n('end')"), ["/first", "/end", "/late"]),
+        ((_on_start("target_action=first, ", "n('late')"), "first"), ["/first", "/late"]),
+        (("first", "n('b')", _on_start("", "n('late')")), ["/first", "/b", "/late"]),
+        # One that is not started has no event.
+        (("first", "other", _on_start("target_action=other, ", "n('late')")), ["/first"]),
+        (
+            (
+                "TimerAction(period=1.0, actions=[first])",
+                _on_start("target_action=first, ", "n('late')"),
+                "n('end')",
+            ),
+            ["/end", "(/first)", "(/late)"],
+        ),
+        (
+            ("first", "RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[n('late')]))"),
+            ["/first", "(/late)"],
+        ),
+        # Within a group it is registered, outside of it executed.
+        (
+            ("GroupAction([PushRosNamespace('g'), first, " + _on_start("target_action=first, ", "n('late')") + "])",),
+            ["/g/first", "/late"],
+        ),
+        # The one that was registered last comes first.
+        (
+            (_on_start("target_action=first, ", "n('a')"), _on_start("target_action=first, ", "n('b')"), "first"),
+            ["/first", "/b", "/a"],
+        ),
+    ],
+)
+def test_nodes_of_the_start_of_a_process(desk: PythonDesk, actions: tuple[str, ...], expected: list[str]) -> None:
+    assert _started(desk, *actions, before=FIRST) == expected
+
+
+def test_starts_follow_each_other(desk: PythonDesk) -> None:
+    second = "second = n('second')\n"
+    names = _started(
+        desk,
+        _on_start("target_action=second, ", "n('third')"),
+        _on_start("target_action=first, ", "second"),
+        "first",
+        before=FIRST + second,
+    )
+    assert names == ["/first", "/second", "/third"]
+
+
+def test_a_handler_that_was_removed_does_nothing(desk: PythonDesk) -> None:
+    before = FIRST + "handler = OnProcessStart(target_action=first, on_start=[n('late')])\n"
+    names = _started(desk, "RegisterEventHandler(handler)", "UnregisterEventHandler(handler)", "first", before=before)
+    assert names == ["/first"]
+
+
+def test_a_handler_of_what_may_be_started_is_deferred(desk: PythonDesk) -> None:
+    """Whether it is depends on a command, which is not run here."""
+    before = "first = n('first', condition=IfCondition(Command('no_such_command')))\n"
+    path = _described(desk, "first", _on_start("target_action=first, ", "n('late')"), before=before)
+    assert [(node.name, node.deferred) for node in desk.launch(path).tree.nodes] == [("/late", True)]
+
+
+def test_what_is_no_process_is_no_target(desk: PythonDesk) -> None:
+    path = _described(desk, _on_start("target_action='first', ", "n('late')"))
+    (finding,) = [f for f in desk.launch(path).findings if f.rule == "LCH032"]
+    assert finding.message == "TypeError: action_matcher must be an 'ExecuteProcess' instance or a callable"
