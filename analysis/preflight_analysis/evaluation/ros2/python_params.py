@@ -8,7 +8,7 @@ from typing import Any
 from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.evaluation.ros2.substitute import Performer
-from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
+from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.launch.model import Action
 
@@ -65,8 +65,12 @@ def _value(performer: Performer, action: Action) -> Any:
     form, value, type_value = action.value("form"), action.value("value"), action.value("type")
     type_name = type_value.text if type_value is not None else None
     if form is not None and form.text == "items":
-        item_type = type_name.removeprefix("list_of_") if type_name not in (None, "yaml") else None
-        return _uniform([_item(performer, child, item_type) for child in action.children if child.kind == "item"])
+        items = [_item(performer, child, type_name) for child in action.children if child.kind == "item"]
+        if type_name is None:
+            return _uniform(items)
+        if not is_of_type(items, type_name):
+            raise NotOfTypeError("a list of one type")
+        return items
     if value is None:
         raise _UnknownError
     if value.typed is not None:
@@ -79,7 +83,7 @@ def _value(performer: Performer, action: Action) -> Any:
     return _yaml(result.text)
 
 
-def _item(performer: Performer, action: Action, item_type: str | None) -> Any:
+def _item(performer: Performer, action: Action, type_name: str | None) -> Any:
     value = action.value("value")
     if value is None:
         raise _UnknownError
@@ -88,13 +92,11 @@ def _item(performer: Performer, action: Action, item_type: str | None) -> Any:
     result = performer.value(value)
     if not result.known:
         raise _UnknownError
-    if value.is_literal:
-        return result.text
-    return coerce(result.text, item_type) if item_type is not None else _load(result.text)
+    return _load(result.text) if type_name is None else coerce(result.text, type_name.removeprefix("list_of_"))
 
 
 def _yaml(text: str) -> Any:
-    value = _load(text)
+    value = _load(text or "''")
     if isinstance(value, list):
         return _uniform(value)
     if not isinstance(value, _SCALARS):
@@ -104,13 +106,13 @@ def _yaml(text: str) -> Any:
 
 def _load(text: str) -> Any:
     try:
-        return load_plain(text or "''")
+        return load_plain(text)
     except CONSTRUCTION_ERRORS:
         raise NotOfTypeError("YAML; if it is a text: ParameterValue(..., value_type=str)") from None
 
 
 def _uniform(items: list[Any]) -> list[Any]:
-    kinds = {type(each) for each in items}
-    if len(kinds) != 1 or not kinds <= set(_SCALARS):
+    kind = type(items[0]) if items else None
+    if kind not in _SCALARS or not all(isinstance(each, kind) for each in items):
         raise NotOfTypeError(EXPECTED)
     return items

@@ -13,7 +13,7 @@ import types
 import xml.etree.ElementTree
 from typing import Any, Optional
 
-from . import actions, ament, base, conditions, events, ros, substitutions
+from . import actions, ament, base, conditions, events, ros, substitutions, typed
 from .base import RECORDER
 
 
@@ -213,7 +213,7 @@ TABLE: dict[str, dict[str, Any]] = {
     "launch.substitution": {"Substitution": base.Substitution},
     "launch.substitutions": _SUBSTITUTIONS,
     "launch.utilities": _UTILITIES,
-    "launch.utilities.type_utils": {"normalize_typed_substitution": _coerce, "perform_typed_substitution": _coerce},
+    "launch.utilities.type_utils": {k: v for k, v in vars(typed).items() if not k.startswith("_")},
     "launch_ros": {},
     "launch_ros.actions": _ROS_ACTIONS,
     "launch_ros.descriptions": _DESCRIPTIONS,

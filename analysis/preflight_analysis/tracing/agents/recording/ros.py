@@ -10,36 +10,27 @@ from typing import Any, Iterable, Optional
 from .actions import ExecuteProcess, TimerAction
 from .base import (
     Action,
+    LaunchContext,
     Made,
     Substitution,
     ensure_argument_type,
     normalize_to_list_of_substitutions,
+    perform_substitutions,
 )
 from .substitutions import ExecutableInPackage, TextSubstitution
+from .typed import extract_type, normalize_typed_substitution, perform_typed_substitution
 
 _SCALARS = (int, float, bool, str)
 
 
-def _type_name(value_type: Any) -> Optional[str]:
-    if value_type is None:
-        return None
-    if value_type in _SCALARS:
-        return str(value_type.__name__)
-    items: Any = getattr(value_type, "__args__", ())
-    if len(items) == 1 and items[0] in _SCALARS:
-        return f"list_of_{items[0].__name__}"
-    raise ValueError(f"data_type='{value_type}' is not a valid type")
-
-
 class ParameterValue(Made):
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        name = _type_name(value_type)
-        if isinstance(value, _SCALARS) and name is not None:
-            wanted = {"int": int, "float": float, "bool": bool, "str": str}.get(name)
-            if wanted is None or type(value) is not wanted:
-                raise TypeError(f"value='{value}' is not an instance of {value_type}")
-        self.__value, self.__value_type = value, value_type
-        self.preflight_type = name
+        self.__value = normalize_typed_substitution(value, value_type)
+        self.__value_type = value_type
+        self.preflight_type: Optional[str] = None
+        if value_type is not None:
+            kind, is_list = extract_type(value_type)
+            self.preflight_type = f"list_of_{kind.__name__}" if is_list else str(kind.__name__)
 
     @property
     def value(self) -> Any:
@@ -48,6 +39,9 @@ class ParameterValue(Made):
     @property
     def value_type(self) -> Any:
         return self.__value_type
+
+    def evaluate(self, context: LaunchContext) -> Any:
+        return perform_typed_substitution(context, self.__value, self.__value_type)
 
 
 class Parameter(Made):
@@ -62,6 +56,13 @@ class Parameter(Made):
     @property
     def value(self) -> Any:
         return self.preflight_value.value
+
+    @property
+    def value_type(self) -> Any:
+        return self.preflight_value.value_type
+
+    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
+        return perform_substitutions(context, self.__name), self.preflight_value.evaluate(context)
 
 
 class ParameterFile(Made):
@@ -108,23 +109,27 @@ def _parameter_value(value: Any) -> Any:
     raise TypeError(f"Unexpected type for parameter value {value!r}")
 
 
+def _kind(item: Any) -> type:
+    for kind in (Substitution, str, bool, int, float):
+        if isinstance(item, kind):
+            return kind
+    if isinstance(item, Sequence):
+        return tuple
+    raise RuntimeError(f"Failed to handle type {item!r}")
+
+
 def _parameter_array(value: Any) -> Any:
-    kinds = set()
     for each in value:
         ensure_argument_type(each, (float, int, str, bool, Substitution, AnyIterable), "subvalue")
-        kinds.add(
-            Substitution if isinstance(each, Substitution) else tuple if not isinstance(each, _SCALARS) else type(each)
-        )
+    kinds = {_kind(each) for each in value}
     if kinds in ({int}, {bool}):
         return ("list", list(value))
     if kinds and kinds <= {int, float}:
         return ("list", [float(each) for each in value])
     if Substitution in kinds and kinds <= {str, Substitution}:
         return ("yaml", normalize_to_list_of_substitutions(value))
-    return (
-        "items",
-        [each if isinstance(each, _SCALARS) else normalize_to_list_of_substitutions(each) for each in value],
-    )
+    items = [each if isinstance(each, _SCALARS) else normalize_to_list_of_substitutions(each) for each in value]
+    return ("items", items)
 
 
 def normalize_parameters(parameters: Any) -> tuple[Any, ...]:

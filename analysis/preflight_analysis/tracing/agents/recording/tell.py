@@ -105,24 +105,19 @@ class Teller:
     def _typed(self, made: dict[str, Any], value: ParameterValue) -> None:
         inner, told = value.value, made["a"]
         told["type"] = [value.preflight_type or "yaml"]
-        told["form"] = ["typed"]
-        if isinstance(inner, (bool, int, float, str)):
+        if _plain(inner):
             told["form"], told["value"] = ["plain"], {"v": inner}
-        elif isinstance(inner, Substitution) or (
-            isinstance(inner, (list, tuple))
-            and any(isinstance(x, Substitution) for x in inner)
-            and all(isinstance(x, (str, Substitution)) for x in inner)
-        ):
-            told["value"] = self.parts(inner)
-        elif isinstance(inner, (list, tuple)):
-            told["form"] = ["items"]
-            self._items(made, [x if isinstance(x, (bool, int, float, str)) else list(x) for x in inner])
+        elif inner and all(isinstance(each, Substitution) for each in inner):
+            told["form"], told["value"] = ["typed"], self.parts(inner)
         else:
-            told["value"] = self.parts(inner)
+            told["form"] = ["items"]
+            self._items(made, inner)
 
     def _items(self, made: dict[str, Any], items: Iterable[Any]) -> None:
         for each in items:
-            made["c"].append({"k": "item", "a": {"value": self._value(each if _plain(each) else list(each))}, "c": []})
+            # A text as it is stays one, whatever it would be as YAML.
+            value = {"v": each} if _plain(each) else self.parts(each)
+            made["c"].append({"k": "item", "a": {"value": value}, "c": []})
 
     # Entities
 
