@@ -4,8 +4,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
+BENCHMARKS := editing completion index trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test lint bench corpus nodes fuzz wheel vsix test-editors images docs clean
+.PHONY: help setup apt demo test lint bench bench-quick corpus nodes fuzz wheel vsix test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -37,14 +38,10 @@ lint: $(READY) ## ruff and mypy
 	$(BIN)/mypy
 
 bench: setup ## editing and completion latency, a large workspace and the time of a trace, of a command and of a Python launch file, as ratios
-	$(BIN)/python bench/editing.py
-	$(BIN)/python bench/completion.py
-	$(BIN)/python bench/index.py
-	$(BIN)/python bench/trace.py
-	$(BIN)/python bench/fleet.py
-	$(BIN)/python bench/commands.py
-	$(BIN)/python bench/launch_files.py
-	$(BIN)/python bench/graph.py
+	@set -e; for each in $(BENCHMARKS); do echo "bench/$$each.py"; $(BIN)/python bench/$$each.py; done
+
+bench-quick: setup ## each benchmark once, as short as it can be: whether it still runs
+	@set -e; for each in $(BENCHMARKS); do echo "bench/$$each.py"; $(BIN)/python bench/$$each.py --quick; done
 
 corpus: CORPUS = $(realpath ../shared/corpus/ros1)
 corpus: CORPUS2 = $(realpath ../shared/corpus/ros2)

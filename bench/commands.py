@@ -1,6 +1,6 @@
 """How long the command of a parameter takes, against the same command alone. Prints medians and ratios of one run.
 
-  python bench/commands.py [-n ROUNDS]
+  python bench/commands.py [-n ROUNDS | --quick]
 
 Bare: the command as roslaunch runs it. Cold: `CommandRunner.run` without a cache, in the sandbox. Cached:
 `CommandRunner.lookup` in a process that has just looked it up, with all files that it read compared. The kinds take
@@ -9,7 +9,6 @@ turns in each round.
 
 from __future__ import annotations
 
-import argparse
 import shlex
 import statistics
 import subprocess
@@ -19,6 +18,7 @@ import threading
 import time
 from pathlib import Path
 
+from options import Options
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 
@@ -56,9 +56,7 @@ def timed(rounds: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=10, metavar="ROUNDS")
-    timed(parser.parse_args().n)
+    timed(Options(__doc__, n=10, quick=1).read().n)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """How soon proposals follow a keystroke: `textDocument/completion` for `pkg="` in a workspace of 200 packages.
 
-  python bench/completion.py [-n ROUNDS]
+  python bench/completion.py [-n ROUNDS | --quick]
 
 Through the real server process, over its standard input and output: once while nothing else happens, and once right
 after an edit, when the analysis of the new text has only begun. The baseline, measured in the same rounds, is a request
@@ -10,7 +10,6 @@ and the medians' ratio to the baseline.
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import tempfile
 import time
@@ -19,6 +18,7 @@ from typing import Any
 
 from client import Client
 from editing import large
+from options import Options
 
 PACKAGES = 200
 BEGUN = '  <node pkg="'
@@ -82,12 +82,10 @@ def measure(name: str, nodes: int, rounds: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=40, metavar="ROUNDS")
-    rounds = parser.parse_args().n
+    args = Options(__doc__, n=40, quick=2).read()
     print(f"{'ms':<36} {'median':>8} {'p95':>8} {'request':>8} {'/request':>8}")
-    measure("20 nodes", 20, rounds)
-    measure("500 nodes", 500, rounds)
+    for nodes in (20, 60 if args.quick else 500):
+        measure(f"{nodes} nodes", nodes, args.n)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """How soon the findings follow a keystroke: from the change notification to the published static diagnostics.
 
-  python bench/editing.py [-n ROUNDS]
+  python bench/editing.py [-n ROUNDS | --quick]
 
 Through the real server process, over its standard input and output. Each round inserts or removes one line break near
 the start of the file, so that everything below it moves; in the last case a letter of a topic's name, in a launch where
@@ -12,7 +12,6 @@ same text. The figures are the median and the 95th percentile in milliseconds, a
 
 from __future__ import annotations
 
-import argparse
 import shutil
 import statistics
 import tempfile
@@ -25,6 +24,7 @@ from string import ascii_letters
 
 import yaml
 from client import Client
+from options import Options
 
 DEMO = Path(__file__).parent.parent / "fixtures" / "ros1" / "demo"
 NODES = 500
@@ -94,12 +94,12 @@ def dangling(nodes: int) -> str:
     return f"<launch>\n\n{body}</launch>\n"
 
 
-def fleet(workspace: Path, suffix: str) -> Path:
-    """A launch of ROS 2 that includes 60 files: each has its share of the nodes, and so has the root."""
+def fleet(workspace: Path, suffix: str, count: int) -> Path:
+    """A launch of ROS 2 with that many nodes, in 60 files that it includes and in itself."""
     folder = workspace / "fleet" / "launch"
     folder.mkdir(parents=True, exist_ok=True)
     (folder.parent / "package.xml").write_text(ROS2_PACKAGE)
-    share = NODES // (INCLUDES + 1)
+    share = count // (INCLUDES + 1)
 
     def nodes(first: int, end: int) -> str:
         return "".join(ROS2_NODES[suffix].format(n=n, g=n % 10) for n in range(first, end))
@@ -109,7 +109,7 @@ def fleet(workspace: Path, suffix: str) -> Path:
         (folder / f"part_{i}{suffix}").write_text(ROS2_FILES[suffix].format(body=body))
     includes = "".join(ROS2_INCLUDES[suffix].format(i=i) for i in range(INCLUDES))
     root = folder / f"fleet{suffix}"
-    root.write_text(ROS2_FILES[suffix].format(body=includes + nodes(INCLUDES * share, NODES)))
+    root.write_text(ROS2_FILES[suffix].format(body=includes + nodes(INCLUDES * share, count)))
     return root
 
 
@@ -176,9 +176,8 @@ def measure(
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=60, metavar="ROUNDS")
-    rounds = parser.parse_args().n
+    args = Options(__doc__, n=60, quick=2).read()
+    rounds, nodes = args.n, 70 if args.quick else NODES
     with tempfile.TemporaryDirectory() as folder:
         home, workspace = Path(folder, "home"), Path(folder, "workspace")
         home.mkdir()
@@ -187,13 +186,13 @@ def main() -> None:
         print(f"{'ms':<32} {'median':>8} {'p95':>8} {'request':>8} {'minidom':>8} {'/request':>8} {'/minidom':>8}")
         measure("demo, static", demo, demo.read_text(), home, rounds)
         measure("demo, with what its runs told", demo, demo.read_text(), home, rounds, trusted=True)
-        measure(f"{NODES} nodes, static", demo.with_name("large.launch"), large(NODES), home, rounds)
+        measure(f"{nodes} nodes, static", demo.with_name("large.launch"), large(nodes), home, rounds)
         lone = demo.with_name("dangling.launch")
-        measure(f"{NODES} nodes, most dangle: moved", lone, dangling(NODES), home, rounds)
-        measure(f"{NODES} nodes, most dangle: renamed", lone, dangling(NODES), home, rounds, edit=first_name)
+        measure(f"{nodes} nodes, most dangle: moved", lone, dangling(nodes), home, rounds)
+        measure(f"{nodes} nodes, most dangle: renamed", lone, dangling(nodes), home, rounds, edit=first_name)
         for suffix in ROS2_NODES:
-            root = fleet(workspace, suffix)
-            measure(f"{NODES} nodes of ROS 2, {suffix}", root, root.read_text(), home, rounds)
+            root = fleet(workspace, suffix, nodes)
+            measure(f"{nodes} nodes of ROS 2, {suffix}", root, root.read_text(), home, rounds)
 
 
 if __name__ == "__main__":

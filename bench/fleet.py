@@ -1,6 +1,6 @@
 """How long the nodes of a launch take, all of them, and the same again after a restart, when they are in the cache.
 
-  python bench/fleet.py [-n NODES]
+  python bench/fleet.py [-n NODES | --quick]
 
 Half of the nodes are rospy's and half roscpp's, each an executable of its own, in a workspace that is made for the
 occasion; and as many nodes of two executables, in namespaces of their own. The baseline of the same run is the sum of
@@ -10,7 +10,6 @@ opening of the file to the findings that need all nodes. Two nodes are run at a 
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -21,6 +20,7 @@ from pathlib import Path
 
 from bare_node import bare, rosmaster
 from client import Client
+from options import Options
 
 ROSOUT = Path("/usr/lib/rosout/rosout")
 TALKER = """#!/usr/bin/env python3
@@ -87,11 +87,15 @@ def by_server(path: Path, home: Path) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=40, metavar="NODES")
-    count = parser.parse_args().n
+    count = Options(__doc__, n=40, quick=4, metavar="NODES").read().n
     with tempfile.TemporaryDirectory() as folder:
         various, alike = lay(Path(folder, "workspace"), count)
+        # What is compiled on first use is there already.
+        fresh = Path(folder, "home")
+        fresh.mkdir()
+        first = various.with_name("first.launch")
+        first.write_text('<launch><node pkg="rosout" type="rosout" name="first"/></launch>')
+        by_command(first, fresh)
         with rosmaster(folder) as ros:
             scripts = ((various.parents[1] / "scripts/talker_0.py", "/words0"), (ROSOUT, "/rosout_agg"))
             each = [min(bare(script, topic, ros, number) for number in range(3)) for script, topic in scripts]
@@ -100,10 +104,7 @@ def main() -> None:
         for title, path in (("executables of their own", various), ("of two executables", alike)):
             for asked, by in (("trace", by_command), ("server", by_server)):
                 with tempfile.TemporaryDirectory() as home:
-                    # What is compiled on first use is there already.
-                    first = path.with_name("first.launch")
-                    first.write_text('<launch><node pkg="rosout" type="rosout" name="first"/></launch>')
-                    by_command(first, Path(home))
+                    shutil.copytree(fresh, home, dirs_exist_ok=True)
                     for when in ("cold", "again"):
                         took = by(path, Path(home))
                         print(f"{f'{title}, {asked}, {when}':<34}{took:>8.2f}s{took / whole:>9.3f}", flush=True)

@@ -1,6 +1,6 @@
 """How soon a graph is seen: its layout, its page, and the first paint of that in a browser.
 
-  python bench/graph.py [-n ROUNDS]
+  python bench/graph.py [-n ROUNDS | --quick]
 
 For a small robot and for 150 nodes with 600 topics. The baseline of the layout, measured in the same rounds, is the
 start of a Python process, as the layout runs in one of its own; that of the paint is an empty page. The paint needs
@@ -9,7 +9,6 @@ what `tests/editors/install.sh vscode` installs. The figures are medians in mill
 
 from __future__ import annotations
 
-import argparse
 import json
 import shutil
 import statistics
@@ -24,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
 import view_desk  # noqa: E402
+from options import Options  # noqa: E402
 from preflight_analysis.view.graph_page import graph_page  # noqa: E402
 from preflight_analysis.view.layout import lay_out  # noqa: E402
 
@@ -52,9 +52,7 @@ def paint(pages: dict[str, Path], rounds: int) -> dict[str, list[float]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", "--rounds", type=int, default=5)
-    rounds = parser.parse_args().rounds
+    rounds = Options(__doc__, n=5, quick=1).read().n
     times: dict[str, list[float]] = {"start of Python": []}
     for _ in range(rounds):
         times["start of Python"].append(milliseconds(start_python))

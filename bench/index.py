@@ -1,17 +1,17 @@
 """A workspace of 1,000 launch files: the time of its index, and how soon findings follow a keystroke in a large tree.
 
-  python bench/index.py [-n ROUNDS]
+  python bench/index.py [-n ROUNDS | --quick]
 
 The workspace is that of `workspace.py`. Through the real server: the time from `initialized` to the end of the index,
 hovers meanwhile, the time from a keystroke to the published diagnostics in several files of the largest tree (500
 nodes, 60 includes), and memory. Typed are single characters in an attribute's value, each taken back again, and lines.
 In the same run real `roslaunch --nodes` is asked about the same tree: that is what an edit is compared with. Last, the
-same edits without a server, split into the steps of the analysis.
+same edits without a server, split into the steps of the analysis. Quick: the three robots of that tree
+alone, and as few keystrokes as there can be.
 """
 
 from __future__ import annotations
 
-import argparse
 import gc
 import os
 import statistics
@@ -24,15 +24,17 @@ from pathlib import Path
 from typing import Any
 
 from client import Client
+from options import Options
 from preflight_analysis.environment.detect import detect
-from preflight_analysis.workspace import sources as sources_module
+from preflight_analysis.launch import read as read_module
 from preflight_analysis.workspace import workspace as workspace_module
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace as Engine
-from workspace import INCLUDES, NODES, Workspace, generate
+from workspace import HEAVY, INCLUDES, NODES, ROBOTS, Workspace, generate
 
 TITLE = "Indexing launch files"
-TYPED = "front_left"
+TYPED = ("front_left", "\n" * 3)
+"""Within a value, and at the end of its line."""
 TARGET_MS, TARGET_RATIO = 50, 50
 
 
@@ -44,18 +46,18 @@ class Place:
     path: Path
     before: str
 
-    def texts(self, rounds: int) -> Iterator[tuple[str, int, int, str]]:
+    def texts(self, rounds: int, typed: tuple[str, str]) -> Iterator[tuple[str, int, int, str]]:
         """The edits, as start, end and new text, with the text that each leads to; the last leads back."""
         text = self.path.read_text()
         at = text.index(self.before) + len(self.before)
         line = text.index("\n", at) + 1
         for _ in range(rounds):
-            for start, typed in ((at, TYPED), (line, "\n" * 3)):
-                for count, char in enumerate(typed, 1):
-                    new = text[:start] + typed[:count] + text[start:]
+            for start, word in zip((at, line), typed, strict=True):
+                for count, char in enumerate(word, 1):
+                    new = text[:start] + word[:count] + text[start:]
                     yield new, start + count - 1, start + count - 1, char
-                for count in range(len(typed) - 1, -1, -1):
-                    yield text[:start] + typed[:count] + text[start:], start + count, start + count + 1, ""
+                for count in range(len(word) - 1, -1, -1):
+                    yield text[:start] + word[:count] + text[start:], start + count, start + count + 1, ""
 
 
 def places(made: Workspace) -> list[Place]:
@@ -76,7 +78,7 @@ def position(text: str, offset: int) -> dict[str, int]:
     return {"line": text.count("\n", 0, offset), "character": offset - (text.rfind("\n", 0, offset) + 1)}
 
 
-def index(client: Client, made: Workspace) -> None:
+def index(client: Client, made: Workspace, files: int) -> None:
     """Cold index, with hovers meanwhile. The client has just said `initialized`."""
     began = time.perf_counter()
     text = made.root.read_text()
@@ -87,7 +89,7 @@ def index(client: Client, made: Workspace) -> None:
         if not client.request("textDocument/hover", at) or asked - began > 300:
             raise SystemExit("a hover was not answered, or the index has no end")
         hovers.append(time.perf_counter() - asked)
-    print(f"cold index of 1,000 launch files: {client.ended[TITLE] - began:.2f} s")
+    print(f"cold index of {files:,} launch files: {client.ended[TITLE] - began:.2f} s")
     print(f"{'ms':<44}{'median':>8}{'p95':>8}{'max':>8}")
     shown("hover, while the index is built", hovers)
 
@@ -97,11 +99,13 @@ def opened(client: Client, path: Path) -> None:
     client.notify("textDocument/didOpen", {"textDocument": item})
 
 
-def edits(client: Client, place: Place, rounds: int, version: Iterator[int]) -> list[float]:
+def edits(
+    client: Client, place: Place, changes: Iterator[tuple[str, int, int, str]], version: Iterator[int]
+) -> list[float]:
     uri = place.path.as_uri()
     samples = []
     text = place.path.read_text()
-    for new, start, end, typed in place.texts(rounds):
+    for new, start, end, typed in changes:
         number = next(version)
         change = {"range": {"start": position(text, start), "end": position(text, end)}, "text": typed}
         began = time.perf_counter()
@@ -113,10 +117,10 @@ def edits(client: Client, place: Place, rounds: int, version: Iterator[int]) -> 
     return samples
 
 
-def roslaunch(root: Path) -> float:
-    """Seconds that the real one takes, the median of five."""
+def roslaunch(root: Path, rounds: int) -> float:
+    """Seconds that the real one takes, the median."""
     samples = []
-    for _ in range(5):
+    for _ in range(rounds):
         began = time.perf_counter()
         answer = subprocess.run(["roslaunch", "--nodes", root], check=True, capture_output=True, text=True)
         samples.append(time.perf_counter() - began)
@@ -148,12 +152,12 @@ class Stopwatch:
         setattr(module, name, watched)
 
 
-def library(made: Workspace, rounds: int) -> None:
+def library(made: Workspace, typed: tuple[str, str]) -> None:
     """The same edits without a server."""
     watch = Stopwatch()
-    watch.watch("parse", sources_module, "parse_xml")
-    watch.watch("frontend", sources_module, "read_ros1")
-    watch.watch("evaluate", workspace_module, "evaluate")
+    watch.watch("parse", read_module, "parse_xml")
+    watch.watch("frontend", read_module, "read_ros1")
+    watch.watch("evaluate", workspace_module, "evaluate_launch")
     watch.watch("rules", workspace_module, "run_rules")
     gc.set_threshold(100_000, 20, 100)  # as the server
     texts = Sources()
@@ -163,7 +167,7 @@ def library(made: Workspace, rounds: int) -> None:
     for place in places(made):
         watch.spent.clear()
         samples = []
-        for new, *_ in place.texts(rounds):
+        for new, *_ in place.texts(1, typed):
             began = time.perf_counter()
             texts.open(str(place.path), new)
             _ = engine.static(str(made.root)).findings
@@ -175,18 +179,17 @@ def library(made: Workspace, rounds: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=3, metavar="ROUNDS", help="of 26 edits in each place")
-    rounds = parser.parse_args().n
+    args = Options(__doc__, n=3, quick=1, help="of 26 edits in each place").read()
+    typed = ("f", "\n") if args.quick else TYPED
     with tempfile.TemporaryDirectory() as folder:
         home = Path(folder, "home")
         home.mkdir()
-        made = generate(Path(folder, "workspace"))
+        made = generate(Path(folder, "workspace"), HEAVY if args.quick else ROBOTS)
         os.environ["ROS_PACKAGE_PATH"] = str(made.folder / "src")
         client = Client(made.folder, home, trusted=False)
         memory = [client.megabytes()]
         opened(client, made.root)
-        index(client, made)
+        index(client, made, sum(1 for _ in made.folder.rglob("*.launch")))
         memory.append(client.megabytes())
         for path in (made.middle, made.leaf):
             opened(client, path)
@@ -194,19 +197,19 @@ def main() -> None:
         version = iter(range(1, 1_000_000))
         samples: list[float] = []
         for place in places(made):
-            took = edits(client, place, rounds, version)
+            took = edits(client, place, place.texts(args.n, typed), version)
             shown(place.title, took)
             samples += took
         shown("all edits", samples)
         memory.append(client.megabytes())
         client.close()
-        real = roslaunch(made.root)
+        real = roslaunch(made.root, 1 if args.quick else 5)
         ratio = real / statistics.median(samples)
         p95 = 1000 * statistics.quantiles(samples, n=20)[-1]
         print(f"roslaunch --nodes of the same tree ({NODES} nodes, {INCLUDES} includes): {1000 * real:.0f} ms")
         print(f"roslaunch : edit = {ratio:.0f} (target: {TARGET_RATIO}); p95 {p95:.1f} ms (target: {TARGET_MS})")
         print("memory of the server in MB: {:.0f} at first, {:.0f} indexed, {:.0f} after the edits".format(*memory))
-        library(made, 1)
+        library(made, typed)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """How long the evaluation of a Python launch file takes, against bare `python` that imports it and calls it.
 
-  python bench/launch_files.py [-n ROUNDS] [--package-path FOLDERS] [FOLDER | FILE]...
+  python bench/launch_files.py [-n ROUNDS | --quick] [--package-path FOLDERS] [FOLDER | FILE]...
 
 Bare: an interpreter that runs the file and calls `generate_launch_description()`, with our recording of launch, as
 there need not be another one. Evaluated: its run in the sandbox without a cache, and the evaluation before and after.
@@ -10,7 +10,6 @@ the 95th percentile and the worst of the ratios. The files run outside of the sa
 
 from __future__ import annotations
 
-import argparse
 import os
 import statistics
 import subprocess
@@ -22,6 +21,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from options import Options
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import backend
@@ -91,11 +91,10 @@ def found(paths: list[Path]) -> Iterator[Path]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=3, metavar="ROUNDS")
-    parser.add_argument("--package-path", default=str(ROOT / "fixtures" / "ros2"))
-    parser.add_argument("paths", nargs="*", type=Path, default=[ROOT / "fixtures" / "ros2"])
-    args = parser.parse_args()
+    options = Options(__doc__, n=3, quick=1)
+    options.add_argument("--package-path", default=str(ROOT / "fixtures" / "ros2"))
+    options.add_argument("paths", nargs="*", type=Path, default=[ROOT / "fixtures" / "ros2"])
+    args = options.read()
     variables = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
     environment = detect_environment(None, variables, args.package_path.split(os.pathsep))
     files = list(found(args.paths))

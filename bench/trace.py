@@ -1,6 +1,6 @@
 """How long a trace takes, against the bare node's own time to its event loop. Prints medians and ratios of one run.
 
-  python bench/trace.py [-n ROUNDS]
+  python bench/trace.py [-n ROUNDS | --quick]
 
 Bare: the node under a real rosmaster, from exec until the master has the last topic that it registers before it spins.
 Cold: `Tracer.trace` without a cache. Warm: `Tracer.lookup` of a cached trace. The kinds take turns in each round, so
@@ -9,7 +9,6 @@ that a busy moment of the machine meets them all.
 
 from __future__ import annotations
 
-import argparse
 import os
 import statistics
 import tempfile
@@ -18,6 +17,7 @@ import time
 from pathlib import Path
 
 from bare_node import PYTHON, bare, rosmaster
+from options import Options
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.request import TraceRequest
@@ -60,9 +60,7 @@ def timed(rounds: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-n", type=int, default=10, metavar="ROUNDS")
-    timed(parser.parse_args().n)
+    timed(Options(__doc__, n=10, quick=1).read().n)
 
 
 if __name__ == "__main__":

@@ -60,9 +60,9 @@ class Workspace:
     leaf: Path
 
 
-def generate(folder: Path) -> Workspace:
-    """Write the workspace into `folder`, which is made."""
-    for robot in ROBOTS:
+def generate(folder: Path, robots: tuple[str, ...] = ROBOTS) -> Workspace:
+    """Write the workspace of these robots, `HEAVY` among them, into `folder`, which is made."""
+    for robot in robots:
         for kind, leaves in LEAVES.items():
             package = folder / "src" / robot / f"{robot}_{kind}"
             for name in ("launch", "config", "scripts"):
