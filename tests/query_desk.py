@@ -5,7 +5,7 @@ Executables are those that `executables` gives; the interfaces come from `//- in
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from preflight_analysis.documents.document import Document
@@ -43,6 +43,7 @@ class AtCursor:
     file: str
     offset: int
     sources: Sources
+    ahead_of_runs: Callable[[Analysis], Analysis]
 
     @property
     def document(self) -> Document:
@@ -71,4 +72,4 @@ def at_cursor(text: str, variables: Mapping[str, str] | None = None) -> AtCursor
     if fixture.interfaces is not None or annotated:
         interfaces = interfaces_of(analysis.tree, fixture.interfaces or {})
         analysis = workspace.with_interfaces(analysis, interfaces, None)
-    return AtCursor(analysis, file, offset, sources)
+    return AtCursor(analysis, file, offset, sources, lambda each: each)

@@ -16,7 +16,9 @@ from query_desk import Executables, at_cursor
 def completed(text: str, trigger: str | None = None, **options: object) -> Completion | None:
     there = at_cursor(text, options.get("variables"))  # type: ignore[arg-type]
     executables = Executables(options.get("executables", {}))  # type: ignore[arg-type]
-    return complete(there.analysis, there.launch_file, there.offset, there.sources, executables, trigger)
+    return complete(
+        there.analysis, there.launch_file, there.offset, there.sources, executables, there.ahead_of_runs, trigger
+    )
 
 
 def offered(text: str, trigger: str | None = None, **options: object) -> list[str]:
@@ -368,7 +370,9 @@ def test_whatever_is_typed_or_deleted_the_edit_is_within_a_line(
 ) -> None:
     text = WHOLE[:at] + typed + "$0" + WHOLE[at + deleted :]
     there = at_cursor(text + INNER)
-    found = complete(there.analysis, there.launch_file, there.offset, there.sources, Executables(), trigger)
+    found = complete(
+        there.analysis, there.launch_file, there.offset, there.sources, Executables(), there.ahead_of_runs, trigger
+    )
     if found is not None:
         assert found.span.start <= there.offset <= found.span.end
         assert "\n" not in there.text(found.span)

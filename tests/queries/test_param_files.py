@@ -40,7 +40,9 @@ def completed(params: str, trigger: str | None = None) -> Completion | None:
     there = at_cursor(text + INTERFACES)
     launch_file = there.sources.launch_file("/p.yaml")
     assert not isinstance(launch_file, Unreadable)
-    return complete(there.analysis, launch_file, there.offset, there.sources, Executables(), trigger)
+    return complete(
+        there.analysis, launch_file, there.offset, there.sources, Executables(), there.ahead_of_runs, trigger
+    )
 
 
 def offered(params: str, trigger: str | None = None) -> list[tuple[str, str]]:

@@ -25,7 +25,9 @@ INNER = """
 def completed(text: str, trigger: str | None = None) -> Completion | None:
     there = at_cursor(textwrap.dedent(text))
     executables = Executables({"p": ["talker", "listener"]})
-    return complete(there.analysis, there.launch_file, there.offset, there.sources, executables, trigger)
+    return complete(
+        there.analysis, there.launch_file, there.offset, there.sources, executables, there.ahead_of_runs, trigger
+    )
 
 
 def items(text: str, trigger: str | None = None) -> dict[str, Item]:

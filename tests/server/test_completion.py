@@ -126,3 +126,38 @@ async def test_nothing_where_nothing_was_asked_for(desk: Desk, path: Path) -> No
         unknown = path.with_suffix(".txt")
         editor.open(unknown, "<launch><", language="plaintext")
         assert await editor.completion(unknown, types.Position(0, 9), "<") == []
+
+
+async def test_a_node_that_is_being_written_is_known_by_its_source(desk: Desk, path: Path) -> None:
+    """In a trusted workspace too: it has not run yet, and while its tag is not complete it cannot be."""
+    async with editing(desk, trusted=True) as editor:
+        node = '<launch>\n  <node pkg="preflight_demo" type="talker.py" name="new">\n    '
+        found = await at_cursor(editor, path, f'{node}<param name="$0', '"')
+        assert ("rate", "default: 10") in [(i.label, i.detail) for i in found]
+        found = await at_cursor(editor, path, f'{node}<remap from="$0', '"')
+        assert [(i.label, i.detail) for i in found] == [("chatter", "std_msgs/String, publishes")]
+        assert not editor.runs
+
+
+async def test_a_new_node_beside_known_ones_is_known_by_its_source(desk: Desk) -> None:
+    async with editing(desk, trusted=True) as editor:
+        text = editor.open(desk.launch_file)
+        await editor.having(desk.launch_file, "TOP001")  # both have been run
+        (desk.launch_file.parents[1] / "scripts/fresh.py").write_text(
+            "#!/usr/bin/env python3\nimport rospy\nfrom std_msgs.msg import Bool\nrospy.init_node('fresh')\n"
+            "rospy.get_param('~gain', 2)\nrospy.Subscriber('door', Bool, print)\nrospy.spin()\n"
+        )
+        (desk.launch_file.parents[1] / "scripts/fresh.py").chmod(0o755)
+        editor.watched(desk.launch_file.parents[1] / "scripts/fresh.py", kind=types.FileChangeType.Created)
+        node = '  <node pkg="preflight_demo" type="fresh.py" name="fresh">\n    '
+        for typed, expected in (
+            ('<param name="$0', "gain"),
+            ('<remap from="$0', "door"),
+            ('<remap from="door" to="/cha$0', "/chatter"),
+        ):
+            typed = text.replace("</launch>", f"{node}{typed}")
+
+            async def proposals(typed: str = typed) -> list[str]:
+                return labels(await at_cursor(editor, desk.launch_file, typed, None))
+
+            await editor.once(proposals, lambda found, expected=expected: expected in found)

@@ -213,3 +213,47 @@ async def test_a_file_that_changes_during_the_run_that_read_it(desk: Desk) -> No
             await asyncio.sleep(0.1)
         assert "/after" in await seen()
         assert "/before" not in await seen()
+
+
+COUNTED = """#!/usr/bin/env python3
+import rospy
+rospy.init_node("counted")
+rospy.get_param("~rate", 10)
+rospy.Publisher("{topic}", rospy.AnyMsg, queue_size=1)
+rospy.spin()
+"""
+
+
+async def test_a_syntax_error_stops_only_what_it_touches(desk: Desk) -> None:
+    """Nodes of a launch with a broken file run; those in whose tag the error stands do not, and the status names the
+    file."""
+    folder = desk.launch_file.parent
+    for topic in ("one", "two", "three"):
+        script = folder.parent / f"scripts/{topic}.py"
+        script.write_text(COUNTED.format(topic=topic))
+        script.chmod(0o755)
+    inner, outer = folder / "inner.launch", folder / "outer.launch"
+    inner.write_text('<launch>\n  <node pkg="preflight_demo" type="two.py" name="two"/>\n</launch>\n')
+    node = '  <node pkg="preflight_demo" type="{0}.py" name="{0}"/>\n'
+    include = '  <include file="$(dirname)/inner.launch"/>\n'
+    broken = node.format("three").replace("/>", "><param name='a' value=</node>")
+    outer.write_text(f"<launch>\n{node.format('one')}{include}{broken}</launch>\n")
+    async with editing(desk, trusted=True, settings={"status": True}) as editor:
+        editor.open(outer)
+        await editor.until(lambda: editor.statuses and list(editor.statuses[-1].broken) == [outer.as_uri()])
+
+        async def nodes() -> dict[str, str]:
+            answer = await editor.client.protocol.send_request_async("rosPreflight/graph", {"uri": outer.as_uri()})
+            return {each.name: each.source for each in answer.graph.nodes}
+
+        found = await editor.once(nodes, lambda found: list(found.values()).count("trace") == 2)
+        assert found == {"/one": "trace", "/two": "trace", "/three": "none"}
+
+        editor.change(outer, f"<launch>\n{node.format('one')}{include}{node.format('three')}</launch>\n")
+        await editor.once(nodes, lambda found: set(found.values()) == {"trace"})
+        await editor.until(lambda: list(editor.statuses[-1].broken) == [])
+
+        editor.open(inner)
+        editor.change(inner, inner.read_text().replace("</launch>", "  <node pkg="))
+        await editor.until(lambda: list(editor.statuses[-1].broken) == [inner.as_uri()])
+        assert set((await nodes()).values()) == {"trace"}, "what was known stays"

@@ -6,6 +6,8 @@ export interface ServerStatus {
   readonly total: number;
   /** What keeps nodes from being run. */
   readonly notRun: NotRun | null;
+  /** The files, as URIs, with a syntax error that open files are launched with. */
+  readonly broken: readonly string[];
 }
 
 export interface NotRun {
@@ -62,8 +64,20 @@ function running(status: ServerStatus | undefined): Shown {
     case "cancelled":
       return { text: `$(circle-slash) ${NAME}`, tooltip: `Nodes are not run: ${notRun.message}`, severity: "none" };
     default: // A workspace that is not trusted has a badge of its own.
-      return { text: `$(check) ${NAME}`, tooltip: "Everything is up to date.", severity: "none" };
+      return status === undefined || status.broken.length === 0
+        ? { text: `$(check) ${NAME}`, tooltip: "Everything is up to date.", severity: "none" }
+        : broken(status.broken);
   }
+}
+
+function broken(files: readonly string[]): Shown {
+  const names = files.map((uri) => decodeURIComponent(uri.slice(uri.lastIndexOf("/") + 1)));
+  const more = names.length > 1 ? ` and ${names.length - 1} more` : "";
+  return {
+    text: `$(warning) ${NAME}: syntax error in ${names[0]}${more}`,
+    tooltip: `Syntax error in ${names.join(", ")}: what it touches is not run.`,
+    severity: "warning",
+  };
 }
 
 /** Whether the badge is shown that leads to the editor of Workspace Trust. */

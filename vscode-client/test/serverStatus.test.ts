@@ -3,7 +3,7 @@ import { describe, it } from "node:test";
 import { type Life, type NotRun, type ServerStatus, shown, showsTrustBadge } from "../src/serverStatus";
 
 const running: Life = { state: "running" };
-const idle: ServerStatus = { state: "idle", done: 0, total: 0, notRun: null };
+const idle: ServerStatus = { state: "idle", done: 0, total: 0, notRun: null, broken: [] };
 const notRun = (kind: NotRun["kind"]): ServerStatus => ({ ...idle, notRun: { kind, message: "the reason" } });
 
 describe("the status bar", () => {
@@ -21,6 +21,17 @@ describe("the status bar", () => {
     assert.match(sandbox.text, /no sandbox/);
     assert.equal(shown(running, notRun("off")).tooltip, "Nodes are not run: the reason");
     assert.equal(shown(running, notRun("cancelled")).severity, "none");
+  });
+
+  it("names the files with a syntax error", () => {
+    const one = shown(running, { ...idle, broken: ["file:///w/my%20robot.launch"] });
+    assert.deepEqual(one, {
+      text: "$(warning) ROS Preflight: syntax error in my robot.launch",
+      tooltip: "Syntax error in my robot.launch: what it touches is not run.",
+      severity: "warning",
+    });
+    assert.match(shown(running, { ...idle, broken: ["file:///a.launch", "file:///b.launch"] }).text, /a\.launch and 1 more$/);
+    assert.match(shown(running, { ...notRun("off"), broken: ["file:///a.launch"] }).tooltip, /^Nodes are not run/);
   });
 
   it("says that there is no server, and why", () => {

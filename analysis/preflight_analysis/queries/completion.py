@@ -6,7 +6,7 @@ packages there are, what a node subscribes to) from an analysis that may be olde
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
@@ -33,17 +33,19 @@ def complete(
     offset: int,
     files: Files,
     executables: ExecutableNames,
+    ahead_of_runs: Callable[[Analysis], Analysis],
     trigger: str | None = None,
 ) -> Completion | None:
     """What can be written at `offset` of a file, best first; None where nothing can.
 
-    `launch_file` is the text as it is now, `analysis` may be one of an earlier text. `trigger` is the character of
+    `launch_file` is the text as it is now, `analysis` may be one of an earlier text; `ahead_of_runs` (as of
+    `Workspace`) is asked where nodes matter that have not run yet. `trigger` is the character of
     `TRIGGERS` that was just typed, None where the user asked.
     """
     if is_param_file(analysis, launch_file.path):
-        return complete_param_file(analysis, launch_file.document, offset, trigger)
+        return complete_param_file(ahead_of_runs(analysis), launch_file.document, offset, trigger)
     if launch_file.path.endswith(PYTHON_SUFFIX):
-        return complete_python(analysis, launch_file, offset, files, executables, trigger)
+        return complete_python(analysis, launch_file, offset, files, executables, ahead_of_runs, trigger)
     place = place_in(launch_file, offset)
     if place is None:
         return None
@@ -54,7 +56,7 @@ def complete(
     if not _wanted(place, trigger):
         return None
     if place.kind == "value":
-        return complete_value(Asked(analysis, launch_file, offset, place, files, executables), trigger)
+        return complete_value(Asked(analysis, launch_file, offset, place, files, executables, ahead_of_runs), trigger)
     return Completion(place.word, tuple(_items(launch_file, place)))
 
 

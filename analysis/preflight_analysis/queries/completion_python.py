@@ -5,7 +5,7 @@ The names come from the same sources as in the other formats; the Python languag
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
@@ -43,6 +43,7 @@ def complete_python(
     offset: int,
     files: Files,
     executables: ExecutableNames,
+    ahead_of_runs: Callable[[Analysis], Analysis],
     trigger: str | None = None,
 ) -> Completion | None:
     """What can be written at `offset`, best first; None where it is not ours to say. As in `completion.complete`,
@@ -63,7 +64,7 @@ def complete_python(
         return None
     if kind == "used":
         return Completion(word, tuple(_arguments(analysis, document.path, found)))
-    asked = Asked(analysis, launch_file, offset, found.place, files, executables)
+    asked = Asked(analysis, launch_file, offset, found.place, files, executables, ahead_of_runs)
     return Completion(word, tuple(_below(whole_values(asked, _KINDS[kind]), found.before)))
 
 

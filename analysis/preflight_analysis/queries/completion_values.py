@@ -63,6 +63,8 @@ class Asked:
     place: Place
     files: Files
     executables: ExecutableNames
+    ahead_of_runs: Callable[[Analysis], Analysis]
+    """As of `Workspace`."""
 
     @property
     def language(self) -> Language:
@@ -364,7 +366,10 @@ def _machines(asked: Asked, element: Element) -> Iterator[Item]:
 def _graph(
     source: Callable[[Analysis, str, Place, Element, str], Iterator[Item]],
 ) -> Callable[[Asked, Element], Iterator[Item]]:
-    return lambda asked, element: source(asked.analysis, asked.file, asked.place, element, asked.before)
+    def items(asked: Asked, element: Element) -> Iterator[Item]:
+        return source(asked.ahead_of_runs(asked.analysis), asked.file, asked.place, element, asked.before)
+
+    return items
 
 
 _BY_KIND: Mapping[Kind, Callable[[Asked, Element], Iterable[Item]]] = {

@@ -34,6 +34,7 @@ from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.own_names import with_own_names
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
@@ -114,6 +115,7 @@ class Workspace:
         self._nodl = NodlFiles(environment, sources)
         self._fallback = Fallback(SourceAnalysis(environment, sources), similar)
         self._project: tuple[str, ProjectSettings] | None = None
+        self._ahead: tuple[Analysis, Analysis] | None = None
         self._lock = threading.Lock()
         self._memo = Memo()
         self._memo_lock = threading.Lock()
@@ -242,6 +244,21 @@ class Workspace:
         )
         documents = analysis.documents if document is None else {**analysis.documents, document.path: document}
         return replace(analysis, context=context, documents=documents, severities=project.severities)
+
+    def ahead_of_runs(self, analysis: Analysis) -> Analysis:
+        """The analysis with what is known without a run of the nodes whose run has not ended: while a node is being
+        written, what its source declares can be proposed before it has run once."""
+        if analysis.graph is None:
+            interfaces = [not_run(node) for node in analysis.tree.nodes]
+        elif any(interface.pending for interface in analysis.graph.interfaces):
+            pairs = zip(analysis.tree.nodes, analysis.graph.interfaces, strict=True)
+            interfaces = [not_run(node) if each.pending else each for node, each in pairs]
+        else:
+            return analysis
+        known = self._ahead
+        if known is None or known[0] is not analysis:
+            known = self._ahead = analysis, self.with_interfaces(analysis, interfaces, analysis.why_not_run)
+        return known[1]
 
     def _filled_in(
         self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings

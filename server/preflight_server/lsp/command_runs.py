@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
+from preflight_analysis.workspace.broken import Broken
 from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -79,10 +80,12 @@ class CommandRuns:
         if self._batch is not None and asked.isdisjoint(self._batch.lines):
             self.stop()
 
-    async def round(self, analysis: Analysis, pool: ThreadPoolExecutor) -> bool:
-        """Look up, then run, the commands of one root. Whether the root is to be analysed again before its nodes."""
+    async def round(self, analysis: Analysis, pool: ThreadPoolExecutor, broken: Broken) -> bool:
+        """Look up, then run, the commands of one root but those that are being typed. Whether the root is to be
+        analysed again before its nodes."""
         runner, edition = self._runner, self._edition
-        lines = [line for line in command_lines(analysis.tree) if line not in self._current]
+        whole = (command.line for command in analysis.tree.commands if not broken.touches(command.origin))
+        lines = [line for line in dict.fromkeys(whole) if line not in self._current]
         if runner is not None and lines:
             found = await self._session.in_pool(lambda: {line: runner.lookup(line) for line in lines})
             self._take({line: hit for line, hit in found.items() if hit is not None}, edition)

@@ -22,6 +22,7 @@ from preflight_analysis.tracing.interface import PENDING, Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import likeness, run_all
 from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.broken import Broken
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -264,15 +265,17 @@ class Runs:
     async def _round(self, analysis: Analysis) -> None:
         """Look up, then run, what is not known of the nodes of one root."""
         tracer = self._tracer
-        if tracer is None or any(document.problems for document in analysis.documents.values()):
-            return  # a file in the middle of being typed is not worth a run
-        if await self.commands.round(analysis, self._pool):
+        if tracer is None:
+            return
+        broken = await self._session.in_pool(lambda: Broken(analysis))
+        if await self.commands.round(analysis, self._pool, broken):
             return
         workspace = await self._session.workspace()
-        requests = await self._requests(workspace, analysis)
+        requests = await self._requests(workspace, analysis, broken)
         known = self._known.setdefault(analysis.launch, {})
-        for key in set(known) - set(requests):
-            del known[key]
+        if not broken.files:  # else what an error hides comes back
+            for key in set(known) - set(requests):
+                del known[key]
         missing = {k: r for k, r in requests.items() if k not in known or known[k].request != r}
         edition = self._edition
         fresh = frozenset(self._fresh.get(analysis.launch, ()))
@@ -288,9 +291,11 @@ class Runs:
         if remaining and not self._closing:
             await self._run(tracer, analysis.launch, remaining)
 
-    async def _requests(self, workspace: Workspace, analysis: Analysis) -> dict[NodeKey, TraceRequest]:
+    async def _requests(self, workspace: Workspace, analysis: Analysis, broken: Broken) -> dict[NodeKey, TraceRequest]:
+        """What to run; not what is being typed: a tag with a syntax error is not worth a run."""
         requests = await self._session.in_pool(lambda: workspace.requests(analysis))
-        return {k: r for k, r in zip(node_keys(analysis.tree), requests, strict=True) if r is not None}
+        asked = zip(node_keys(analysis.tree), analysis.tree.nodes, requests, strict=True)
+        return {key: r for key, node, r in asked if r is not None and not broken.touches(node.origin)}
 
     async def _run(self, tracer: Tracer, root: Root, requests: Mapping[NodeKey, TraceRequest]) -> None:
         loop = asyncio.get_running_loop()
@@ -342,7 +347,7 @@ class Runs:
             batch.stop()
             return
         workspace = await self._session.workspace()
-        requests = await self._requests(workspace, analysis)
+        requests = await self._requests(workspace, analysis, Broken(analysis))
         behind = roots[0].launch != batch.root and await self._wants_runs(workspace, roots[0])
         for key, job in batch.jobs.items():
             now = requests.get(key)
@@ -351,8 +356,6 @@ class Runs:
                 job.cancel.set()
 
     async def _wants_runs(self, workspace: Workspace, analysis: Analysis) -> bool:
-        if any(document.problems for document in analysis.documents.values()):
-            return False
         known = self._known.get(analysis.launch, {})
-        requests = await self._requests(workspace, analysis)
+        requests = await self._requests(workspace, analysis, Broken(analysis))
         return any(key not in known or known[key].request != request for key, request in requests.items())

@@ -3,13 +3,16 @@
 A client that sets `"status": true` in the initialisation options gets two notifications of our own:
 
 - `rosPreflight/status`, `{"state": "idle" | "indexing" | "tracing", "done", "total", "notRun": null | {"kind": "off" |
-  "untrusted" | "cancelled" | "sandbox", "message"}}`, whenever one of it changes;
+  "untrusted" | "cancelled" | "sandbox", "message"}, "broken": [URI]}`, whenever one of it changes. `broken` are the
+  files with a syntax error that open files are launched with: what the error touches is not run;
 - `rosPreflight/analysed`, `{}`, when there is something newer to be shown: a tree, a graph.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
+
+from preflight_server.lsp.text_store import to_uri
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -48,10 +51,15 @@ class Status:
         runs = (session.runs for session in self._server.sessions)
         stopped = ({"kind": each.not_run_since, "message": each.why_not_run} for each in runs if each.not_run_since)
         not_run = next(stopped, None)
-        now = {"state": state, "done": done, "total": total, "notRun": not_run}
+        now = {"state": state, "done": done, "total": total, "notRun": not_run, "broken": self._broken()}
         if now != self._told:
             self._told = now
             self._server.protocol.notify(STATUS, now)
+
+    def _broken(self) -> list[str]:
+        analyses = (analysis for session in self._server.sessions for analysis in session.roots())
+        documents = (document for analysis in analyses for document in analysis.documents.values())
+        return sorted({to_uri(document.path) for document in documents if document.problems})
 
     def _analysed(self) -> None:
         if self.wanted:

@@ -75,7 +75,15 @@ function M.refresh_lenses(bufnr)
   end
 end
 
--- What a client's server told of itself last: `state`, `done`, `total`, `notRun`.
+-- The names of the files with a syntax error, for people; nil where there are none.
+function M.broken(status)
+  local names = vim.tbl_map(function(uri)
+    return vim.fn.fnamemodify(vim.uri_to_fname(uri), ':t')
+  end, status.broken or {})
+  return #names > 0 and table.concat(names, ', ') or nil
+end
+
+-- What a client's server told of itself last: `state`, `done`, `total`, `notRun`, `broken`.
 function M.status(client)
   return client and status_of[client.id] or nil
 end

@@ -12,7 +12,7 @@ function M.setup(given)
   end
 end
 
--- For a status line: what the server of the buffer does, or why it runs no nodes; empty when there is nothing to say.
+-- For a status line: what the server of the buffer does, or why it runs no nodes or not all; empty when there is nothing to say.
 function M.status(bufnr)
   local client = require('ros_preflight.client')
   local told = client.status(client.clients(bufnr or vim.api.nvim_get_current_buf())[1])
@@ -22,7 +22,8 @@ function M.status(bufnr)
   if told.state ~= 'idle' then
     return told.total > 0 and ('%s %d of %d'):format(told.state, told.done, told.total) or told.state
   end
-  return told.notRun and 'nodes are not run' or ''
+  local broken = client.broken(told)
+  return told.notRun and 'nodes are not run' or broken and 'syntax error in ' .. broken or ''
 end
 
 return M

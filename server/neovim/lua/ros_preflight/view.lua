@@ -120,6 +120,8 @@ local function header(view)
     say(('Nodes are being run: %d of %d'):format(status.done, status.total), 'Info')
   elseif status.notRun then
     say('Nodes are not run: ' .. status.notRun.message, 'Warning')
+  elseif client.broken(status) then
+    say(('Syntax error in %s: what it touches is not run'):format(client.broken(status)), 'Warning')
   end
   return rows
 end

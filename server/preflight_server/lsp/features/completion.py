@@ -67,7 +67,15 @@ def register(server: PreflightServer) -> None:
         offset = positions.offset(params.position)
         trigger = params.context.trigger_character if params.context else None
         found = await session.in_pool(
-            lambda: query(analysis, launch_file, offset, workspace.sources, workspace.executables, trigger)
+            lambda: query(
+                analysis,
+                launch_file,
+                offset,
+                workspace.sources,
+                workspace.executables,
+                workspace.ahead_of_runs,
+                trigger,
+            )
         )
         if found is None:
             return None
