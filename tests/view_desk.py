@@ -97,15 +97,15 @@ def hostile() -> GraphView:
     """The robot with a hostile text wherever a text can stand."""
     view = robot()
     texts = iter(HOSTILE * 20)
+    nodes = tuple(
+        replace(n, name=next(texts), package=next(texts), executable=next(texts), file=next(texts), reason=next(texts))
+        for n in view.nodes
+    )
     return replace(
         view,
         root=HOSTILE[0],
-        nodes=tuple(
-            replace(
-                n, name=next(texts), package=next(texts), executable=next(texts), file=next(texts), reason=next(texts)
-            )
-            for n in view.nodes
-        ),
+        nodes=nodes,
+        files=tuple(dict.fromkeys(node.file for node in nodes)),
         channels=tuple(replace(c, name=next(texts), types=(next(texts),)) for c in view.channels),
         edges=tuple(
             replace(e, type=next(texts), remapped_from=next(texts), qos={next(texts): next(texts)}) for e in view.edges
@@ -154,4 +154,5 @@ def large(nodes: int, topics: int) -> GraphView:
             for node, topic, out in ends
         ),
         (ViewFinding("TOP003", "error", "types differ", place[0]),),
+        tuple(f"/launch/part_{i}.launch" for i in range(nodes // 30 + 1)),
     )  # fmt: skip

@@ -13,7 +13,7 @@ from preflight_analysis.live.model import (
     LiveNode,
     Observation,
 )
-from preflight_analysis.live.report import line, message
+from preflight_analysis.live.report import line, message, summary
 from preflight_analysis.tracing.interface import Role
 
 STRING = "std_msgs/String"
@@ -68,6 +68,30 @@ def test_a_node_that_died_is_no_node_with_missing_ends() -> None:
     found = compare(Expected(1, (expected,)), dead)
     assert [message(i) for i in found.issues] == ["/a is registered and does not answer: connection refused"]
     assert (found.nodes, found.topics) == ({"/a": "dead"}, {"/x": "dead"})
+
+
+def test_a_node_that_lacks_something_is_not_as_expected() -> None:
+    """What counts is seen at the node, what is for information is not."""
+    lacking = node("/a", end("subscriber", "/x"))
+    doubtful = node("/b", end("subscriber", "/x", certain=False), complete=False)
+    whole = node("/c", end("publisher", "/x"))
+    there = live({"/a": [], "/b": [], "/c": [("publisher", "/x", STRING)]})
+    found = compare(Expected(1, (lacking, doubtful, whole)), there)
+    assert found.nodes == {"/a": "differs", "/b": "present", "/c": "present"}
+    assert summary(found) == "1 difference, 2 nodes as expected"
+
+
+def test_a_lifecycle_node_that_is_not_active_need_not_have_its_ends() -> None:
+    camera = node("/camera", end("publisher", "/image"))
+    seen = replace(live({"/camera": []}, 2), nodes={"/camera": LiveNode("/camera", lifecycle="unconfigured")})
+    assert told([camera], seen) == [
+        "(/camera does not publish /image (std_msgs/String); the lifecycle node is unconfigured)"
+    ]
+    found = compare(Expected(2, (camera,)), seen)
+    assert (found.nodes, found.topics) == ({"/camera": "inactive"}, {"/image": "unsure"})
+    active = replace(seen, nodes={"/camera": LiveNode("/camera", lifecycle="active")})
+    assert told([camera], active) == ["/camera does not publish /image (std_msgs/String)"]
+    assert compare(Expected(2, (camera,)), active).nodes == {"/camera": "differs"}
 
 
 def test_tools_and_infrastructure_do_not_count() -> None:

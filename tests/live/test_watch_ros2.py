@@ -24,6 +24,27 @@ LISTENER = node_of("self.create_subscription(String, 'chatter', print, 10)")
 OTHER = node_of("self.create_publisher(Int32, 'chatter', qos_profile_sensor_data)", "from std_msgs.msg import Int32",
                 "from rclpy.qos import qos_profile_sensor_data")  # fmt: skip
 CALLER = node_of("self.create_client(Trigger, 'talker/reset')", "from std_srvs.srv import Trigger")
+CAMERA = """
+import rclpy
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from std_msgs.msg import String
+
+
+class Camera(LifecycleNode):
+    def __init__(self):
+        super().__init__('camera')
+
+    def on_configure(self, state):
+        self.image = self.create_lifecycle_publisher(String, 'image', 10)
+        return TransitionCallbackReturn.SUCCESS
+
+
+def main():
+    rclpy.init()
+    node = Camera()
+    {then}
+    rclpy.spin(node)
+"""
 LAUNCH = """<launch>
 <node pkg='pkg' exec='talker' name='talker' namespace='robot'/>
 <node pkg='pkg' exec='listener'><remap from='chatter' to='/robot/chatter'/></node>
@@ -34,7 +55,9 @@ class System:
     """Nodes of the package `pkg` in a domain of their own."""
 
     def __init__(self, folder: Path, domain: int) -> None:
-        self.desk = Ros2Desk(folder, talker=TALKER, listener=LISTENER, other=OTHER, caller=CALLER)
+        self.desk = Ros2Desk(
+            folder, talker=TALKER, listener=LISTENER, other=OTHER, caller=CALLER, camera=CAMERA.format(then="pass")
+        )
         self.file = self.desk.write("launch/a.launch.xml", LAUNCH)
         self.environment = {
             **self.desk.variables,
@@ -170,6 +193,27 @@ def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
     system.start("acting")
     watch.until(told("/own offers the action /go (std_msgs/msg/String), which was not expected"))
     assert watch.seen[-1]["actions"] == {"/go": "extra"}
+
+
+def test_a_lifecycle_node_that_is_not_active_is_said_to_be_so(system: System) -> None:
+    file = system.desk.write(
+        "launch/camera.launch.xml", "<launch><node pkg='pkg' exec='camera' name='camera'/></launch>"
+    )
+    watch = Watching(system.environment, file, "--settle", "0")
+    try:
+        camera = system.start("camera")
+        watch.until(told("/camera does not publish /image (std_msgs/msg/String); the lifecycle node is unconfigured"))
+        assert (watch.seen[-1]["same"], watch.seen[-1]["nodes"]) == (True, {"/camera": "inactive"})
+        camera.kill()
+        camera.wait()
+        watch.until_told("/camera is not running")
+        then = "node.trigger_configure(); node.trigger_activate()"
+        system.desk.write("pkg/camera_up.py", CAMERA.format(then=then))
+        system.start("camera_up")
+        active = watch.until_told()
+        assert active["nodes"] == {"/camera": "present"}
+    finally:
+        watch.close()
 
 
 def test_once_waits_until_the_system_is_as_expected(system: System) -> None:

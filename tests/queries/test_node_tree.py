@@ -7,6 +7,7 @@ from pathlib import Path
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.queries.node_tree import Item, node_tree
 from preflight_analysis.workspace.workspace import Analysis
+from python_launch_desk import PythonDesk
 from scene_desk import Stage, lay
 
 ROBOT = """
@@ -115,3 +116,40 @@ def test_what_a_node_was_seen_to_do_is_said_where_it_is_not_all(tmp_path: Path) 
     assert named(items, "/base").note == ""
     unknown = lay(tmp_path / "other", '$0<launch><node pkg="p" type="t" name="n" args="$(env NO_SUCH_ONE)"/></launch>')
     assert node_tree(unknown.scene.analyses[0], {}).items[0].note != ""
+
+
+def test_a_line_of_python_that_includes_twice_has_the_nodes_of_each(tmp_path: Path) -> None:
+    desk = PythonDesk(tmp_path)
+    deep = desk.write("launch/deep.launch.xml", '<launch><node pkg="p" exec="t" name="deep"/></launch>')
+    inner = """
+        <launch>
+          <arg name="ns"/>
+          <node pkg="p" exec="t" name="n" namespace="$(var ns)"/>
+          <include file="$(dirname)/deep.launch.xml" if="$(eval '\\'$(var ns)\\' == \\'b\\'')"/>
+        </launch>
+        """
+    desk.write("launch/inner.launch.xml", inner.strip("\n"))
+    main = desk.write(
+        "launch/main.launch.py",
+        f"""
+        from launch import LaunchDescription
+        from launch.actions import IncludeLaunchDescription
+        from launch_xml.launch_description_sources import XMLLaunchDescriptionSource
+
+        def generate_launch_description():
+            path = "{deep.with_name("inner.launch.xml")}"
+            return LaunchDescription([
+                IncludeLaunchDescription(XMLLaunchDescriptionSource(path), launch_arguments=[("ns", ns)])
+                for ns in ("a", "b", "c")
+            ])
+        """,
+    )
+    analysis = desk.launch(main)
+    assert [node.name for node in analysis.tree.nodes] == ["/a/n", "/b/n", "/deep", "/c/n"]
+    (includes,) = (item for item in node_tree(analysis, {}).items if item.label == "Includes")
+    assert [line.replace(str(tmp_path), "") for line in outline(includes.children)] == [
+        "include /src/p/launch/inner.launch.xml 1 node  ns:=a",
+        "include /src/p/launch/inner.launch.xml 2 nodes  ns:=b",
+        "  include /src/p/launch/deep.launch.xml 1 node",
+        "include /src/p/launch/inner.launch.xml 1 node  ns:=c",
+    ]

@@ -12,7 +12,7 @@ from preflight_analysis.view.labels import columns, label
 from preflight_analysis.view.layout import Box, Layout, lay_out
 from preflight_analysis.view.model import GraphView
 
-EMPTY = GraphView("/empty.launch", 1, (), (), (), ())
+EMPTY = GraphView("/empty.launch", 1, (), (), (), (), ())
 
 
 def overlapping(layout: Layout) -> list[tuple[Box, Box]]:

@@ -86,7 +86,7 @@ def test_json_refers_by_position_and_shows_files_from_the_folder() -> None:
     view = view_desk.robot().without_builtin()
     data = json.loads(json.dumps(view_json(view, lay_out(view), "/")))
     assert data["schema"] == "ros-preflight/view/1"
-    assert [file["shown"] for file in data["files"]] == ["base.launch", "navigation.launch", "robot.launch"]
+    assert [file["shown"] for file in data["files"]] == ["robot.launch", "base.launch", "navigation.launch"]
     assert {box.get("node") for box in data["boxes"]} - {None} == set(range(len(data["nodes"])))
     assert sorted(i for box in data["boxes"] for i in box.get("channels", ())) == list(range(len(data["channels"])))
     assert sorted(i for route in data["routes"] for i in route["edges"]) == list(range(len(data["edges"])))
@@ -108,3 +108,23 @@ def test_a_composable_node_is_told_by_its_plugin() -> None:
         ("/c", "component_container"),
         ("/filter", "p::Filter"),
     ]
+
+
+def test_a_file_has_the_colour_that_it_has_in_the_tree() -> None:
+    """The order of all launch files counts, also of those that start no node themselves."""
+    text = """
+    //- /root.launch
+    <launch><include file="/a.launch"/><include file="/b.launch"/></launch>
+    //- /a.launch
+    <launch><include file="/b.launch" ns="first"/></launch>
+    //- /b.launch
+    <launch><node pkg="p" type="n.py" name="n"/></launch>
+    //- interfaces
+    {"/n": {}, "/first/n": {}}
+    """
+    view = view_desk.view_of(text)
+    assert view.files == ("/root.launch", "/a.launch", "/b.launch")
+    picture = view_json(view, lay_out(view), "/")
+    assert [node["file"] for node in picture["nodes"]] == [2, 2]
+    assert 'class="accent f2"' in picture["svg"]
+    assert 'class="accent f0"' not in picture["svg"]

@@ -14,7 +14,7 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { graphPage, utf16Column } from "./graphPage";
-import type { Live, LiveStates } from "./live";
+import type { Live } from "./live";
 
 const VIEW_TYPE = "rosPreflight.graph";
 
@@ -50,7 +50,7 @@ export class GraphView implements Disposable {
   private known: string | null = null;
   /** The files that the shown graph leads to, and no others are opened for the page. */
   private files: ReadonlySet<string> = new Set();
-  private live: LiveStates = {};
+  private live: Partial<Live> = {};
   private asking = false;
   private again = false;
   private readonly subscriptions: Disposable[];
@@ -122,8 +122,8 @@ export class GraphView implements Disposable {
   }
 
   private postLive(): void {
-    const { nodes, topics, services, actions } = this.live;
-    void this.panel?.webview.postMessage({ type: "live", states: { nodes, topics, services, actions } });
+    const { nodes, topics, services, actions, issues } = this.live;
+    void this.panel?.webview.postMessage({ type: "live", states: { nodes, topics, services, actions, issues } });
   }
 
   private look(uri: string): void {

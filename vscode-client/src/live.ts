@@ -1,5 +1,5 @@
 /** What is the case with a node of the launch, or with one that the launch file does not start, on the running robot. */
-export type LiveState = "present" | "missing" | "extra" | "dead" | "wrong-type" | "unsure";
+export type LiveState = "present" | "missing" | "extra" | "dead" | "wrong-type" | "differs" | "inactive" | "unsure";
 
 /** The states of what has a name, by that. */
 export interface LiveStates {
@@ -17,29 +17,48 @@ export interface Live extends LiveStates {
   /** What is watched. */
   readonly to?: string;
   readonly same?: boolean;
-  readonly issues?: readonly { readonly counts: boolean; readonly message: string }[];
+  readonly issues?: readonly { readonly counts: boolean; readonly message: string; readonly node: string }[];
 }
 
 /** What is shown of the running system. */
 export interface Watched {
   readonly states: ReadonlyMap<string, LiveState>;
+  /** What is not as expected, by node. */
+  readonly issues: ReadonlyMap<string, readonly string[]>;
   /** One line; undefined while nothing is watched. */
   readonly message: string | undefined;
 }
 
-export const UNWATCHED: Watched = { states: new Map(), message: undefined };
+export const UNWATCHED: Watched = { states: new Map(), issues: new Map(), message: undefined };
+
+const STATES: Readonly<Record<LiveState, string>> = {
+  present: "Runs as expected.",
+  missing: "Not running.",
+  extra: "Runs, and is not in the launch file.",
+  dead: "Registered, and does not answer.",
+  "wrong-type": "Runs, with another type than expected.",
+  differs: "Runs, with differences.",
+  inactive: "Runs; the lifecycle node is not active.",
+  unsure: "Not running, which may be right.",
+};
+
+/** What is said of a node on the running robot, a line each; nothing while it is not watched. */
+export function liveLines(name: string, watched: Watched): string[] {
+  const state = watched.states.get(name);
+  return state === undefined ? [] : [`On the running robot: ${STATES[state]}`, ...(watched.issues.get(name) ?? [])];
+}
 
 /** What is shown after one more event; `to` is what the one before told to be watched. */
 export function watched(live: Live, to: string | undefined): Watched {
   switch (live.event) {
     case "stopped":
       // Without a reason it was the user who ended it.
-      return live.reason ? { states: new Map(), message: `Not watched any more: ${live.reason}` } : UNWATCHED;
+      return live.reason ? { ...UNWATCHED, message: `Not watched any more: ${live.reason}` } : UNWATCHED;
     case "waiting":
-      return { states: new Map(), message: `Waiting for the running system: ${live.reason ?? ""}` };
+      return { ...UNWATCHED, message: `Waiting for the running system: ${live.reason ?? ""}` };
     case "attached":
     case "restarted":
-      return { states: new Map(), message: `Watching ${live.to ?? "the running system"}` };
+      return { ...UNWATCHED, message: `Watching ${live.to ?? "the running system"}` };
     case "state": {
       const differences = (live.issues ?? []).filter(({ counts }) => counts);
       const said =
@@ -48,8 +67,17 @@ export function watched(live: Live, to: string | undefined): Watched {
           : `${differences.length} difference${differences.length === 1 ? "" : "s"}. ${differences[0]?.message}`;
       return {
         states: new Map(Object.entries(live.nodes ?? {})),
+        issues: byNode(live.issues ?? []),
         message: `Watching ${to ?? "the running system"}: ${said}`,
       };
     }
   }
+}
+
+function byNode(issues: NonNullable<Live["issues"]>): ReadonlyMap<string, readonly string[]> {
+  const found = new Map<string, string[]>();
+  for (const { node, message } of issues) {
+    found.set(node, [...(found.get(node) ?? []), message]);
+  }
+  return found;
 }

@@ -34,6 +34,9 @@ export function colourOf(file: number | null, live?: LiveState): string | undefi
   if (live === "missing" || live === "dead") {
     return "list.errorForeground";
   }
+  if (live === "wrong-type" || live === "differs") {
+    return "list.warningForeground";
+  }
   return file === null ? undefined : COLOURS[file % COLOURS.length];
 }
 
@@ -43,6 +46,8 @@ const LIVE_ICONS: Readonly<Record<LiveState, string>> = {
   dead: "debug-disconnect",
   extra: "add",
   "wrong-type": "warning",
+  differs: "warning",
+  inactive: "debug-pause",
   unsure: "question",
 };
 

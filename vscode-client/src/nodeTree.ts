@@ -19,7 +19,7 @@ import {
   workspace,
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import { UNWATCHED, type Watched } from "./live";
+import { liveLines, UNWATCHED, type Watched } from "./live";
 import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem, type NodeTree } from "./nodeItems";
 
 const SCHEME = "ros-preflight-node";
@@ -153,7 +153,8 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   }
 
   async resolveTreeItem(made: TreeItem, { item }: Line, token: CancellationToken): Promise<TreeItem> {
-    const lines = [`${item.name || item.label} ${item.detail}`, item.note, this.place(item)];
+    const live = item.kind === "node" ? liveLines(item.name, this.live) : [];
+    const lines = [`${item.name || item.label} ${item.detail}`, ...live, item.note, this.place(item)];
     // Names come from files: nothing in them is Markdown, or they could have an image fetched.
     made.tooltip = new MarkdownString().appendText(lines.filter((line) => line !== "").join("\n"));
     if (item.kind === "node" && item.location !== null && this.client !== undefined) {
@@ -163,7 +164,8 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
         .sendRequest<{ contents: { value?: string } } | null>("textDocument/hover", params, token)
         .catch(() => null);
       if (hover?.contents.value !== undefined) {
-        made.tooltip = new MarkdownString(hover.contents.value);
+        made.tooltip = new MarkdownString().appendText(live.map((line) => `${line}\n`).join(""));
+        made.tooltip.appendMarkdown(live.length > 0 ? "\n\n---\n\n" : "").appendMarkdown(hover.contents.value);
       }
     }
     return made;

@@ -15,7 +15,7 @@ describe("a line of the tree", () => {
 
   it("shows what the running robot does", () => {
     const node = item("node", "talker");
-    const states = [undefined, "present", "missing", "dead", "extra", "wrong-type", "unsure"] as const;
+    const states = [undefined, "present", "missing", "dead", "extra", "wrong-type", "inactive", "unsure"] as const;
     assert.equal(new Set(states.map((live) => iconOf(node, live))).size, states.length);
   });
 

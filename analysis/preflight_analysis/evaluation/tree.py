@@ -163,6 +163,8 @@ class Include:
     origin: Origin
     file_location: Location
     args: Mapping[str, str | None]
+    nodes_before: int = 0
+    """ROS 2: how many nodes came before it. A line of a Python launch file may include several times."""
 
 
 @dataclass(frozen=True, slots=True)

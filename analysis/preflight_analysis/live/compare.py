@@ -101,10 +101,17 @@ def compare(expected: Expected, live: Observation) -> Comparison:
                 owned[node.name].append(node)
     for owner, of_owner in owned.items():
         if states.nodes.get(owner) == "present":
-            issues += _of_ends(owner, of_owner, ends[owner], expected.generation, states)
+            inactive = live.nodes[owner].inactive
+            issues += _of_ends(owner, of_owner, ends[owner], expected.generation, states, inactive)
     issues += _wrong_topics(nodes, live, states) if expected.generation == 1 else ()
+    for name, running in live.nodes.items():
+        if running.inactive is not None and states.nodes.get(name) == "present":
+            states.nodes[name] = "inactive"
     for issue in issues:
-        if issue.kind == "wrong-type" and states.nodes.get(issue.node) == "present":
+        if issue.counts and states.nodes.get(issue.node) in ("present", "inactive"):
+            states.nodes[issue.node] = "differs"
+    for issue in issues:
+        if issue.kind == "wrong-type":
             states.nodes[issue.node] = "wrong-type"
     issues += _extra_nodes(expected, live, set(running_as.values()), states)
     found = (states.nodes, states.topics, states.services, states.actions)
@@ -211,9 +218,15 @@ def _of_loader(ends: Iterable[ExpectedEnd]) -> Iterator[ExpectedEnd]:
 
 
 def _of_ends(
-    owner: str, nodes: Sequence[ExpectedNode], ends: _LiveEnds, generation: int, states: _States
+    owner: str,
+    nodes: Sequence[ExpectedNode],
+    ends: _LiveEnds,
+    generation: int,
+    states: _States,
+    inactive: str | None,
 ) -> Iterator[Issue]:
-    """The ends of a node that runs, and of what it runs for others."""
+    """The ends of a node that runs, and of what it runs for others. `inactive`: the state of a lifecycle node that is
+    not active."""
     left = {key: list(found) for key, found in ends.items() if not is_builtin(generation, *key)}
     wanted: list[tuple[ExpectedNode, ExpectedEnd]] = []
     for node in nodes:
@@ -228,12 +241,13 @@ def _of_ends(
     for node, end in wanted:
         there = [ends.get(key, []) for key in end.parts or ((end.role, end.name),)]
         if not all(there):
-            states.say(end.role, end.name, "missing" if end.certain else "unsure")
+            sure = end.certain and inactive is None
+            states.say(end.role, end.name, "missing" if sure else "unsure")
             if end.on_demand:
                 continue
             missing.append(
                 Issue("missing", end.role, node.name, end.name, expected=end.type, similar=_similar(end, extra),
-                      counts=end.certain, place=end.place, source=end.source)
+                      counts=sure, place=end.place, source=end.source, inactive=inactive)
             )  # fmt: skip
             continue
         issue = _different(node.name, end, there[0], generation)

@@ -27,6 +27,13 @@ class LiveNode:
     name: str
     dead: str | None = None
     count: int = 1
+    lifecycle: str | None = None
+    """The state of a lifecycle node, such as `unconfigured`, where it told it."""
+
+    @property
+    def inactive(self) -> str | None:
+        """The state of a lifecycle node that is not active: it need not have made what it makes when it is."""
+        return self.lifecycle if self.lifecycle != "active" else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +104,9 @@ class Expected:
     complete: bool = True
 
 
-State = Literal["present", "missing", "extra", "dead", "wrong-type", "unsure"]
-"""Of a node, topic, service or action. `unsure`: it is not there, and need not be."""
+State = Literal["present", "missing", "extra", "dead", "wrong-type", "differs", "inactive", "unsure"]
+"""Of a node, topic, service or action. `unsure`: it is not there, and need not be. Of nodes alone: `differs` runs and
+lacks something or has another QoS, `inactive` is a lifecycle node that nothing has activated yet."""
 IssueKind = Literal["missing", "extra", "dead", "twice", "wrong-type", "wrong-qos"]
 
 
@@ -118,6 +126,8 @@ class Issue:
     actual: str | None = None
     similar: str | None = None
     """Of something missing: what is there instead, as it seems."""
+    inactive: str | None = None
+    """The state of the lifecycle node, where it is not active."""
     counts: bool = True
     place: Place | None = None
     source: Place | None = None

@@ -112,7 +112,9 @@ def _observation(told: Mapping[str, Any]) -> Observation:
         for role, node, name, kind, qos in told["ends"]
         if role in _ROLES
     ]
-    return Observation(2, {name: LiveNode(name, count=count) for name, count in counts.items()}, tuple(ends))
+    lifecycle = {str(name): str(state) for name, state in told["lifecycle"].items()}
+    nodes = {name: LiveNode(name, count=count, lifecycle=lifecycle.get(name)) for name, count in counts.items()}
+    return Observation(2, nodes, tuple(ends))
 
 
 def _variables(environment: Environment) -> dict[str, str]:

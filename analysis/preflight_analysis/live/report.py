@@ -36,7 +36,8 @@ def message(issue: Issue) -> str:
         }[issue.kind]
     kind = f" ({known})" if (known := issue.expected or issue.actual) else ""
     if issue.kind == "missing":
-        unsure = "" if issue.counts else "; it may not do so in each case"
+        why = f"the lifecycle node is {issue.inactive}" if issue.inactive else "it may not do so in each case"
+        unsure = "" if issue.counts else f"; {why}"
         instead = f"; it {DOES[issue.what]} {issue.similar}" if issue.similar else unsure
         return f"{node} {_DOES_NOT[issue.what]} {name}{kind}{instead}"
     if issue.kind == "extra":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
@@ -193,24 +192,43 @@ def _value(param: Param) -> str:
 
 def _includes(analysis: Analysis) -> Iterator[Item]:
     tree, folder = analysis.tree, analysis.environment.workspace
-    below: dict[Origin, list[Include]] = {}
-    for include in tree.includes:
-        below.setdefault(include.origin[:-1], []).append(include)
-    started: Counter[Origin] = Counter()
-    for node in tree.nodes:
-        started.update(node.origin[:length] for length in range(1, len(node.origin)))
+    started: dict[Origin, list[int]] = {}
+    for index, node in enumerate(tree.nodes):
+        for length in range(1, len(node.origin)):
+            started.setdefault(node.origin[:length], []).append(index)
+    # Each include comes before what is included in it: of those at one place each has what follows it.
+    top: list[int] = []
+    below: dict[int, list[int]] = {}
+    around: list[int] = []
+    ends: dict[int, int] = {}
+    latest: dict[Origin, int] = {}
+    for at, include in enumerate(tree.includes):
+        if include.origin in latest:
+            ends[latest[include.origin]] = include.nodes_before
+        latest[include.origin] = at
+        while around and not _is_within(include, tree.includes[around[-1]]):
+            around.pop()
+        (below.setdefault(around[-1], []) if around else top).append(at)
+        around.append(at)
 
-    def item(include: Include) -> Item:
-        count = started[include.origin]
+    def item(at: int) -> Item:
+        include = tree.includes[at]
+        found = started.get(include.origin, [])
+        last = bisect_left(found, ends[at]) if at in ends else len(found)
+        count = last - bisect_left(found, include.nodes_before)
         given = " ".join(f"{name}:={value}" for name, value in include.args.items() if value is not None)
         nodes = f"{count} node{'' if count == 1 else 's'}"
         label = shown_path(include.path, folder) if include.path is not None else "a file that is not known"
-        inside = tuple(map(item, below.get(include.origin, ())))
+        inside = tuple(map(item, below.get(at, ())))
         place = include.origin[-1]
         return Item("include", label, f"{nodes}  {given}".rstrip(), location=place, file=include.path, children=inside)
 
     if tree.includes:
-        yield Item("section", "Includes", str(len(tree.includes)), children=tuple(map(item, below.get((), ()))))
+        yield Item("section", "Includes", str(len(tree.includes)), children=tuple(map(item, top)))
+
+
+def _is_within(include: Include, outer: Include) -> bool:
+    return len(include.origin) > len(outer.origin) and include.origin[: len(outer.origin)] == outer.origin
 
 
 # What a condition leaves out

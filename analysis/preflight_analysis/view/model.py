@@ -82,7 +82,8 @@ class ViewEdge:
 
 @dataclass(frozen=True, slots=True)
 class GraphView:
-    """All that a picture of the graph shows. `findings` are those that its parts refer to, by position."""
+    """All that a picture of the graph shows. `findings` are those that its parts refer to, by position; `files` the
+    launch files in the order of the launch tree, by which they are coloured in both."""
 
     root: str
     generation: int
@@ -90,6 +91,7 @@ class GraphView:
     channels: tuple[ViewChannel, ...]
     edges: tuple[ViewEdge, ...]
     findings: tuple[ViewFinding, ...]
+    files: tuple[str, ...]
 
     def severity(self, findings: Iterable[int]) -> Severity | None:
         """The worst of some findings."""
@@ -107,6 +109,7 @@ class GraphView:
             tuple(self.channels[old] for old in kept),
             tuple(replace(edge, channel=moved[edge.channel]) for edge in edges),
             self.findings,
+            self.files,
         )
 
 
@@ -158,7 +161,13 @@ class _Builder:
                 channels.append(ViewChannel(kind, channel.name, channel.types, builtin, channel.external, told))
                 edges += made
         return GraphView(
-            graph.tree.file, graph.tree.generation, tuple(nodes), tuple(channels), tuple(edges), tuple(self._findings)
+            graph.tree.file,
+            graph.tree.generation,
+            tuple(nodes),
+            tuple(channels),
+            tuple(edges),
+            tuple(self._findings),
+            graph.tree.files,
         )
 
     def _node(self, index: int, node: LaunchNode, interface: Interface) -> ViewNode:

@@ -22,8 +22,8 @@ from preflight_analysis.view.layout import (
 from preflight_analysis.view.model import TOWARDS_CHANNEL, GraphView, Kind, ViewChannel, ViewNode
 from preflight_analysis.view.page_parts import part
 
-COLOURS = 8
-"""How many launch files have a colour of their own; the next one begins anew."""
+COLOURS = 6
+"""How many launch files have a colour of their own; the next one begins anew. An editor's tree has as many."""
 _CORNER = 6.0
 _ARROW = 7.0
 _ICONS: dict[Kind, str] = {
@@ -71,7 +71,7 @@ def relative_name(path: str) -> str:
 
 
 def _boxes(view: GraphView, boxes: Sequence[Box]) -> Iterator[str]:
-    colours = {file: i % COLOURS for i, file in enumerate(dict.fromkeys(node.file for node in view.nodes))}
+    colours = {file: i % COLOURS for i, file in enumerate(view.files)}
     lone = _with_one_side(view)
     for i, box in enumerate(boxes):
         place = f'data-box="{i}" transform="translate({box.x:g} {box.y:g})"'
@@ -182,7 +182,10 @@ def _legend(view: GraphView, top: float, base: str | None) -> tuple[str, float]:
     for kind in dict.fromkeys(channel.kind for channel in view.channels):
         parts.append(f'<g class="channel {kind}" transform="translate({x - 9:g} 0)">{_ICONS[kind]}</g>')
         x = _caption(parts, kind, x + 16)
-    for i, file in enumerate(dict.fromkeys(node.file for node in view.nodes)):
+    starting = {node.file for node in view.nodes}
+    for i, file in enumerate(view.files):
+        if file not in starting:
+            continue
         parts.append(f'<rect class="accent f{i % COLOURS}" x="{x:g}" y="4" width="12" height="12" rx="3"/>')
         x = _caption(parts, label(relative(file, base), 48), x + 18)
     for severity in ("error", "warning", "info"):

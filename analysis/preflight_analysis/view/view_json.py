@@ -17,7 +17,7 @@ SCHEMA = "ros-preflight/view/1"
 def view_json(view: GraphView, layout: Layout, base: str | None) -> dict[str, Any]:
     """Everything that the page needs. Files are shown relative to the folder `base`; `state` is for what watches a
     running robot, which knows nodes and channels by their names."""
-    files = files_of(view)
+    files = view.files
     return {
         "schema": SCHEMA,
         "root": view.root,
@@ -94,11 +94,6 @@ def view_json(view: GraphView, layout: Layout, base: str | None) -> dict[str, An
         ],
         "svg": svg(view, layout),
     }
-
-
-def files_of(view: GraphView) -> list[str]:
-    """The launch files that nodes come from, in the order in which those are started."""
-    return list(dict.fromkeys(node.file for node in view.nodes))
 
 
 def _place(place: Place, base: str | None) -> dict[str, Any]:

@@ -24,14 +24,16 @@ LIVE = "rosPreflight/live"
 - `"event": "waiting"`, `"reason"`: the system cannot be asked; it is waited for. States told before hold no longer.
 - `"attached"`, or for another run of the same master `"restarted"`, `"to"`: what is watched, for people.
 - `"state"`, whenever it changes: `"same": bool`, `"nodes"`, `"topics"`, `"services"` and `"actions"`, each
-  `{full name: "present" | "missing" | "extra" | "dead" | "wrong-type" | "unsure"}`, and `"issues"`: `[{"kind":
+  `{full name: "present" | "missing" | "extra" | "dead" | "wrong-type" | "differs" |
+  "inactive" | "unsure"}`, and `"issues"`: `[{"kind":
   "missing" | "extra" | "dead" | "twice" | "wrong-type" | "wrong-qos", "what": "node" | "publisher" | "subscriber" |
   "service" | "client" | "action_server" | "action_client", "node": full name, "name": that of the end | null,
   "expected", "actual", "similar": string | null, "counts": bool, "message": string, "location": Location | null,
   "source": Location | null}]`. What does not count is for information. `location` is the line of the launch file that
   should have made it, `source` that of the node's source. `unsure` is what is not there and need not be; a node
-  is `wrong-type` where one of its ends is. Full names are those of `rosPreflight/tree`, also of nodes that run under
-  another one, as with anonymous names; `"node"` of an issue is the one that it runs under.
+  is `wrong-type` where one of its ends is; it `differs` where it runs and an issue counts, and is `inactive` where it
+  is a lifecycle node that nothing has activated. Full names are those of `rosPreflight/tree`, also of nodes that run
+  under another one, as with anonymous names; `"node"` of an issue is the one that it runs under.
 - `"stopped"`, `"reason": string | null`: nothing is watched any more.
 
 The graph that is compared with is that of the newest analysis: an edit shows in the next state."""

@@ -315,13 +315,13 @@ class _Walk:
         if not file.known:
             self._names[-1] = None
             self._context.cannot_follow(at)
-            state.includes.append(Include(None, origin, at, {}))
+            state.includes.append(Include(None, origin, at, {}, len(state.nodes)))
             state.note_unknown("<include>", "its file is not known", at)
             return
         path = os.path.normpath(os.path.join(state.cwd, file.text))
         path = located(state.environment, without_dots(path) or path)
         shown: dict[str, str | None] = {}
-        include = Include(path, origin, at, shown)
+        include = Include(path, origin, at, shown, len(state.nodes))
         state.includes.append(include)
         state.uses.append(Use("include", at, file.text, path, Location(path, Span(0, 0))))
         if self._too_deep(place, action):

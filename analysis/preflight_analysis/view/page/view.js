@@ -309,6 +309,8 @@
     dead: ["missing", "does not answer on the running robot"],
     extra: ["extra", "there on the running robot, though the launch file does not say so"],
     "wrong-type": ["wrong", "of another type on the running robot"],
+    differs: ["wrong", "not as expected on the running robot"],
+    inactive: ["normal", "a lifecycle node that is not active on the running robot"],
   };
 
   const liveOf = (part) =>
@@ -331,7 +333,13 @@
     element("live").textContent = `Running robot: ${gone === 0 && extra.length === 0 ? "all nodes are there" : ""}${gone > 0 ? `${gone} of ${states.length - extra.length} nodes not there` : ""}${gone > 0 && extra.length > 0 ? ", " : ""}${extra.length > 0 ? `also there: ${extra.map(([name]) => name).slice(0, 5).join(", ")}${extra.length > 5 ? ", …" : ""}` : ""}`;
   }
 
-  const liveShown = (part) => (LIVE[liveOf(part)] ? [make("p", { className: "live" }, LIVE[liveOf(part)][1])] : []);
+  function liveShown(part) {
+    const state = LIVE[liveOf(part)];
+    const name = part.dataset.node !== undefined ? graph.nodes[part.dataset.node].name : undefined;
+    const issues = (live.issues ?? []).filter((issue) => issue.node === name);
+    const lines = state ? [state[1], ...issues.map((issue) => issue.message)] : [];
+    return lines.map((line) => make("p", { className: "live" }, line));
+  }
 
   // What hangs on what, for hover and details
 
@@ -684,7 +692,12 @@
     if (graph.edges.some((edge) => edge.uncertain)) {
       row('<g class="route topic uncertain"><path class="line" d="M2 10h18"/></g>', "not sure");
     }
-    graph.files.slice(0, 8).forEach((file, i) => row(`<rect class="accent f${i}" x="6" y="4" width="12" height="12" rx="3"/>`, file.shown));
+    const starting = new Set(graph.nodes.map((node) => node.file));
+    graph.files.forEach((file, i) => {
+      if (starting.has(i)) {
+        row(`<rect class="accent f${i % 6}" x="6" y="4" width="12" height="12" rx="3"/>`, file.shown);
+      }
+    });
     element("legend").replaceChildren(...rows);
   }
 
