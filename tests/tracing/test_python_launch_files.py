@@ -490,3 +490,39 @@ def test_helpers_of_the_project_may_use_an_argument(desk: PythonDesk) -> None:
     analysis = desk.launch(path)
     assert [node.name for node in analysis.tree.nodes] == ["/n"]
     assert "ARG008" not in {f.rule for f in analysis.findings}
+
+
+def test_a_parameter_that_is_set_again(desk: PythonDesk) -> None:
+    """Which value counts is what real rclpy has: `tests/evaluation/test_params_against_rclpy.py`."""
+    desk.write("config/a.yaml", "a:\n  ros__parameters: {rate: 2.0, frame: map}\n")
+    file = "PathJoinSubstitution([FindPackageShare('p'), 'config', 'a.yaml'])"
+    before = "common = {'rate': 5.0}\ndef of_library():\n    return {'rate': 6.0}\n"
+    sources = (
+        f"[{{'rate': 7.0}}, {file}]",
+        "[{'name': 'one', 'value': 1}, {'name': 'two', 'value': 1}, {'name': 'three', 'value': 2}]",
+        "[Parameter('rate', 1.0), {'rate': 2.0}]",
+        f"[common, {file}]",
+        # What is there to be overridden, and what is the same.
+        f"[{file}, {{'rate': 7.0}}]",
+        "[common, {'rate': 1.0}]",
+        f"[of_library(), {file}]",
+        f"[{{'rate': 2.0}}, {file}]",
+    )
+    nodes = [f"Node(package='p', executable='x', name='a', namespace='', parameters={each})" for each in sources]
+    path = _described(desk, *nodes, before="from launch_ros.parameter_descriptions import Parameter\n" + before)
+    analysis = desk.launch(path)
+    found = []
+    for finding in analysis.findings:
+        if finding.rule == "PRM006":
+            text, at = analysis.documents[finding.location.file].text, finding.location.span.start
+            value = finding.message.partition(" here")[0].rpartition("set to ")[2]
+            found.append((text[at : text.index("\n", at)].partition("}")[0], finding.severity, value))
+    assert found == [
+        ("rate': 5.0", "info", "'5.0'"),
+        ("rate': 7.0", "warning", "'7.0'"),
+        ("name': 'one', 'value': 1", "warning", "'one'"),
+        ("value': 1", "warning", "'1'"),
+        ("name': 'two', 'value': 1", "warning", "'two'"),
+        ("value': 1", "warning", "'1'"),
+        ("rate', 1.0), {'rate': 2.0", "warning", "'1.0'"),
+    ]

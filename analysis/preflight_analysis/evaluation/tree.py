@@ -97,13 +97,15 @@ class ParamSource(NamedTuple):
     """What gives parameters to a ROS 2 node: a file, or values in the launch file (`path` None). `params` are those
     that reach the node, their names as it declares them (`a.b`). `keys` are those that they stand below, as written
     (`/robot/camera`, `/**`); values of the launch file have the one that launch gives them. `substituted`: the file's
-    substitutions are made before the node gets it, so that its text tells no more than what stands in it plainly."""
+    substitutions are made before the node gets it, so that its text tells no more than what stands in it plainly.
+    `pushed`: it is for each node of a scope (`<set_parameter>`), not for this one."""
 
     path: str | None
     params: tuple[Param, ...]
     origin: Origin
     keys: tuple[str, ...] = ()
     substituted: bool = False
+    pushed: bool = False
 
 
 class LaunchNode(NamedTuple):

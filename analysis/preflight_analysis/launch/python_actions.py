@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, ActionAttribute, Literal, Substitution, Typed, Value
@@ -59,18 +59,39 @@ def actions_of(records: object, source: PythonSource, around: Span) -> tuple[Act
     return _Reader(source).actions(records, around, None, 0)
 
 
+class _Parent(NamedTuple):
+    """The call in whose arguments an action without a call of its own stands, and in which part of them, if that is
+    known: of several dictionaries in a list, each has its own keys."""
+
+    call: ast.Call
+    part: ast.expr | None = None
+
+
 class _Reader:
     def __init__(self, source: PythonSource) -> None:
         self._source = source
         self._keys: dict[int, dict[str, tuple[ast.expr, ast.expr | None]]] = {}
         """What `_pairs` says of an argument, by the keys: looked through once, for all its children."""
 
-    def actions(self, records: object, around: Span, parent: ast.Call | None, depth: int) -> tuple[Action, ...]:
+    def actions(self, records: object, around: Span, parent: _Parent | None, depth: int) -> tuple[Action, ...]:
         if not isinstance(records, list) or depth > MAX_DEPTH:
             return ()
-        return tuple(self._action(r, around, parent, depth) for r in records if _is_action(r))
+        found = [record for record in records if _is_action(record)]
+        parts = self._parameter_parts(found, parent)
+        return tuple(self._action(r, around, parts.get(id(r), parent), depth) for r in found)
 
-    def _action(self, record: dict[str, Any], around: Span, parent: ast.Call | None, depth: int) -> Action:
+    def _parameter_parts(self, records: list[dict[str, Any]], parent: _Parent | None) -> dict[int, _Parent]:
+        """Which item of `parameters=[...]` each dictionary or file is, where the list is written out."""
+        given = _arguments(parent.call, None).get("parameters") if parent is not None and parent.part is None else None
+        if parent is None or given is None:
+            return {}
+        told = [record for record in records if _KEYWORDS.get(record["k"]) == "parameters"]
+        items = self._source.resolved(given)
+        if not isinstance(items, (ast.List, ast.Tuple)) or len(items.elts) != len(told):
+            return {}
+        return {id(r): _Parent(parent.call, item) for r, item in zip(told, items.elts, strict=True)}
+
+    def _action(self, record: dict[str, Any], around: Span, parent: _Parent | None, depth: int) -> Action:
         kind, source = record["k"], self._source
         line, column = _place(record.get("p"))
         call = source.call(line, column, str(record.get("n"))) if line else None
@@ -94,7 +115,7 @@ class _Reader:
         if kind == "opaque" and isinstance(number, int):
             attributes.append(self._text("id", str(number), kind_span))
             attributes.append(self._text("class", str(record.get("n")), kind_span))
-        inside = call if call is not None else parent
+        inside = _Parent(call) if call is not None else parent
         children = self.actions(record.get("c"), kind_span, inside, depth + 1)
         return Action(kind, kind_span, tuple(attributes), children, (), _literal("", kind_span), head, span)
 
@@ -149,18 +170,17 @@ class _Reader:
         text = f"$({command} {arguments})" if words else f"$({command})"
         return Substitution(command, span, arguments, inside, text, span, words)
 
-    def _part_span(self, kind: str, record: dict[str, Any], parent: ast.Call | None) -> Span | None:
+    def _part_span(self, kind: str, record: dict[str, Any], parent: _Parent | None) -> Span | None:
         """Of a child that is no object: its pair in the parent's argument, or that argument."""
         node = self._pair_node(kind, record, None, parent) if parent is not None else None
         return self._source.span(node) if node is not None else None
 
     def _pair_node(
-        self, kind: str, record: dict[str, Any], attribute: str | None, parent: ast.Call | None
+        self, kind: str, record: dict[str, Any], attribute: str | None, parent: _Parent | None
     ) -> ast.expr | None:
         if parent is None:
             return None
-        given = _arguments(parent, None)
-        whole = given.get(_KEYWORDS.get(kind, kind))
+        whole = parent.part or _arguments(parent.call, None).get(_KEYWORDS.get(kind, kind))
         if whole is None:
             return None
         told = record.get("a")

@@ -8,7 +8,7 @@ from itertools import takewhile
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
 from preflight_analysis.findings.finding import Finding, Related, Severity
 from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -81,8 +81,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     """What files say is there to be overridden by later sources, and what is for every node by what is for one. Told is
-    a `<param>` that does not count, and what loses against this usual order."""
-    tags = Tags(context.launch_files)
+    a value in the node's own tag or call that does not count, and what loses against this usual order."""
     told: set[tuple[Location, Location]] = set()
     for node in context.tree.nodes:
         lost_values = [(param, old) for param in node.params for old in param.overrides if _differ(old, param)]
@@ -91,8 +90,7 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
         by_place = _settings(node, {param.name for param, _ in lost_values})
         for param, old in lost_values:
             counts, lost = by_place[_place(param)], by_place[_place(old)]
-            tag = tags.at(old.origin[-1])
-            why = _why_lost(lost, counts, own=tag is not None and _is_own(tag))
+            why = _why_lost(lost, counts, own=_is_own(lost, counts, node, context))
             at = lost.place, counts.place
             if why is None or at in told:
                 continue
@@ -101,6 +99,7 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {why}, "
                 f"to {_shown(param.value)}",
                 lost.place,
+                severity="info" if lost.of_launch_file and not _is_inside(lost.place, node) else None,
                 related=(Related("the one that counts", counts.place), *include_chain(old.origin)),
             )
 
@@ -110,14 +109,25 @@ class _Ros2Setting:
     """A value that a node of ROS 2 gets: of its `index`th source, below that key."""
 
     index: int
-    path: str | None
+    name: str
+    source: ParamSource
     key: str
     place: Location
+
+    @property
+    def path(self) -> str | None:
+        """The file that it stands in, unless that is the launch file."""
+        return self.source.path
+
+    @property
+    def of_launch_file(self) -> bool:
+        """Whether it is a value that the launch file has for the node."""
+        return self.path is None and not self.source.pushed
 
 
 def _settings(node: LaunchNode, wanted: set[str]) -> dict[tuple[str, Location], _Ros2Setting]:
     return {
-        _place(param): _Ros2Setting(index, source.path, key, _place(param)[1])
+        _place(param): _Ros2Setting(index, param.name, source, key, _place(param)[1])
         for index, source in enumerate(node.param_sources)
         for key, param in zip(source.keys, source.params, strict=True)
         if param.name in wanted
@@ -147,9 +157,22 @@ def _why_lost(lost: _Ros2Setting, counts: _Ros2Setting, *, own: bool) -> str | N
     return f"{by} counts more than '{lost.key}', which was met still earlier, and sets it"
 
 
-def _is_own(tag: Tag) -> bool:
-    """Whether it is a `<param>` in the tag of a node: what a `<set_parameter>` says is there to be overridden."""
-    return tag.action.kind == "param" and not tag.action.value("from")
+def _is_own(lost: _Ros2Setting, counts: _Ros2Setting, node: LaunchNode, context: Context) -> bool:
+    """Whether the value is meant to count: what a `<set_parameter>` says is there to be overridden, and so is by
+    another dictionary what a Python launch file keeps in a variable for several nodes, or takes from a function."""
+    if not lost.of_launch_file:
+        return False
+    document = context.documents.get(lost.place.file)
+    written = document.text[lost.place.span.start : lost.place.span.end] if document is not None else ""
+    if not written or ("$" not in written and not lost.name.endswith(written)):
+        return False
+    return _is_inside(lost.place, node) or counts.path is not None
+
+
+def _is_inside(place: Location, node: LaunchNode) -> bool:
+    """Whether it stands in the tag or the call that starts the node."""
+    around = node.action.span
+    return place.file == node.origin[-1].file and around.start <= place.span.start and place.span.end <= around.end
 
 
 def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -231,8 +254,8 @@ RULE = Rule(
     "missed: twice in one tag or file, before an include or a file that sets it again, in a `<rosparam>` of a node "
     "that has a `<param>` of the name, or as a key that stands twice in one YAML dictionary. A parameter file that is "
     "overridden is what such files are for; of it nothing is said, nor of included files, nor of tags under a "
-    "condition. In ROS 2 it is a `<param>` of a node before another one or a file of it that sets the same, and "
-    "a value for the node's own name that a wildcard after it in the file replaces.",
+    "condition. In ROS 2 it is a `<param>` of a node, or a dictionary in `parameters=[...]`, before another one or a "
+    "file that sets the same, and a value for the node's own name that a wildcard after it in the file replaces.",
     why="Whoever reads or changes the value that does not count sees no effect. Of several settings the last one "
     "counts, and neither launcher says anything; but in a `<node>` of ROS 1 each `<param>` comes after each "
     '`<rosparam>`, and a `<param name="~...">` around the node after those too. In ROS 2 the client library gathers '

@@ -136,7 +136,8 @@ def _item(performer: Performer, item: Any, type_name: str | None) -> Any:
 def pushed_source(performer: Performer, param: PushedParam, to: Sources) -> ParamSource | None:
     """What `<set_parameter>` or `<set_parameters_from_file>` give to a node."""
     if param.name is not None:
-        return ParamSource(None, (Param(param.name, param.value, param.origin, to.owner),), param.origin, (EVERY,))
+        value = Param(param.name, param.value, param.origin, to.owner)
+        return ParamSource(None, (value,), param.origin, (EVERY,), pushed=True)
     path = os.path.join(performer.state.cwd, str(param.value))
     return file_source(performer, path, param.origin, to, must_exist=True)
 
