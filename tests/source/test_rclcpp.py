@@ -549,6 +549,29 @@ def test_descriptors_of_parameters(desk: Desk) -> None:
     }
 
 
+@pytest.mark.parametrize(
+    ("option", "dynamic"),
+    [("automatically_declare_parameters_from_overrides", True), ("allow_undeclared_parameters", False)],
+)
+def test_parameters_that_are_declared_from_overrides_have_their_type(desk: Desk, option: str, dynamic: bool) -> None:
+    body = """
+    class Own : public rclcpp::Node {
+    public:
+      explicit Own(const rclcpp::NodeOptions & options) : Node("own", options) {
+        if (!has_parameter("rate")) { declare_parameter("rate", 10.0); }
+      }
+    };
+    int main() {
+      rclcpp::NodeOptions options;
+      options.%s(true);
+      rclcpp::spin(std::make_shared<Own>(options));
+    }
+    """
+    found = desk.read(body % option)
+    assert {use.name: use.dynamic for use in found.params if use.access == "get"} == {"~rate": dynamic}
+    assert "list" in {use.access for use in found.params}
+
+
 def test_parameters_of_a_node_with_unknown_arguments_may_be_those_of_the_launch_file(tmp_path: Path) -> None:
     body = """
     class Own : public rclcpp::Node {

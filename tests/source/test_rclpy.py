@@ -74,12 +74,12 @@ MANIFEST = "<package><name>robot</name><export><build_type>ament_python</build_t
 SETUP = "from setuptools import setup\nsetup(entry_points={'console_scripts': ['driver = robot.driver:main']})\n"
 
 
-def interface(tmp_path: Path, launch: str = LAUNCH) -> Interface:
+def interface(tmp_path: Path, launch: str = LAUNCH, base: str = BASE) -> Interface:
     files = {
         "package.xml": MANIFEST,
         "setup.py": SETUP,
         "robot/__init__.py": "",
-        "robot/base.py": BASE,
+        "robot/base.py": base,
         "robot/driver.py": NODE,
         "launch/robot.launch.xml": launch,
     }
@@ -133,3 +133,13 @@ def test_what_the_launch_file_sets_decides(tmp_path: Path) -> None:
     found = interface(tmp_path, LAUNCH.replace('name="cmd_topic" value="drive"', 'name="service" value="false"'))
     assert not any(e.role == "service" for e in found.endpoints)
     assert any(e.name == "cmd_vel" for e in found.endpoints)
+
+
+def test_parameters_that_are_declared_from_overrides_have_their_type(tmp_path: Path) -> None:
+    for option, dynamic in (
+        ("automatically_declare_parameters_from_overrides", True),
+        ("allow_undeclared_parameters", False),
+    ):
+        found = interface(tmp_path, base=BASE.replace("__init__(name)", f"__init__(name, {option}=True)"))
+        assert {use.dynamic for use in found.params if use.name in ("~service", "~gain", "~cmd_topic")} == {dynamic}
+        assert "list" in {use.access for use in found.params}

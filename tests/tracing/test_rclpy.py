@@ -195,6 +195,24 @@ def test_undeclared_parameters_are_no_mistake_where_the_node_takes_any(tmp_path:
     assert "PRM013" in {finding.rule for finding in desk.check(launch.format("none")).findings}
 
 
+@pytest.mark.parametrize(("option", "rules"), [(True, set()), (False, {"PRM014", "TRC001"})])
+def test_a_parameter_that_is_declared_from_overrides_has_any_type(
+    tmp_path: Path, option: bool, rules: set[str]
+) -> None:
+    body = """
+    for name, default in (('rate', 10), ('gain', 1.0)):
+        try:
+            self.declare_parameter(name, default)
+        except ParameterAlreadyDeclaredException:
+            pass
+    """
+    text = node_of(body, "from rclpy.exceptions import ParameterAlreadyDeclaredException").replace(
+        "__init__('own')", f"__init__('own', automatically_declare_parameters_from_overrides={option})"
+    )
+    launch = "<node pkg='pkg' exec='talker' name='n'><param name='rate' value='30.0'/></node>"
+    assert {finding.rule for finding in Ros2Desk(tmp_path, talker=text).check(launch).findings} == rules
+
+
 def test_what_a_node_waits_for_is_told_and_what_comes_after_is_speculative(tmp_path: Path) -> None:
     body = """
     self.create_publisher(String, 'before', 1)

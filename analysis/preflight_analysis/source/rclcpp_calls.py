@@ -136,7 +136,8 @@ _VALUE_OF = re.compile(r"as_\w+\Z|get\Z|get_value\Z")
 _ADD_ARGUMENT = "replaceOrAddArgument"
 """Of nav2_util and nav2_ros_common: the arguments of a node in the node's process."""
 _ITSELF = frozenset({"shared_from_this", "weak_from_this"})
-_ALL = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
+_OVERRIDES = "automatically_declare_parameters_from_overrides"
+_ALL = ("allow_undeclared_parameters", _OVERRIDES)
 _ARGUMENT = re.compile(r"(?:\w+:)?__(ns|node|name):=(.*)\Z")
 
 
@@ -149,6 +150,8 @@ class NodeObject:
     below: str = ""
     """The namespace of a sub-node."""
     has_lifecycle: bool = False
+    from_overrides: bool = False
+    """Whether it declares what the launch sets before its own code does: with any type."""
 
     def name(self, name: Any) -> Any:
         """The name as the node of the launch file would give it."""
@@ -171,6 +174,7 @@ class _Options(Fluent):
     """`rclcpp::NodeOptions`: whether the node takes any parameter, and the arguments that it gets of its own."""
 
     takes_all: bool = False
+    from_overrides: bool = False
     arguments: tuple[Any, ...] = ()
     of_process: bool = True
     """Whether the node takes the arguments of its process, too."""
@@ -328,6 +332,7 @@ class RclcppCalls:
     def _new_node(self, given: Sequence[Any], place: Place, *, has_lifecycle: bool) -> NodeObject:
         options = next((v for v in given if isinstance(v, _Options)), _Options())
         node = self._named_node(given, options, has_lifecycle=has_lifecycle)
+        node = replace(node, from_overrides=options.from_overrides)
         if not self._is_aside:
             self._make_node(given, options, node)
         for service, kind in _LIFECYCLE if has_lifecycle and not self._is_aside else ():
@@ -621,6 +626,8 @@ class RclcppCalls:
             source_file=place.file,
             source_line=place.line,
         )
+        if node.from_overrides:
+            use = replace(use, dynamic=True)
         if self._is_aside:
             self._not_reached.append(use)
             return UNKNOWN
@@ -823,7 +830,12 @@ def _changed(options: _Options, name: str, args: Sequence[Argument]) -> Any:
     if not args:
         return UNKNOWN
     if name in _ALL:
-        return replace(options, takes_all=options.takes_all or first is not False)
+        given, is_of_overrides = first is not False, name == _OVERRIDES
+        return replace(
+            options,
+            takes_all=options.takes_all or given,
+            from_overrides=given if is_of_overrides else options.from_overrides,
+        )
     if name == "arguments":
         given = tuple(first) if isinstance(first, list) else (UNKNOWN,)
         return replace(options, arguments=given)

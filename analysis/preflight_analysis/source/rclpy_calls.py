@@ -41,6 +41,7 @@ _FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
 }
 _LIBRARIES = frozenset({"rclpy", "tf2_ros", "message_filters"})
 _NODES = ("rclpy.Node", "rclpy.LifecycleNode")
+_OVERRIDES = "automatically_declare_parameters_from_overrides"
 _MAKES_NODES = re.compile(r"(?:Node|Navigator|Commander|MoveItPy)(?:\.__init__)?\Z")
 """Classes of libraries that are nodes, or have one."""
 
@@ -78,6 +79,7 @@ class RclpyCalls:
         self._argv = list(argv)
         self._params = params
         self._defaults: dict[str, Any] = {}
+        self._from_overrides = False
         self.found = Found()
 
     def begin(self, ways: Ways) -> None:
@@ -139,8 +141,8 @@ class RclpyCalls:
         if method in ("get_parameter", "get_parameter_or", "has_parameter"):
             return self._read(given(0, "name"), method, given(1, "alternative_value"))
         if method == "__init__" or name in ("rclpy.create_node", "rclpy.Node", "rclpy.LifecycleNode"):
-            options = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
-            if any(kwargs.get(option, False) is not False for option in options):
+            self._from_overrides = self._from_overrides or kwargs.get(_OVERRIDES, False) is not False
+            if any(kwargs.get(option, False) is not False for option in ("allow_undeclared_parameters", _OVERRIDES)):
                 self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
             if name.startswith("rclpy.create") or _plain(path.removesuffix(".__init__")) in _NODES:
                 self._make_node(given(0, "node_name"), kwargs)
@@ -170,7 +172,9 @@ class RclpyCalls:
         has_default = default is not UNKNOWN and default is not None and bare is None
         known = default if has_default and is_plain(default) else None
         use = ParamUse(f"~{name}", "get", known, has_default, False, file, line, type=bare)
-        self.found.use(_described(use, descriptor))
+        described = _described(use, descriptor)
+        # What the launch sets is declared by then, with its type.
+        self.found.use(replace(described, dynamic=True) if self._from_overrides else described)
         self._defaults[name] = default if has_default else UNKNOWN
         return _parameter(self._value(name))
 

@@ -13,6 +13,7 @@ import os
 import sys
 import threading
 import time
+import weakref
 from types import FrameType, ModuleType
 from typing import Any, Callable, Optional
 
@@ -27,6 +28,9 @@ _FOREVER = 9_000_000_000
 """Seconds: the "infinite" durations of rmw are longer."""
 
 _nodes: list[Any] = []
+_OVERRIDES = "automatically_declare_parameters_from_overrides"
+_from_overrides: Any = weakref.WeakValueDictionary()
+"""The nodes, by their `id`, that declare what the launch sets before their own code does: with any type."""
 _there: set[str] = set()
 _turns: set[Any] = set()
 _polls: dict[Any, int] = {}
@@ -217,9 +221,9 @@ def _default(value: Any) -> tuple[Any, bool]:
     return (plain if len(json.dumps(plain)) < _MAX_DEFAULT else None), True
 
 
-def _described(given: Any, descriptor: Any) -> dict[str, Any]:
+def _described(given: Any, descriptor: Any, *, of_any_type: bool) -> dict[str, Any]:
     """The type that a parameter is declared with, by its default or as such, and what its descriptor allows."""
-    if given is None or getattr(descriptor, "dynamic_typing", False) is True:
+    if given is None or of_any_type or getattr(descriptor, "dynamic_typing", False) is True:
         return {"dynamic": True, "read_only": bool(getattr(descriptor, "read_only", False))}
     kinds = sys.modules["rclpy.parameter"].Parameter.Type  # of those that rclpy.node imports
     kind = given if isinstance(given, kinds) else kinds.from_parameter_value(given)
@@ -236,6 +240,7 @@ def _described(given: Any, descriptor: Any) -> dict[str, Any]:
 @_quiet
 def _tell_params(arguments: dict[str, Any]) -> None:
     file, line, internal = _caller()
+    of_any_type = _from_overrides.get(id(arguments.get("self"))) is not None
     namespace = arguments.get("namespace")
     prefix = f"{namespace}." if namespace else ""
     for each in arguments.get("parameters") or ():
@@ -249,7 +254,7 @@ def _tell_params(arguments: dict[str, Any]) -> None:
             default=default,
             has_default=has_default and not internal,
             optional=True,
-            **_described(given, described[2] if len(described) > 2 else None),
+            **_described(given, described[2] if len(described) > 2 else None, of_any_type=of_any_type),
             file=None if internal else file,
             line=None if internal else line,
             builtin=internal,
@@ -282,12 +287,18 @@ def _constructed(original: Callable[..., Any]) -> Callable[..., Any]:
             space=str(arguments.get("namespace") or ""),
             renamed=name == os.environ.get(EXPECTED, "").rpartition("/")[2],
         )
-        options = ("allow_undeclared_parameters", "automatically_declare_parameters_from_overrides")
-        if any(arguments.get(option) for option in options):
+        if any(arguments.get(option) for option in ("allow_undeclared_parameters", _OVERRIDES)):
             channel.send("param", access="list", name="/", optional=True)
         channel.send("state", state="init")
 
+    @_quiet
+    def begin(args: Any, kwargs: Any) -> None:
+        arguments = _bound(original, args, kwargs)
+        if arguments.get(_OVERRIDES):
+            _from_overrides[id(arguments["self"])] = arguments["self"]
+
     def made(*args: Any, **kwargs: Any) -> None:
+        begin(args, kwargs)
         original(*args, **kwargs)
         arguments = _bound(original, args, kwargs)
         tell(arguments["self"], arguments)
