@@ -119,6 +119,21 @@ def test_values_of_parameter_files(tmp_path: Path) -> None:
             assert (("PRM016", kind) in said) == (answer == "refused"), (text, kind, answer, said)
 
 
+def test_simulated_time(tmp_path: Path) -> None:
+    """Each node declares it, as a bool, before it is there."""
+    start = "import rclpy\nrclpy.init()\nrclpy.create_node('n')\n"
+    for text in ("true", "off", '"true"', "yes please", "1", "[true]"):
+        path = tmp_path / "v.yaml"
+        path.write_text(f"/**:\n  ros__parameters:\n    use_sim_time: {text}\n")
+        command = [ros2_prefix() / "bin" / "python", "-c", start, "--ros-args", "--params-file", path]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0 or "InvalidParameterTypeException" in done.stderr
+        launch = '<launch><node pkg="p" exec="e" name="n"><param from="/v.yaml"/></node></launch>'
+        fixture = f"//- /a.launch.xml\n{launch}\n//- /v.yaml\n{path.read_text()}//- interfaces\n{{}}"
+        said = {finding.rule for finding in run_rules(analyse(read_fixture(fixture)))}
+        assert ("PRM014" in said) == (done.returncode != 0), text
+
+
 def test_values_of_launch_files(tmp_path: Path) -> None:
     """launch writes what it reads with PyYAML into a file for rcl."""
     cases: list[tuple[str, Any]] = []

@@ -511,6 +511,44 @@ def test_a_parameter_of_another_type_than_it_arrives_with() -> None:
     """)
 
 
+def test_simulated_time_that_is_no_bool() -> None:
+    """As real rclpy has it: `tests/evaluation/test_types_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - set_parameter: {name: use_sim_time, value: "'true'"}
+            ^^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is a string, and /a declares it as a bool: the node stops when it declares it (InvalidParameterTypeException); write it without quotes
+          - node: {pkg: p, exec: a, name: a}
+          - node: {pkg: p, exec: b, name: b}
+          - node:
+              pkg: p
+              exec: c
+              name: c
+              param:
+                - {name: use_sim_time, value: 1}
+                         ^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is an integer, and /c declares it as a bool
+          - node:
+              pkg: p
+              exec: d
+              name: d
+              param:
+                - {from: /d.yaml}
+          - node:
+              pkg: p
+              exec: e
+              name: e
+              param:
+                - {name: use_sim_time, value: false}
+        //- /d.yaml
+        d:
+          ros__parameters:
+            use_sim_time: yes please
+            ^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is a string, and /d declares it as a bool
+        //- interfaces
+        {"/a": {}}
+    """)  # noqa: E501
+
+
 def test_a_parameter_out_of_its_range() -> None:
     check("""
         //- /robot.launch.xml

@@ -20,6 +20,8 @@ _NAMES = {
     "string": "a string",
     "byte array": "bytes (which an empty list means)",
 }
+_OF_ALL_NODES = {"use_sim_time": ParamUse("~use_sim_time", "get", False, has_default=True, builtin=True)}
+"""What the client libraries declare for each node, whatever is known of it."""
 _ENDS = "the node stops when it declares it (InvalidParameterTypeException)"
 
 
@@ -29,7 +31,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
         if not node.params:
             continue
-        declared = {u.name.removeprefix("~"): u for u in interface.params if u.access == "get" and not u.dynamic}
+        uses = {u.name.removeprefix("~"): u for u in interface.params if u.access == "get"}
+        known = {**_OF_ALL_NODES, **uses} if node.kind != "process" else uses
+        declared = {name: use for name, use in known.items() if not use.dynamic}
         for param in node.params:
             use = declared.get(param.name)
             wanted = _declared_type(use, interface) if use is not None else None
@@ -38,9 +42,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             place, files = name_place(param), {s.path for s in node.param_sources}
             passed = param.value if place.file in files or node.container else as_passed(param.value)
             message = _wrong(param, passed, wanted, node)
-            if message is None or (place, message) in told:
-                continue
-            told.add((place, message))
+            if message is None or (place, wanted) in told:
+                continue  # what is written once for several nodes is wrong for each
+            told.add((place, wanted))
             yield rule.finding(
                 message,
                 place,
@@ -119,7 +123,8 @@ RULE = Rule(
     what="Reports a parameter that arrives at its node with another type than the one that the node declares it with "
     "(ROS 2). An integer is no double, and a list without items has no type at all. A text of the launch file may "
     "arrive as something else: launch hands it over in a YAML file and puts it in quotes where Python's YAML needs "
-    "them, while rcl also takes `y`, `n` and `1e3` for values.",
+    "them, while rcl also takes `y`, `n` and `1e3` for values. "
+    "`use_sim_time` is declared by each node, as a bool.",
     why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes end by it.",
     example='<!-- declare_parameter("rate", 10.0) -->\n<param name="rate" value="5"/>',
     instead='<param name="rate" value="5.0"/>',
