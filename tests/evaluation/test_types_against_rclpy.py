@@ -44,7 +44,17 @@ LAUNCH = [
         ("1", "str"),
     ),
     *(("1e3", "str"), ("y", "str"), ("on", "str"), ("5", "float"), ("1", "bool"), ("[1, 2]", ""), ("[1.0, 2.0]", "")),
-    *(("[a, b]", ""), ("['1', '2']", ""), ("08", ""), ("inf", ""), ("12:30:00", "str"), ("1_000", ""), ("n", "")),
+    *(
+        ("[a, b]", ""),
+        ("[x, y, z]", ""),
+        ("[a, 'on']", ""),
+        ("['1', '2']", ""),
+        ("08", ""),
+        ("inf", ""),
+        ("12:30:00", "str"),
+        ("1_000", ""),
+        ("n", ""),
+    ),
 ]
 """Values and types of a `<param>`."""
 PYTHON: list[Any] = [True, 1, 1.0, 1e16, "y", "1e3", "on", "", "5", "null", "a b", ["a", "b"], ["a", "y"], [1.0, 2.0]]
@@ -153,6 +163,7 @@ def test_values_of_launch_files(tmp_path: Path) -> None:
         said = told(f"<launch>{''.join(nodes)}</launch>", "")
         for kind in DEFAULTS:
             answer, _ = next(answers)
+            assert (("PRM016", kind) in said) == (answer == "refused"), (text, type_, kind, answer)
             assert (("PRM014", kind) in said) == (answer == "InvalidParameterTypeException"), (
                 text,
                 type_,

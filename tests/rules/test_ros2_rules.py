@@ -607,6 +607,30 @@ def test_what_a_parameter_file_cannot_have() -> None:
     """)
 
 
+def test_one_bad_value_stops_each_node_that_gets_the_file() -> None:
+    """As real rclpy has it: `tests/evaluation/test_types_against_rclpy.py`."""
+    findings = check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/a.yaml"/></node>
+          <node pkg="p" exec="b" name="b"><param from="/a.yaml"/></node>
+          <node pkg="p" exec="c" name="c"><param name="axes" value="[x, y, z]"/></node>
+                                                       ^^^^ error[PRM016] 'axes' arrives as a list with bools and texts in it, as launch hands it over without quotes: /c does not start
+          <node pkg="p" exec="d" name="d"><param name="axes" value="[a, b]"/></node>
+        </launch>
+        //- /a.yaml
+        a:
+          ros__parameters:
+            axes: [x, y, z]
+                  ^^^^^^^^^ error[PRM016] a list with bools and texts in it: 'axes'; the client libraries refuse the whole file for it, and none of the 2 nodes that get it starts
+            quoted: [x, "y", z]
+        b:
+          ros__parameters: {rate: 1}
+    """)  # noqa: E501
+    (of_file,) = (finding for finding in findings if finding.location.file == "/a.yaml")
+    assert [each.message for each in of_file.related] == ["/a gets the file here", "/b gets the file here"]
+
+
 def test_a_parameter_file_whose_substitutions_launch_makes() -> None:
     """What they come to is not in the text: `[$(var a), 2.5]` is a list of doubles, and a key may become any name."""
     check("""

@@ -5,31 +5,67 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, refused_items
+from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.parameters import name_place
+from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+
+_SHOWN = 5
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    seen: set[tuple[str, bool]] = set()
+    told: set[Location] = set()
+    for (path, substituted), given in _files(context).items():
+        document = context.documents.get(path)
+        if not isinstance(document, Document):
+            continue
+        for what, span in read_param_file(document.text).refused:
+            at = Location(path, span)
+            if at in told or (substituted and "$(" in document.text[span.start : span.end]):
+                continue  # what a substitution comes to may be fine
+            told.add(at)
+            who = "the node does not start" if len(given) == 1 else f"none of the {len(given)} nodes that get it starts"
+            more = f" (and {len(given) - _SHOWN} more nodes)" if len(given) > _SHOWN else ""
+            yield rule.finding(
+                f"{what}; the client libraries refuse the whole file for it, and {who}",
+                at,
+                related=[
+                    Related(f"{node.name} gets the file here{more if index == _SHOWN else ''}", source.origin[-1])
+                    for index, (node, source) in enumerate(given[:_SHOWN], 1)
+                ],
+            )
+    yield from _values(rule, context)
+
+
+def _files(context: Context) -> dict[tuple[str, bool], list[tuple[LaunchNode, ParamSource]]]:
+    """The nodes that get each parameter file, as it is or after its substitutions were made; launch_ros reads that of a
+    composable node itself, which takes some of it."""
+    found: dict[tuple[str, bool], dict[str, tuple[LaunchNode, ParamSource]]] = {}
+    for node in context.tree.nodes:
+        for source in node.param_sources if node.container is None else ():
+            if source.path is not None:
+                found.setdefault((source.path, source.substituted), {}).setdefault(node.name, (node, source))
+    return {file: list(nodes.values()) for file, nodes in found.items()}
+
+
+def _values(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Lists in the launch file: launch writes a parameter file of them, without quotes where Python needs none."""
     told: set[Location] = set()
     for node in context.tree.nodes:
-        if node.container is not None:
-            continue  # launch_ros reads the file of a composable node, which takes some of it
-        for source in node.param_sources:
-            path = source.path
-            document = context.documents.get(path) if path is not None else None
-            if path is None or (path, source.substituted) in seen or not isinstance(document, Document):
-                continue
-            seen.add((path, source.substituted))
-            for what, span in read_param_file(document.text).refused:
-                at = Location(path, span)
-                if at in told or (source.substituted and "$(" in document.text[span.start : span.end]):
-                    continue  # what a substitution comes to may be fine
-                told.add(at)
+        for source in node.param_sources if node.container is None else ():
+            for param in source.params if source.path is None else ():
+                refused = refused_items(as_passed(param.value)) if isinstance(param.value, list) else None
+                place = name_place(param)
+                if refused is None or place in told:
+                    continue
+                told.add(place)
                 yield rule.finding(
-                    f"{what}; the client libraries refuse the whole file for it, and the node does not start",
-                    at,
-                    related=(Related(f"{node.name} gets the file here", source.origin[-1]),),
+                    f"'{param.name}' arrives as {refused}, as launch hands it over without quotes: {node.name} does "
+                    "not start; write it, in quotes, into a parameter file",
+                    place,
+                    related=include_chain(node.origin),
                 )
 
 
@@ -39,8 +75,10 @@ RULE = Rule(
     severity="error",
     what="Reports what a parameter file of ROS 2 cannot have although it is YAML: a list whose items are of several "
     "types, such as `[1, 2.5]`, a list of lists, a parameter without a value, two slashes in a node's name (a key that "
-    "begins with a slash below another one).",
-    why="The file is refused as a whole: `Sequence should be of same type`. Each node that gets it ends at once.",
+    "begins with a slash below another one). `y`, `n`, `on` and `off` are bools, so `[x, y, z]` "
+    "is such a list, in a launch file too.",
+    why="The file is refused as a whole: `Sequence should be of same type`. Each node that gets it ends at once, "
+    "whether there is a section for it or not.",
     example="camera:\n  ros__parameters:\n    gains: [1, 2.5]",
     instead="camera:\n  ros__parameters:\n    gains: [1.0, 2.5]",
     generations=(2,),

@@ -8,7 +8,7 @@ a text of the launch file may arrive as something else.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import yaml
@@ -80,13 +80,18 @@ def refused(node: yaml.Node) -> str | None:
         return "a parameter without a value" if node.value == "" and not node.style else None
     if not isinstance(node, yaml.SequenceNode):
         return None
-    kinds = {type(scalar(each)) for each in node.value if isinstance(each, yaml.ScalarNode)}
-    if len(kinds) > 1:
-        named = sorted(_NAMES[kind] for kind in kinds)
-        return f"a list with {', '.join(named[:-1])} and {named[-1]} in it"
+    mixed = refused_items([scalar(each) for each in node.value if isinstance(each, yaml.ScalarNode)])
+    if mixed is not None:
+        return mixed
     if len(node.value) > 1 and any(isinstance(each, yaml.SequenceNode) for each in node.value):
         return "a list of lists"
     return None
+
+
+def refused_items(items: Iterable[bool | int | float | str]) -> str | None:
+    """Why rcl refuses a list of these."""
+    named = sorted({_NAMES[kind] for kind in map(type, items) if kind in _NAMES})
+    return f"a list with {', '.join(named[:-1])} and {named[-1]} in it" if len(named) > 1 else None
 
 
 _NAMES = {bool: "bools", int: "integers", float: "doubles", str: "texts"}
