@@ -179,6 +179,50 @@ def test_a_parameter_file_for_another_node() -> None:
     """)
 
 
+def test_a_key_without_the_namespace_of_its_node() -> None:
+    """As real rclpy has it: `tests/evaluation/test_params_against_rclpy.py`."""
+    findings = check("""
+        //- /robot.launch.xml
+        <launch>
+          <group>
+            <push_ros_namespace namespace="front"/>
+            <node pkg="p" exec="camera" name="camera"><param from="/cameras.yaml"/></node>
+            <node pkg="p" exec="lidar" name="lidar"><param from="/lidars.yaml"/></node>
+                                                                 ^^^^^^^^^^^^ warning[PRM011] the file has nothing for /front/lidar
+            <node pkg="p" exec="arm" name="arm"><param from="/all.yaml"/></node>
+            <node pkg="p" exec="hand" name="hand"><param from="/all.yaml"/></node>
+          </group>
+          <node pkg="p" exec="camera" name="camera" namespace="rear"><param from="/cameras.yaml"/></node>
+        </launch>
+        //- /cameras.yaml
+        /**:
+          ros__parameters: {frame: map}
+        camera:
+        ^^^^^^ warning[PRM011] '/camera' is no node that gets this file: /front/camera and /rear/camera do, and ignore it
+          ros__parameters: {rate: 30}
+        //- /lidars.yaml
+        lidar:
+        ^^^^^ warning[PRM011] '/lidar' is no node that gets this file: /front/lidar does, and ignores it
+          ros__parameters: {rate: 10}
+        //- /all.yaml
+        /**:
+          ros__parameters: {frame: map}
+        arm:
+          ros__parameters: {speed: 1}
+        /front/arm:
+          ros__parameters: {speed: 2}
+        /*/hand:
+          ros__parameters: {speed: 2}
+        hand:
+          ros__parameters: {speed: 1}
+        gripper:
+          ros__parameters: {speed: 1}
+    """)  # noqa: E501
+    assert [fix.title for finding in findings if "rear" in finding.message for fix in finding.fixes] == [
+        "Write '/**/camera' as the key"
+    ]
+
+
 def test_values_above_the_mark() -> None:
     check("""
         //- /robot.launch.xml

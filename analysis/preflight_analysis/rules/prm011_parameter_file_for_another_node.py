@@ -1,17 +1,27 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
+
+
+@dataclass(frozen=True, slots=True)
+class _Given:
+    """A node that a parameter file is given to, and where. `reached`: something in the file is for all nodes."""
+
+    node: LaunchNode
+    location: Location
+    reached: bool
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -31,53 +41,85 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue  # launch may make any name of a substitution
         # Those that fit no node at all are the ones that may be misspelt.
         lost = [s for s in sections if not (s.pattern in names if s.exact else any(map(s.fits, names)))]
-        for node, location in nodes:
-            # One that the launch file does not name may have any of the names in the file.
-            if not (node.named or node.told) or file.reaching(node.name):
-                continue
-            shared = len(nodes) > 1
-            yield from _about(rule, context, node, location, path, sections, lost, shared=shared)
+        lacking = list(_without_own(file, nodes))
+        meant = {each.node.name: _meant(each.node.name, lost, shared=len(nodes) > 1) for each in lacking}
+        for section in lost:
+            ignoring = {each.node.name: each for each in lacking if meant[each.node.name] is section}
+            if ignoring:
+                yield _about_key(rule, path, section, list(ignoring.values()))
+        for each in lacking:
+            # One file for several nodes, with nothing for this one: that is usual.
+            if not each.reached and (len(nodes) == 1 or meant[each.node.name] is not None):
+                yield _about_file(rule, context, path, sections, each, meant[each.node.name])
 
 
-def _about(
-    rule: Rule,
-    context: Context,
-    node: LaunchNode,
-    location: Location,
-    path: str,
-    sections: tuple[Section, ...],
-    lost: list[Section],
-    *,
-    shared: bool,
-) -> Iterator[Finding]:
-    patterns = [section.pattern for section in lost]
-    near = nearest(node.name, patterns) or (patterns[0] if len(patterns) == 1 and not shared else None)
-    section = next((s for s in lost if s.pattern == near), None)
-    if section is None and shared:
-        return  # one file for several nodes, with nothing for this one: that is usual
+def _without_own(file: ParamFile, nodes: Iterable[tuple[LaunchNode, Location]]) -> Iterator[_Given]:
+    """The nodes that the file names nowhere. One that the launch file does not name may have any name in the file."""
+    for node, location in nodes:
+        reaching = file.reaching(node.name, composable=node.container is not None)
+        if (node.named or node.told) and all(_is_for_all(section) for section in reaching):
+            yield _Given(node, location, bool(reaching))
+
+
+def _is_for_all(section: Section) -> bool:
+    return section.pattern.rpartition("/")[2] in ("*", "**")
+
+
+def _meant(name: str, lost: Sequence[Section], *, shared: bool) -> Section | None:
+    """Which of the keys that fit no node is meant for this one: that of its name in another namespace, else one with
+    nearly its name, else the only one of a file of its own."""
+    base = name.rpartition("/")[2]
+    patterns = [section.pattern for section in lost if not _is_for_all(section)]
+    same = [pattern for pattern in patterns if pattern.rpartition("/")[2] == base]
+    only = patterns[0] if len(patterns) == 1 and not shared else None
+    wanted = nearest(name, same) or next(iter(same), None) or nearest(name, patterns) or only
+    return next((section for section in lost if section.pattern == wanted), None)
+
+
+def _about_key(rule: Rule, path: str, section: Section, ignoring: list[_Given]) -> Finding:
+    names = [each.node.name for each in ignoring]
+    *some, last = names[:_SHOWN] if len(names) <= _SHOWN else (*names[:_SHOWN], "others")
+    does = f"{', '.join(some)} and {last} do, and ignore it" if some else f"{last} does, and ignores it"
+    inferred = any(each.node.name_inferred for each in ignoring)
+    return rule.finding(
+        f"'{section.pattern}' is no node that gets this file: {does}",
+        Location(path, section.spans[-1]),
+        severity="info" if inferred else "warning",
+        confidence="possible" if inferred else "certain",
+        related=[Related(f"{each.node.name} gets the file here", each.location) for each in ignoring[:_SHOWN]],
+        fixes=_rewrite(path, section, names[0] if len(names) == 1 else _for_each(names)),
+    )
+
+
+def _about_file(
+    rule: Rule, context: Context, path: str, sections: Sequence[Section], given: _Given, meant: Section | None
+) -> Finding:
+    node = given.node
     named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
     inferred = "; its source calls it so" if node.name_inferred else ""
-    message = f"the file has nothing for {node.name}, which therefore ignores it; it is for {named}{inferred}"
-    severity: Severity = "info" if inferred else "warning"
-    confidence: Confidence = "possible" if inferred else "certain"
-    fixes: tuple[Fix, ...] = ()
-    related = [Related(f"{node.name} gets the file here", location)]
-    if section is not None:
-        place = Location(path, section.spans[-1])
-        fixes = _rewrite(path, section, node.name)
-        key = f"'{section.pattern}' is no node that gets this file: {node.name} does, and ignores it"
-        yield rule.finding(key, place, severity=severity, confidence=confidence, related=related, fixes=fixes)
-        related = [Related("the key", place)]
-    elif sections:
-        related = [Related("its first key", Location(path, sections[0].spans[-1]))]
-    chain = include_chain(node.origin)
-    about = (*related, *chain)
-    yield rule.finding(message, location, severity=severity, confidence=confidence, related=about, fixes=fixes)
+    key = meant or sections[0]
+    return rule.finding(
+        f"the file has nothing for {node.name}, which therefore ignores it; it is for {named}{inferred}",
+        given.location,
+        severity="info" if inferred else "warning",
+        confidence="possible" if inferred else "certain",
+        related=(
+            Related("the key" if meant is not None else "its first key", Location(path, key.spans[-1])),
+            *include_chain(node.origin),
+        ),
+        fixes=_rewrite(path, meant, node.name) if meant is not None else (),
+    )
 
 
-def _rewrite(path: str, section: Section, name: str) -> tuple[Fix, ...]:
+def _for_each(names: Sequence[str]) -> str | None:
+    """A key for all nodes of one name, in whatever namespace."""
+    bases = {name.rpartition("/")[2] for name in names}
+    return f"/**/{bases.pop()}" if len(bases) == 1 else None
+
+
+def _rewrite(path: str, section: Section, name: str | None) -> tuple[Fix, ...]:
     """The key as the node's name, where the key is in one piece; a name in the root needs no slash."""
-    if len(section.spans) != 1:
+    if name is None or len(section.spans) != 1:
         return ()
     key = name.removeprefix("/") if name.count("/") == 1 else name
     edit = Edit(Location(path, section.spans[0]), key)
@@ -89,8 +131,9 @@ RULE = Rule(
     name="parameter-file-for-another-node",
     severity="warning",
     what="Reports a parameter file that is given to a node while none of its keys is the name of the node, with its "
-    "namespace, or a wildcard that fits it (ROS 2). A file that several nodes share may have nothing for one of them, "
-    "unless a key that fits no node is near its name.",
+    "namespace, or a wildcard that fits it (ROS 2), and a key that fits no node and is meant for one that gets the "
+    "file: it is the node's name without its namespace, or nearly its name. A file that several nodes share may have "
+    "nothing for one of them.",
     why="The node starts with its defaults, and neither `ros2 launch` nor the node says a word.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',

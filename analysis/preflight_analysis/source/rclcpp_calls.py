@@ -830,12 +830,9 @@ def _changed(options: _Options, name: str, args: Sequence[Argument]) -> Any:
     if not args:
         return UNKNOWN
     if name in _ALL:
-        given, is_of_overrides = first is not False, name == _OVERRIDES
-        return replace(
-            options,
-            takes_all=options.takes_all or given,
-            from_overrides=given if is_of_overrides else options.from_overrides,
-        )
+        wanted = first is not False
+        from_overrides = wanted if name == _OVERRIDES else options.from_overrides
+        return replace(options, takes_all=options.takes_all or wanted, from_overrides=from_overrides)
     if name == "arguments":
         given = tuple(first) if isinstance(first, list) else (UNKNOWN,)
         return replace(options, arguments=given)
