@@ -55,12 +55,18 @@ ACTIONS = (
     "executable",
     "timer",
     "ros_timer",
+    "for",
+    "for_each",
     "set_env",
     "unset_env",
     "append_env",
     "reset_env",
     "reset",
     "log",
+    "log_debug",
+    "log_info",
+    "log_warning",
+    "log_error",
     "shutdown",
     "set_ros_log_dir",
 )
@@ -94,6 +100,7 @@ _NODE = (
     *_PROCESS,
 )
 _NODE_CHILDREN = ("param", "remap", "env")
+_MESSAGE = Attribute("message", "The message.", "prose", required=True)
 _TIMER = (Attribute("period", "Seconds to wait.", "number", required=True),)
 
 TAGS_ROS2: Mapping[str, Tag] = {
@@ -219,6 +226,18 @@ TAGS_ROS2: Mapping[str, Tag] = {
         children=ACTIONS,
     ),
     "ros_timer": _action("Executes what is inside after some time of the ROS clock.", *_TIMER, children=ACTIONS),
+    "for": _action(
+        "Executes what is inside a number of times; `$(index NAME)` is the round. Of a launch newer than 3.7.",
+        Attribute("len", "How many times.", "integer", required=True),
+        Attribute("name", "What the round is called.", required=True),
+        children=ACTIONS,
+    ),
+    "for_each": _action(
+        "Executes what is inside once for each set of values, which `$(for-var NAME)` reads. Of a launch newer than "
+        "3.7.",
+        Attribute("values", "Maps in YAML with semicolons between: `{name: a};{name: b}`.", required=True),
+        children=ACTIONS,
+    ),
     "set_env": _action(
         "Sets an environment variable for what comes later in this group.",
         Attribute("name", "The name of the variable.", "variable", required=True),
@@ -236,6 +255,14 @@ TAGS_ROS2: Mapping[str, Tag] = {
         Attribute("separator", "What to put between.", default=":"),
     ),
     "reset_env": _action("Takes back all changes of the environment."),
-    "log": _action("Prints a message.", Attribute("message", "The message.", "prose", required=True)),
+    "log": _action(
+        "Prints a message.",
+        _MESSAGE,
+        Attribute("level", "Of a launch newer than 3.8.", "text", ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")),
+    ),
+    "log_debug": _action("Prints a message for debugging. Of a launch newer than 3.8.", _MESSAGE),
+    "log_info": _action("Prints a message. Of a launch newer than 3.8.", _MESSAGE),
+    "log_warning": _action("Prints a warning. Of a launch newer than 3.8.", _MESSAGE),
+    "log_error": _action("Prints an error. Of a launch newer than 3.8.", _MESSAGE),
     "shutdown": _action("Ends the launch.", Attribute("reason", "Why, for the log.", "prose")),
 }

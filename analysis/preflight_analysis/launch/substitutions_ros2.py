@@ -62,6 +62,10 @@ SUBSTITUTIONS_ROS2: Mapping[str, tuple[str, str, Arity]] = {
     "param": ("NAME [DEFAULT]", "A parameter that `<set_parameter>` set in this scope.", Arity(1, 2)),
     "launch_log_dir": ("", "The folder of this launch's logs.", Arity(0, 0)),
     "log_dir": ("", "The folder of this launch's logs.", Arity(0, 0)),
+    "path-join": ("PART...", "A path made of its parts. Of a launch newer than 3.8.", Arity(0, None)),
+    "string-join": ("BETWEEN PART...", "The parts with a text between. Of a launch newer than 3.8.", Arity(2, None)),
+    "index": ("NAME", "The round of a `<for>`, from 0. Of a launch newer than 3.7.", Arity(1, 1)),
+    "for-var": ("NAME [DEFAULT]", "A variable of a `<for_each>`. Of a launch newer than 3.7.", Arity(1, 2)),
 }
 """What each takes, and what it stands for."""
 

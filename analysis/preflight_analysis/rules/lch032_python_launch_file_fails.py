@@ -43,9 +43,10 @@ def _import(context: Context, problem: Problem, *, has_ros: bool) -> str:
     said = str(problem.data["message"])
     message = f"the launch file cannot be run here, so it counts as far as its text tells: {said}"
     module = str(problem.data["module"]).partition(".")[0]
+    if _LAUNCH.match(module):
+        return f"{message}; {module} has it neither in Humble nor in Jazzy, Kilted or Rolling"
     if not said.startswith("No module named"):
-        known = _LAUNCH.match(module)
-        return f"{message}; a newer {module} than the one that is known here may have it" if known else message
+        return message
     if module in context.environment.packages:
         return f"{message}; package '{module}' is in the workspace and is not built"
     if not has_ros:

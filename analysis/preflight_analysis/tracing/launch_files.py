@@ -67,6 +67,8 @@ def sandbox_to_blame(output: str, visible: Iterable[str], *, narrow: bool) -> st
         return None
     path, number, message = error.get("path"), error.get("errno"), str(error.get("message"))
     said = f"{error.get('type')}: {message}"
+    if error.get("refused"):
+        return message
     if number == errno.EROFS:
         return f"{said}: the sandbox lets no files be written"
     if isinstance(path, str) and os.path.isabs(path) and not sandbox.shown(path, visible) and os.path.exists(path):

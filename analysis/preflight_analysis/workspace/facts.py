@@ -31,7 +31,7 @@ Kind = Literal[
 used."""
 
 _OF_SUBSTITUTION: Mapping[Named | None, Kind] = {"package": "package", "variable": "env"}
-SCOPES = ("group", "timer", "ros_timer", "inline")
+SCOPES = ("group", "timer", "ros_timer", "inline", "for", "for_each")
 """Tags whose children are read as if they stood in the file itself."""
 
 

@@ -84,6 +84,8 @@ class Context:
         self.initial_environment = dict(environment)
         self.environment = dict(environment)
         """What processes and substitutions see: launch scopes it by a stack of its own."""
+        self.round: dict[str, str] = {}
+        """What the variables of the loops around are in this round."""
         self.launch_file = ""
         """The launch file that was included last: that of `$(dirname)`, also after the include."""
         self._scopes: list[Scope] = []

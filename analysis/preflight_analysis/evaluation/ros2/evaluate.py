@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, Place, PushedParam, PushedRemap, PythonRun
 from preflight_analysis.evaluation.ros2.declared import PASSED, Declared, required_arguments
 from preflight_analysis.evaluation.ros2.events import Events
+from preflight_analysis.evaluation.ros2.loops import rounds
 from preflight_analysis.evaluation.ros2.nodes import (
     evaluate_composable,
     evaluate_executable,
@@ -539,6 +540,18 @@ class _Walk:
     def _timer(self, performer: Performer, action: Action) -> None:
         self._events.later(performer.place, action.children)
 
+    def _loop(self, performer: Performer, action: Action) -> None:
+        """`ForLoop` and `ForEach`: what is inside once for each round."""
+        context = self._context
+        for variables in rounds(performer, action):
+            if self._too_deep(performer.place, action):
+                return
+            before, context.round = context.round, {**context.round, **variables}
+            self._depth += 1
+            self._actions(performer.place, action.children)
+            self._depth -= 1
+            context.round = before
+
     def _set_env(self, performer: Performer, action: Action) -> None:
         name, value = action.value("name"), action.value("value")
         if name is not None and value is not None:
@@ -698,12 +711,18 @@ _EXECUTE: dict[str, Callable[[_Walk, Performer, Action], None]] = {
     "set_parameters_from_file": _Walk._set_parameters_from_file,
     "timer": _Walk._timer,
     "ros_timer": _Walk._timer,
+    "for": _Walk._loop,
+    "for_each": _Walk._loop,
     "set_env": _Walk._set_env,
     "unset_env": _Walk._unset_env,
     "append_env": _Walk._append_env,
     "reset_env": _Walk._reset_env,
     "reset": _Walk._reset,
     "log": _Walk._only_read,
+    "log_debug": _Walk._only_read,
+    "log_info": _Walk._only_read,
+    "log_warning": _Walk._only_read,
+    "log_error": _Walk._only_read,
     "shutdown": _Walk._only_read,
     "set_use_sim_time": _Walk._set_use_sim_time,
     "set_ros_log_dir": _Walk._set_log_dir,
@@ -736,7 +755,7 @@ _PROCESSES = frozenset({"node", "node_container", "lifecycle_node", "executable"
 
 EXECUTED = frozenset(_EXECUTE)
 """Kinds that are."""
-_MAY_SET = frozenset({"arg", "let", "include", "group", "inline", "opaque"})
+_MAY_SET = frozenset({"arg", "let", "include", "group", "inline", "opaque", "for", "for_each"})
 """Actions after which there may be other configurations."""
 
 

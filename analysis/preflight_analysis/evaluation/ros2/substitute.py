@@ -10,6 +10,7 @@ import shutil
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
@@ -22,7 +23,7 @@ from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.evaluation.tree import Command, Use
 from preflight_analysis.launch.model import Literal, Substitution, Value
-from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
+from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, parse_value_ros2
 
 Parts = tuple[Literal | Substitution, ...]
 _MATH_MODULE = re.compile(r"(?<![\w.'\"])math\.(?=[a-z])")
@@ -280,11 +281,33 @@ class Performer:
         self.state.note_unknown(part.text, "the folder of the logs is made at launch", self._at(part))
         raise _Failure
 
-    # Those of Python launch files only
+    def _string_join(self, part: Substitution) -> str:
+        delimiter, *words = (self._word(part, index) for index in range(len(part.words)))
+        return delimiter.join(words)
+
+    def _of_round(self, part: Substitution) -> str:
+        name = self._word(part, 0)
+        found = self.context.round.get(name)
+        if found is None and len(part.words) == 2:
+            return self._word(part, 1)
+        if found is None:
+            message = f"no loop around it has a variable '{name}'"
+            raise _Failure("bad-substitution", text=part.text, message=message)
+        return found
 
     def _path_join(self, part: Substitution) -> str:
         words = [self._word(part, index) for index in range(len(part.words))]
         return located(self.state.environment, os.path.join(*words)) if words else ""
+
+    # Those of Python launch files only
+
+    def _written(self, part: Substitution) -> str:
+        text = self._word(part, 0)
+        span = part.span
+        result = self.value(parse_value_ros2(SpannedText(text, span, (*(span.start,) * len(text), span.end))))
+        if not result.known:
+            raise _Failure
+        return result.text
 
     def _config_equals(self, part: Substitution) -> str:
         found = self.context.get(self._word(part, 0))
@@ -311,7 +334,7 @@ class Performer:
 
 
 _PERFORM_PYTHON: dict[str, Callable[[Performer, Substitution], str]] = {
-    "path-join": Performer._path_join,
+    "written": Performer._written,
     "config-equals": Performer._config_equals,
     "config-not-equals": Performer._config_equals,
     "local": Performer._local,
@@ -343,6 +366,10 @@ _PERFORM: dict[str, Callable[[Performer, Substitution], str]] = {
     "param": Performer._param,
     "launch_log_dir": Performer._log_dir,
     "log_dir": Performer._log_dir,
+    "path-join": Performer._path_join,
+    "string-join": Performer._string_join,
+    "for-var": Performer._of_round,
+    "index": Performer._of_round,
 }
 
 

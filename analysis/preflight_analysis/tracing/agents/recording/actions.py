@@ -311,18 +311,43 @@ class IncludeLaunchDescription(Action):
             t.entities(description.entities)
 
 
-class LogInfo(Action):
-    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+class Log(Action):
+    """Of a Rolling newer than Kilted, where what logs at a level is one."""
+
+    def __init__(self, *, msg: Any, level: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__msg = normalize_to_list_of_substitutions(msg)
+        self.__level = normalize_to_list_of_substitutions(level)
 
     @property
     def msg(self) -> list[Substitution]:
         return self.__msg
 
+    @property
+    def level(self) -> list[Substitution]:
+        return self.__level
+
     def preflight_tell(self, t: Any) -> None:
         t.kind = "log"
         t.attribute("message", self.__msg)
+        t.attribute("level", self.__level)
+
+
+class LogInfo(Log):
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(msg=msg, **{"level": "INFO", **kwargs})
+
+
+class LogDebug(LogInfo):
+    pass
+
+
+class LogWarning(LogInfo):
+    pass
+
+
+class LogError(LogInfo):
+    pass
 
 
 class TimerAction(Action):
@@ -438,8 +463,9 @@ class OpaqueFunction(Action):
 class ForLoop(Action):
     """Calls its function with 0, 1, ... up to a length. Of a launch newer than 3.7, as `ForEach`."""
 
-    def __init__(self, length: Any, *, function: Any, **left_over_kwargs: Any) -> None:
-        super().__init__(**{k: v for k, v in left_over_kwargs.items() if k == "condition"})
+    def __init__(self, length: Any, *, function: Any, name: Optional[str] = None, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name = name
         self.__length, self.__function = normalize_to_list_of_substitutions(length), function
 
     def execute(self, context: LaunchContext) -> Any:
@@ -453,8 +479,8 @@ class ForLoop(Action):
 class ForEach(Action):
     """Calls its function with each of the sets of values of a text: `{name: 'a', id: 1};{name: 'b', id: 2}`."""
 
-    def __init__(self, input_values: Any, *, function: Any, **left_over_kwargs: Any) -> None:
-        super().__init__(**{k: v for k, v in left_over_kwargs.items() if k == "condition"})
+    def __init__(self, input_values: Any, *, function: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
         self.__values, self.__function = normalize_to_list_of_substitutions(input_values), function
 
     def execute(self, context: LaunchContext) -> Any:

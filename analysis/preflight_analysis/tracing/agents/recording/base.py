@@ -14,6 +14,10 @@ _STEPS = 200
 _PARTS = 10_000
 
 
+class NotHereError(RuntimeError):
+    """Only a launch that goes on can say: it is no error of the file's."""
+
+
 class Recorder:
     """What the run remembers. `file` is the launch file; whatever is made gets a number, in order."""
 

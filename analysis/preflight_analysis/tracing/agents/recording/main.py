@@ -14,7 +14,7 @@ import types
 import zlib
 from typing import Any
 
-from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription
+from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .tell import Teller
 
@@ -124,6 +124,8 @@ def _told(error: BaseException) -> dict[str, Any]:
         told["path"] = error.filename
     if isinstance(error, OSError):
         told["errno"] = error.errno
+    if isinstance(error, NotHereError):
+        told["refused"] = True
     return told
 
 

@@ -13,7 +13,7 @@ import types
 import xml.etree.ElementTree
 from typing import Any, Optional
 
-from . import actions, ament, base, conditions, events, ros, substitutions, typed
+from . import actions, ament, base, conditions, events, library, ros, substitutions, typed
 from .base import RECORDER
 
 
@@ -31,63 +31,6 @@ def _named(module: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(module, name) for name in names}
 
 
-class InvalidLaunchFileError(Exception):
-    def __init__(self, extension: str = "", *, likely_errors: Any = None) -> None:
-        super().__init__(extension)
-
-
-class LaunchService:
-    """Nothing is launched."""
-
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        self.context = base.LaunchContext()
-
-    def include_launch_description(self, launch_description: Any) -> None:
-        return None
-
-    def run(self, *args: Any, **kwargs: Any) -> int:
-        return 0
-
-    async def run_async(self, *args: Any, **kwargs: Any) -> int:
-        return 0
-
-    def shutdown(self) -> None:
-        return None
-
-
-class _Logger:
-    def __getattr__(self, name: str) -> Any:
-        return lambda *args, **kwargs: None
-
-
-class _LogConfig:
-    level = 20
-    log_dir = "/tmp"  # noqa: S108 - the sandbox's own
-
-    def __getattr__(self, name: str) -> Any:
-        return lambda *args, **kwargs: None
-
-
-class Entity:
-    """`launch.frontend.Entity`."""
-
-
-class Parser:
-    """`launch.frontend.Parser`."""
-
-    @staticmethod
-    def parse_substitution(value: str) -> Any:
-        return base.normalize_to_list_of_substitutions(value)
-
-
-def _expose(name: str) -> Any:
-    return lambda thing: thing
-
-
-def _coerce(value: Any, *args: Any, **kwargs: Any) -> Any:
-    return value
-
-
 _SOURCES = _named(
     actions,
     "AnyLaunchDescriptionSource",
@@ -100,12 +43,14 @@ _ACTIONS.pop("Executable")
 _ROS_SUBSTITUTIONS = _named(
     substitutions, "ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare", "Parameter"
 )
-_SUBSTITUTIONS = {k: v for k, v in _public(substitutions).items() if k not in _ROS_SUBSTITUTIONS and k != "Worded"}
+_SUBSTITUTIONS = {
+    k: v for k, v in _public(substitutions).items() if k not in _ROS_SUBSTITUTIONS and k not in ("Worded", "Written")
+}
 _HANDLERS = {k: v for k, v in _public(events).items() if k.startswith("On")}
 _PROCESS = {k: v for k, v in _public(events).items() if "Process" in k and k not in _HANDLERS}
 _MATCH = dict.fromkeys(("matches_pid", "matches_name", "matches_executable"), events.matches_anything)
-_DESCRIPTIONS = _named(ros, "ComposableNode", "Parameter", "ParameterFile", "ParameterValue")
-_NOT_ROS_ACTIONS = ("ComposableNode", "Parameter", "ParameterFile", "ParameterValue")
+_NOT_ROS_ACTIONS = ("ComposableLifecycleNode", "ComposableNode", "Parameter", "ParameterFile", "ParameterValue")
+_DESCRIPTIONS = _named(ros, *_NOT_ROS_ACTIONS)
 _ROS_ACTIONS = {k: v for k, v in _public(ros).items() if k not in _NOT_ROS_ACTIONS}
 _ROS_ACTIONS["PushRosNamespace"] = ros.PushROSNamespace
 _ENTITY = (base.LaunchDescriptionEntity, base.LaunchDescription)
@@ -130,9 +75,30 @@ _UTILITIES = _named(
     "normalize_to_list_of_substitutions",
     "perform_substitutions",
 )
+_UTILITIES.update(_named(library, "AsyncSafeSignalManager", "visit_all_entities_and_collect_futures"))
+_UTILITIES["create_future"] = library.not_here("create_future")
 _TYPES = {"SomeSubstitutionsType": Any, "SomeEntitiesType": Any, "SomeEntitiesType_types_tuple": _ENTITY}
-_FRONTEND = {"Entity": Entity, "Parser": Parser, "expose_action": _expose, "expose_substitution": _expose}
-_LOG = {"get_logger": lambda name=None: _Logger(), "launch_config": _LogConfig(), "reset": lambda: None}
+_FRONTEND = {
+    "Entity": library.Entity,
+    "Parser": library.Parser,
+    "InvalidFrontendLaunchFileError": library.InvalidFrontendLaunchFileError,
+    "expose_action": library.expose,
+    "expose_substitution": library.expose,
+}
+_LOG = {
+    **_named(library, "LaunchConfig", "LaunchLogger", "get_logger", "get_output_loggers", "log_launch_config", "reset"),
+    "launch_config": library.LaunchConfig(),
+}
+_FILES = _named(
+    library,
+    "InvalidFrontendLaunchFileError",
+    "InvalidLaunchFileError",
+    "InvalidPythonLaunchFileError",
+    "get_launch_description_from_any_launch_file",
+    "get_launch_description_from_frontend_launch_file",
+    "get_launch_description_from_python_launch_file",
+    "load_python_launch_file_as_module",
+)
 _PACKAGES = _named(
     ament,
     "PackageNotFoundError",
@@ -145,47 +111,67 @@ _RESOURCES = _named(ament, "get_resource", "get_resources", "has_resource")
 _ROS_EVENTS = _named(events, "ChangeState", "StateTransition")
 _MATCHES_NODE = {"matches_node_name": events.matches_anything}
 _PARAMETER_TYPES = dict.fromkeys(
-    ("ParametersDict", "Parameters", "ParameterName", "ParameterValue", "SomeParameters", "SomeParametersDict"), Any
-)
-_ROS_UTILITIES = {
-    **_named(
-        ros,
-        "normalize_parameter_dict",
-        "normalize_parameters",
-        "normalize_remap_rule",
-        "normalize_remap_rules",
-        "prefix_namespace",
-        "make_namespace_absolute",
-        "is_root_namespace",
-        "is_namespace_absolute",
+    (
+        *("EvaluatedParameterValue", "EvaluatedParameters", "ParameterName", "ParameterValue", "Parameters"),
+        *("ParametersDict", "SomeParameterFile", "SomeParameterName", "SomeParameterValue", "SomeParameters"),
+        "SomeParametersDict",
     ),
-    "evaluate_parameters": _coerce,
-    "to_parameters_list": _coerce,
-    "add_node_name": lambda *a: None,
-    "get_node_name_count": lambda *a: 1,
+    Any,
+)
+_VALUE_TYPES = dict.fromkeys(
+    (
+        *("AllowedTypesType", "AllowedValueType", "ListTypesType", "ListValueType", "NormalizedScalarType"),
+        *("NormalizedSequenceType", "NormalizedValueType", "ScalarTypesType", "ScalarValueType", "SequenceValueType"),
+        *("SomeScalarType", "SomeSequenceType", "SomeValueType", "StrSomeScalarType", "StrSomeSequenceType"),
+        "StrSomeValueType",
+    ),
+    Any,
+)
+_NAMESPACES = _named(ros, "prefix_namespace", "make_namespace_absolute", "is_root_namespace", "is_namespace_absolute")
+_REMAPS = _named(ros, "normalize_remap_rule", "normalize_remap_rules")
+_NODE_NAMES = _named(library, "add_node_name", "get_node_name_count")
+_ROS_UTILITIES = {
+    **_NAMESPACES,
+    **_REMAPS,
+    **_NODE_NAMES,
+    **_named(ros, "normalize_parameter_dict", "normalize_parameters"),
+    **_named(library, "LifecycleEventManager", "evaluate_parameters", "to_parameters_list"),
 }
+_SOME_ACTIONS = {"SomeActionsType": Any, "SomeActionsType_types_tuple": _ENTITY}
+_INTROSPECTION = _named(
+    library,
+    "LaunchIntrospector",
+    "format_action",
+    "format_entities",
+    "format_event_handler",
+    "format_substitutions",
+    "indent",
+    "tree_like_indent",
+)
 
 TABLE: dict[str, dict[str, Any]] = {
     "launch": {
         **_CORE,
         **_TYPES,
+        **_SOME_ACTIONS,
         "EventHandler": events.EventHandler,
-        "InvalidLaunchFileError": InvalidLaunchFileError,
+        "InvalidLaunchFileError": library.InvalidLaunchFileError,
         "LaunchDescriptionSource": actions.LaunchDescriptionSource,
-        "LaunchService": LaunchService,
-        "LaunchIntrospector": _Logger,
+        "LaunchService": library.LaunchService,
+        "LaunchIntrospector": library.LaunchIntrospector,
     },
     "launch.action": {"Action": base.Action},
     "launch.actions": _ACTIONS,
     "launch.condition": {"Condition": base.Condition},
     "launch.conditions": {
         **_public(conditions),
-        "evaluate_condition_expression": conditions.evaluate_condition_expression,
+        **_named(conditions, "evaluate_condition_expression", "VALID_TRUE_EXPRESSIONS", "VALID_FALSE_EXPRESSIONS"),
     },
     "launch.descriptions": {"Executable": actions.Executable},
     "launch.event": {"Event": base.Event},
     "launch.event_handler": _named(events, "BaseEventHandler", "EventHandler"),
-    "launch.event_handlers": _HANDLERS,
+    "launch.event_handlers": {**_HANDLERS, "event_named": library.event_named},
+    "launch.event_handlers.on_shutdown": {"OnShutdown": events.OnShutdown, "gen_handler": library.gen_handler},
     "launch.events": {
         **_named(events, "ExecutionComplete", "TimerEvent"),
         "IncludeLaunchDescription": events.IncludeLaunchDescriptionEvent,
@@ -195,16 +181,31 @@ TABLE: dict[str, dict[str, Any]] = {
     "launch.events.matchers": {"matches_action": events.matches_anything},
     "launch.events.process": {**_PROCESS, **_MATCH},
     "launch.frontend": _FRONTEND,
-    "launch.frontend.parse_substitution": {"parse_substitution": base.normalize_to_list_of_substitutions},
-    "launch.invalid_launch_file_error": {"InvalidLaunchFileError": InvalidLaunchFileError},
+    "launch.frontend.entity": {"Entity": library.Entity, "TargetType": Any},
+    "launch.frontend.expose": {
+        "action_parse_methods": {},
+        "expose_action": library.expose,
+        "expose_substitution": library.expose,
+        **_named(library, "instantiate_action", "instantiate_substitution"),
+        "substitution_parse_methods": {},
+    },
+    "launch.frontend.parse_substitution": {
+        **_named(library, "ExtractSubstitution", "parse_substitution", "parse_if_substitutions"),
+        "get_grammar_path": library.not_here("get_grammar_path"),
+        "replace_escaped_characters": library.replace_escaped_characters,
+    },
+    "launch.frontend.type_utils": _named(library, "check_is_list_entity", "get_data_type_from_identifier"),
+    "launch.invalid_launch_file_error": {"InvalidLaunchFileError": library.InvalidLaunchFileError},
     "launch.launch_context": {"LaunchContext": base.LaunchContext},
     "launch.launch_description": {"LaunchDescription": base.LaunchDescription},
     "launch.launch_description_entity": {"LaunchDescriptionEntity": base.LaunchDescriptionEntity},
     "launch.launch_description_source": {"LaunchDescriptionSource": actions.LaunchDescriptionSource},
-    "launch.launch_description_sources": _SOURCES,
-    "launch.launch_introspector": {"LaunchIntrospector": _Logger},
-    "launch.launch_service": {"LaunchService": LaunchService},
+    "launch.launch_description_sources": {**_SOURCES, **_FILES},
+    "launch.launch_introspector": _INTROSPECTION,
+    "launch.launch_service": {"LaunchService": library.LaunchService},
     "launch.logging": _LOG,
+    "launch.logging.handlers": {"with_per_logger_formatting": library.with_per_logger_formatting},
+    "launch.some_actions_type": _SOME_ACTIONS,
     "launch.some_entities_type": _TYPES,
     "launch.some_substitutions_type": {
         **_TYPES,
@@ -213,29 +214,71 @@ TABLE: dict[str, dict[str, Any]] = {
     "launch.substitution": {"Substitution": base.Substitution},
     "launch.substitutions": _SUBSTITUTIONS,
     "launch.utilities": _UTILITIES,
-    "launch.utilities.type_utils": {k: v for k, v in vars(typed).items() if not k.startswith("_")},
+    "launch.utilities.type_utils": {**{k: v for k, v in vars(typed).items() if not k.startswith("_")}, **_VALUE_TYPES},
+    "launch.utilities.typing_file_path": {"FilePath": Any},
     "launch_ros": {},
     "launch_ros.actions": _ROS_ACTIONS,
+    "launch_ros.actions.lifecycle_transition": {
+        "LifecycleTransition": ros.LifecycleTransition,
+        **_named(library, "match_node_name_goal", "match_node_name_start_goal"),
+    },
+    "launch_ros.actions.load_composable_nodes": {
+        "LoadComposableNodes": ros.LoadComposableNodes,
+        "get_composable_node_load_request": library.not_here("get_composable_node_load_request"),
+    },
+    "launch_ros.actions.node": {
+        "Node": ros.Node,
+        **_named(library, "NodeActionExtension", "get_extensions", "instantiate_extension"),
+        "g_entry_points_impl": None,
+    },
     "launch_ros.descriptions": _DESCRIPTIONS,
     "launch_ros.event_handlers": {"OnStateTransition": events.OnStateTransition},
     "launch_ros.events": _MATCHES_NODE,
     "launch_ros.events.lifecycle": {**_ROS_EVENTS, **_MATCHES_NODE},
     "launch_ros.events.matchers": _MATCHES_NODE,
     "launch_ros.parameter_descriptions": _named(ros, "Parameter", "ParameterFile", "ParameterValue"),
-    "launch_ros.parameters_type": _PARAMETER_TYPES,
+    "launch_ros.parameters_type": {
+        **_PARAMETER_TYPES,
+        "ParameterFile": ros.ParameterFile,
+        "SomeParameterValue_types_tuple": (*base.SomeSubstitutionsType_types_tuple, *typed.AllowedTypesTuple),
+    },
     "launch_ros.remap_rule_type": dict.fromkeys(("RemapRules", "SomeRemapRules", "RemapRule", "SomeRemapRule"), Any),
     "launch_ros.substitutions": _ROS_SUBSTITUTIONS,
+    "launch_ros.ros_adapters": _named(library, "ROSAdapter", "get_ros_adapter", "get_ros_node"),
     "launch_ros.utilities": _ROS_UTILITIES,
+    "launch_ros.utilities.evaluate_parameters": _named(library, "evaluate_parameter_dict", "evaluate_parameters"),
+    "launch_ros.utilities.namespace_utils": {**_NAMESPACES, "OptionalText": Any},
+    "launch_ros.utilities.parse_composable_node": {"parse_composable_node": library.not_here("parse_composable_node")},
+    "launch_ros.utilities.plugin_support": _named(
+        library, "PluginException", "get_upper_bound_caret_version", "satisfies_version"
+    ),
     **{f"launch_testing{name}": {} for name in ("", ".actions", ".asserts", ".legacy", ".markers", ".tools", ".util")},
-    "launch_xml": {},
+    "launch_xml": {"Entity": library.XMLEntity, "Parser": library.XMLParser},
     "launch_xml.launch_description_sources": {"XMLLaunchDescriptionSource": actions.XMLLaunchDescriptionSource},
-    "launch_yaml": {},
+    "launch_yaml": {"Entity": library.YAMLEntity, "Parser": library.YAMLParser},
     "launch_yaml.launch_description_sources": {"YAMLLaunchDescriptionSource": actions.YAMLLaunchDescriptionSource},
     "ament_index_python": {**_PACKAGES, **_RESOURCES, "get_search_paths": ament.get_search_paths},
     "ament_index_python.packages": _PACKAGES,
     "ament_index_python.resources": _RESOURCES,
     "ament_index_python.search_paths": {"get_search_paths": ament.get_search_paths},
 }
+_MODULES = {
+    "launch.actions": ("log", "shutdown_action"),
+    "launch.conditions": ("evaluate_condition_expression_impl",),
+    "launch.events.process": ("process_matchers",),
+    "launch.launch_description_sources": (
+        *("any_launch_file_utilities", "frontend_launch_file_utilities", "python_launch_file_utilities"),
+    ),
+    "launch.substitutions": ("boolean_substitution", "for_loop_var"),
+    "launch.utilities": (
+        *("class_tools_impl", "create_future_impl", "ensure_argument_type_impl", "normalize_to_list_of_entities_impl"),
+        *("normalize_to_list_of_substitutions_impl", "perform_substitutions_impl", "signal_management"),
+        "visit_all_entities_and_collect_futures_impl",
+    ),
+    "launch_ros.events.lifecycle": ("lifecycle_node_matchers",),
+    "launch_ros.utilities": ("track_node_names",),
+}
+"""Modules that have what the one above them has, and are named after nothing in it."""
 _TOP = {name.partition(".")[0] for name in TABLE}
 # lifecycle_msgs/msg/Transition.msg and State.msg: launch files name their constants.
 _TRANSITIONS = {
@@ -303,7 +346,7 @@ def _contents(fullname: str, table: dict[str, dict[str, Any]]) -> Optional[dict[
     if found is None:
         parent, _, name = fullname.rpartition(".")
         above = table.get(parent)
-        if above and any(_snake(each) == name for each in above):
+        if above and (name in _MODULES.get(parent, ()) or any(_snake(each) == name for each in above)):
             return above
     return found
 
@@ -390,7 +433,13 @@ def install() -> None:
         TABLE["launch"][name] = _module(f"launch.{name}")
     for name in ("actions", "descriptions", "event_handlers", "events", "substitutions", "parameter_descriptions"):
         TABLE["launch_ros"][name] = _module(f"launch_ros.{name}")
+    TABLE["launch_ros"]["ros_adapters"] = _module("launch_ros.ros_adapters")
     TABLE["ament_index_python"]["packages"] = _module("ament_index_python.packages")
+    for name in ("launch_xml", "launch_yaml"):
+        TABLE[name]["launch_description_sources"] = _module(f"{name}.launch_description_sources")
+    # `ros2 launch` has imported these when it comes to a launch file.
+    for name in ("launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python"):
+        importlib.import_module(name)
 
 
 def _module(name: str) -> Any:

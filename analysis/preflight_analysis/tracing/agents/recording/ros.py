@@ -317,6 +317,20 @@ class ComposableNode(Made):
         _tell_remappings(t, self.__remappings)
 
 
+class ComposableLifecycleNode(ComposableNode):
+    def __init__(self, *, autostart: Any = False, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__autostart = autostart
+
+    @property
+    def node_autostart(self) -> Any:
+        return self.__autostart
+
+    def preflight_tell(self, t: Any) -> None:
+        super().preflight_tell(t)
+        t.attribute("autostart", self.__autostart)
+
+
 class ComposableNodeContainer(Node):
     preflight_kind = "node_container"
 

@@ -15,6 +15,7 @@ from typing import Any, List, Optional
 from .base import (
     RECORDER,
     LaunchContext,
+    NotHereError,
     Substitution,
     ensure_argument_type,
     normalize_to_list_of_substitutions,
@@ -372,6 +373,73 @@ class LocalSubstitution(Worded):
 
     def perform(self, context: LaunchContext) -> str:
         return str(eval("context.locals." + self.__expression, {}, {"context": context}))  # noqa: S307 - as launch
+
+
+class StringJoinSubstitution(Worded):
+    """Of Kilted, as `ForEachVar` and `ForLoopIndex`."""
+
+    command = "string-join"
+
+    def __init__(self, substitutions: Any, delimiter: Any = "") -> None:
+        self._words(delimiter, *substitutions)
+
+    @property
+    def substitutions(self) -> list[Parts]:
+        return list(self.words[1:])
+
+    @property
+    def delimiter(self) -> Parts:
+        return self.words[0]
+
+    def perform(self, context: LaunchContext) -> str:
+        return self._text(context, 0).join(self._text(context, i) for i in range(1, len(self.words)))
+
+
+class ForEachVar(Worded):
+    command = "for-var"
+
+    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+        self._words(*((name,) if default_value is None else (name, default_value)))
+
+    @property
+    def name(self) -> Parts:
+        return self.words[0]
+
+    @property
+    def default_value(self) -> Optional[Parts]:
+        return self.words[1] if len(self.words) == 2 else None
+
+    @classmethod
+    def get_local_arg_name(cls, name: str) -> str:
+        return f"ForEachVar__{name}"
+
+    def perform(self, context: LaunchContext) -> str:
+        name = self._text(context, 0)
+        known = context.get_locals_as_dict()
+        if self.get_local_arg_name(name) in known:
+            return str(known[self.get_local_arg_name(name)])
+        if len(self.words) == 2:
+            return self._text(context, 1)
+        raise RuntimeError(f"No value available for {type(self).__name__} '{name}' and no default value provided")
+
+
+class ForLoopIndex(ForEachVar):
+    command = "index"
+
+    def __init__(self, name: Any, **kwargs: Any) -> None:
+        super().__init__(name)
+
+
+class Written(Worded):
+    """A text with `$(...)` in it, which the host reads."""
+
+    command = "written"
+
+    def __init__(self, text: str) -> None:
+        self._words(text)
+
+    def perform(self, context: LaunchContext) -> str:
+        raise NotHereError("a substitution that is written as a text is performed when it is launched")
 
 
 class FindPackage(Worded):
