@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from environment_workspace import file, package
-from preflight_analysis.environment.packages import find_packages
+from preflight_analysis.environment.packages import crawl, find_packages
 
 
 def shares(*path: Path) -> dict[str, str]:
@@ -48,6 +48,22 @@ def test_folders_that_are_not_entered(tmp_path: Path) -> None:
     package(tmp_path / "build" / "p4")
     package(tmp_path / "deep" / "build" / "p5")
     assert list(find_packages([str(tmp_path)], skip={"build"}).packages) == ["p5"]
+
+
+def test_what_colcon_ignores_is_found_by_rospkg(tmp_path: Path) -> None:
+    build_type = "<export><build_type>{}</build_type></export>"
+    for marker in ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"):
+        for tool in ("catkin", "ament_cmake", "cmake"):
+            package(tmp_path / marker / f"{tool}_{marker}", body=build_type.format(tool))
+        file(tmp_path / marker / marker)
+    assert sorted(shares(tmp_path)) == ["catkin_AMENT_IGNORE", "catkin_COLCON_IGNORE"]
+    assert list(crawl(str(tmp_path), metapackages=True)) == [], "catkin's tools know all three"
+
+
+def test_what_colcon_has_made_is_not_entered(tmp_path: Path) -> None:
+    package(tmp_path / "ws" / "install" / "p")
+    file(tmp_path / "ws" / "install" / "COLCON_IGNORE")
+    assert shares(tmp_path) == {}
 
 
 def test_metapackage_is_no_package(tmp_path: Path) -> None:

@@ -122,3 +122,14 @@ def test_a_file_opened_in_the_home_folder_does_not_make_all_of_it_a_workspace(
 def test_it_can_be_stopped(desk: Desk) -> None:
     desk.write("leaf.launch", LEAF)
     assert build_index(desk.workspace, str(desk.folder), cancelled=lambda: True) is None
+
+
+def test_what_the_build_ignores_is_not_checked(desk: Desk) -> None:
+    for marker in ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"):
+        (desk.folder / marker / "launch").mkdir(parents=True)
+        (desk.folder / marker / marker).touch()
+        desk.write(f"{marker}/launch/{marker}.launch", LEAF)
+        desk.write(f"{marker}/launch/a.launch.xml", '<launch><node pkg="p" exec="t"/></launch>')
+        desk.write(f"{marker}/launch/a.launch.yaml", "launch: []")
+    index = desk.build()
+    assert paths(tuple(index.entries)) == ["AMENT_IGNORE.launch", "COLCON_IGNORE.launch"]

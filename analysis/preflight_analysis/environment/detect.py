@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, Found, find_packages
+from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, OF_ROS1, Found, find_packages
 
 BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated", "devel_isolated", "install_isolated"})
 """Folders of a workspace that its build makes: what is in them was copied from the source folder."""
@@ -22,8 +22,6 @@ BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated",
 SETTINGS_FILE = ".ros-preflight.yaml"
 
 _ROS1_DISTROS = ("kinetic", "lunar", "melodic", "noetic")
-_OF_ROS1 = (None, "catkin")
-"""The build types of packages for ROS 1; one with `cmake` is for both."""
 _PYTHON_LIBRARY = re.compile(r"^(.*)/lib/python(3(?:\.\d+)?|2\.7)/(?:dist|site)-packages/?$")
 _DEBIAN_MARKS = ("rospy", "roslib", "roslaunch", "roscpp", "std_msgs", "genmsg")
 
@@ -233,7 +231,7 @@ def _is_ros2(
     own = _own(workspace, packages)
     ament = sum(package.generation == 2 for package in own)
     return (
-        ament > sum(package.build_type in _OF_ROS1 for package in own)
+        ament > sum(package.build_type in OF_ROS1 for package in own)
         if own
         else bool(prefixes) and not variables.get("ROS_PACKAGE_PATH")
     )
@@ -248,7 +246,7 @@ def _without_installed_ros1(
 ) -> dict[str, Package]:
     """Where all packages of a workspace are for ROS 2, an installed ROS 1 is none of theirs: `ros2 launch` sees nothing
     of its rviz or joint_state_publisher."""
-    if not own or any(package.build_type in _OF_ROS1 for package in own):
+    if not own or any(package.build_type in OF_ROS1 for package in own):
         return dict(packages)
     own_names = {package.name for package in own}
     kept = tuple(f"{prefix}/" for prefix in prefixes)

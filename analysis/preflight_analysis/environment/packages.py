@@ -14,7 +14,13 @@ from preflight_analysis.environment.walk import walk
 
 MANIFEST = "package.xml"
 LEGACY_MANIFEST = "manifest.xml"
-_IGNORED = frozenset({"CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"})
+IGNORED_BY_ALL = "CATKIN_IGNORE"
+"""The one marker that rospkg knows. colcon's extension for ROS knows it too."""
+IGNORED_BY_COLCON = frozenset({"AMENT_IGNORE", "COLCON_IGNORE"})
+"""Those that colcon and catkin's own tools know besides: nothing below is built, and rospkg finds it all the same."""
+_MADE_BY_COLCON = frozenset({"build", "install", "log"})
+OF_ROS1 = (None, "catkin")
+"""The build types of packages for ROS 1; one with `cmake` is for both."""
 _BLANKS = " \n\r\t"
 _FLAT = "/usr/share/"
 """Debian's rospkg and catkin look no deeper than the folders right below this one."""
@@ -53,21 +59,37 @@ def find_packages(package_path: Iterable[str], skip: Collection[str] = ()) -> Fo
 def crawl(
     top: str, skip: Collection[str] = (), problems: list[str] | None = None, metapackages: bool = False
 ) -> Iterator[Package]:
-    """The packages below one folder in the order of the walk; what is wrong with their manifests goes to `problems`."""
+    """The packages below one folder in the order of the walk; what is wrong with their manifests goes to `problems`.
+
+    What colcon ignores are packages of ROS 1 only, and with `metapackages`, as catkin's own tools crawl, none at all.
+    """
     problems = [] if problems is None else problems
-    for folder, folders, files in walk(top, skip):
-        if not _IGNORED.isdisjoint(files):
+    for folder, folders, files, ignored in walk_unignored(top, skip):
+        if ignored and metapackages:
             folders.clear()
         elif MANIFEST in files:
             folders.clear()
             package = _read_manifest(folder, os.path.join(folder, MANIFEST), metapackages, problems)
-            if package is not None:
+            if package is not None and not (ignored and package.build_type not in OF_ROS1):
                 yield package
         elif LEGACY_MANIFEST in files:
             folders.clear()
             yield _read_legacy_manifest(folder, os.path.join(folder, LEGACY_MANIFEST))
         elif "rospack_nosubdirs" in files or folder.startswith(_FLAT):
             folders.clear()
+
+
+def walk_unignored(top: str, skip: Collection[str] = ()) -> Iterator[tuple[str, list[str], list[str], bool]]:
+    """As `walk`, without what all tools ignore and what colcon has made; last is whether colcon ignores the folder."""
+    marked: tuple[str, ...] = ()
+    for folder, folders, files in walk(top, skip):
+        by_colcon = not IGNORED_BY_COLCON.isdisjoint(files)
+        if IGNORED_BY_ALL in files or (by_colcon and os.path.basename(folder) in _MADE_BY_COLCON):
+            folders.clear()
+            continue
+        if by_colcon:
+            marked += (os.path.join(folder, ""),)
+        yield folder, folders, files, os.path.join(folder, "").startswith(marked)
 
 
 def _read_manifest(folder: str, path: str, metapackages: bool, problems: list[str]) -> Package | None:

@@ -8,12 +8,13 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
-from preflight_analysis.environment.walk import walk
+from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
+from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
 SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"})
@@ -41,7 +42,7 @@ def build_index(
     """
     known = previous if previous is not None and changed is not None else WorkspaceIndex()
     stale = frozenset(changed or ())
-    paths = _launch_files(folder) if folder is not None else []
+    paths = _launch_files(folder, workspace.sources) if folder is not None else []
     maker = _Maker(workspace, known, stale, report, len(paths))
     for path in paths:
         if cancelled():
@@ -170,12 +171,19 @@ def _written_path(value: Value, path: str, packages: Mapping[str, str]) -> str |
     return os.path.normpath(text) if os.path.isabs(text) else None
 
 
-def _launch_files(folder: str) -> list[str]:
-    """The launch files below a workspace. A folder that is nobody's workspace (`/tmp`, the home folder), taken for one
-    because a file in it was opened alone, is not walked: only its own files count."""
+def _launch_files(folder: str, sources: Sources) -> list[str]:
+    """The launch files below a workspace, without those of ROS 2 that colcon ignores. A folder that is nobody's
+    workspace (`/tmp`, the home folder), taken for one because a file in it was opened alone, is not walked: only its
+    own files count."""
     found: list[str] = []
-    for place, folders, names in walk(folder, SKIPPED):
+    for place, folders, names, ignored in walk_unignored(folder, SKIPPED):
         if place in (tempfile.gettempdir(), os.path.expanduser("~"), "/"):
             folders.clear()
-        found += (os.path.join(place, name) for name in names if name.endswith(LAUNCH_SUFFIXES))
+        paths = (os.path.join(place, name) for name in names if name.endswith(LAUNCH_SUFFIXES))
+        found += (path for path in paths if not (ignored and _is_of_ros2(path, sources)))
     return found
+
+
+def _is_of_ros2(path: str, sources: Sources) -> bool:
+    found = sources.launch_file(path)
+    return not isinstance(found, Unreadable) and found.generation == 2
