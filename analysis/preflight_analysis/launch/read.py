@@ -27,12 +27,16 @@ LAUNCH_SUFFIXES = (
 )
 """Launch files by their name; any other file is one if a launch file includes it."""
 
+_ONLY_ROS2 = (
+    r"""<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
+    r"""|unset_env|append_env|node_container|composable_node|load_composable_node|executable|timer)[\s/>]"""
+    r"""|<arg\s[^>]*\bdescription\s*=|<(?:node|test)\s[^>]*\bexec\s*=|<param\s[^>]*\bfrom\s*="""
+)
+"""Tags and attributes that roslaunch never had."""
+_NEVER_ROS1 = re.compile(_ONLY_ROS2)
 _ROS2_MARKS = re.compile(
     r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
-    r"""|<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
-    r"""|unset_env|append_env|node_container|composable_node|load_composable_node|executable|timer|log)[\s/>]"""
-    r"""|<include\s[^>]*\.(?:py|ya?ml)["']"""
-    r"""|<(?:node|test)\s[^>]*\bexec\s*=|<param\s[^>]*\bfrom\s*="""
+    r"""|<log[\s/>]|<include\s[^>]*\.(?:py|ya?ml)["']|""" + _ONLY_ROS2
 )
 _ROS1_MARKS = re.compile(
     r"""\$\((?:arg|find|optenv)\s|<(?:rosparam|machine|test)[\s/>]"""
@@ -44,15 +48,16 @@ _AMENT = re.compile(r"<build_type[^>]*>\s*ament_|<buildtool_depend[^>]*>\s*ament
 _CATKIN = re.compile(r"<buildtool_depend[^>]*>\s*catkin\s*<")
 
 
-def read_launch(source: Text, generation: int | None = None) -> LaunchFile:
-    """The launch file of a text, read as that generation of ROS reads it; None: as it looks. Never raises."""
+def read_launch(source: Text, generation: int | None = None, undecided: int = 1) -> LaunchFile:
+    """The launch file of a text, read as that generation of ROS reads it; None: as it looks, and as `undecided` where
+    nothing tells. Never raises."""
     path, text = source.path, source.text
     if path.endswith(PYTHON_SUFFIX):
         return read_ros2_python(source)
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text))
     document = parse_xml(path, text, source.encoding)
-    return read_ros2_xml(document) if (generation or generation_of(path, text)) == 2 else read_ros1(document)
+    return read_ros2_xml(document) if (generation or generation_of(path, text, undecided)) == 2 else read_ros1(document)
 
 
 def is_yaml(path: str) -> bool:
@@ -60,8 +65,8 @@ def is_yaml(path: str) -> bool:
     return path.endswith(YAML_SUFFIXES)
 
 
-def generation_of(path: str, text: str) -> int:
-    """1 or 2. What has no mark of either, in no package that has one, counts as ROS 1, whose language is the older."""
+def generation_of(path: str, text: str, undecided: int = 1) -> int:
+    """1 or 2; `undecided` for what has no mark of either, in no package that has one."""
     if path.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX)):
         return 2
     code = _COMMENT.sub("", text)
@@ -71,7 +76,10 @@ def generation_of(path: str, text: str) -> int:
     if ros1 is not None and ros2 is None:
         # By that name, and in a package of ROS 2, it is one that speaks the older language by mistake.
         return 2 if path.endswith(".launch.xml") and _of_package(path) == 2 else 1
-    return _of_package(path) or 1
+    of_package = _of_package(path)
+    if of_package is None and ros2 is not None:  # what only ROS 2 has, beside what both have had at some time
+        return 2 if _NEVER_ROS1.search(code) is not None else 1
+    return of_package or undecided
 
 
 def _of_package(path: str) -> int | None:

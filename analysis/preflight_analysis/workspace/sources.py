@@ -32,6 +32,8 @@ class Sources:
         self._lock = threading.RLock()
         self._open: dict[str, _Entry] = {}
         self._disk: dict[str, _Entry] = {}
+        self.undecided = 1
+        """The generation of ROS that a launch file is of which shows none: that of the environment."""
 
     def open(self, path: str, text: str) -> None:
         """The editor's text counts from now on; call it again for each change."""
@@ -57,9 +59,10 @@ class Sources:
         if isinstance(entry.text, Unreadable):
             return entry.text
         with entry.parsing:
-            found = entry.parsed.get("launch")
+            as_it_looks = f"launch, else {self.undecided}"
+            found = entry.parsed.get(as_it_looks)
             if not isinstance(found, LaunchFile):
-                found = entry.parsed["launch"] = read_launch(entry.text)
+                found = entry.parsed[as_it_looks] = read_launch(entry.text, undecided=self.undecided)
             if generation not in (None, found.generation):
                 found = entry.parsed.get(f"launch {generation}")
                 if not isinstance(found, LaunchFile):

@@ -75,6 +75,7 @@ def answer_all(jobs: Path, *, no_run: bool = False) -> int:
     environment_of = lru_cache(maxsize=4)(_environment)
     for job in _read(jobs):
         sources = Sources()
+        sources.undecided = 2 if job.env.get("ROS_VERSION") == "2" else 1
         launch_file = sources.launch_file(job.file)
         generation = 1 if isinstance(launch_file, Unreadable) else launch_file.generation
         args = parse_arguments(job.args) if generation == 1 else parse_ros2_arguments(job.args)
