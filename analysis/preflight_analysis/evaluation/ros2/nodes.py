@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.shares import located
+from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Scope
 from preflight_analysis.evaluation.ros2.param_files import EVERY
@@ -250,8 +251,8 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
             if result.known:
                 path = located(performer.state.environment, os.path.join(performer.state.cwd, result.text))
                 at = performer.place.origin(file.span)
-                location = Location(performer.place.file, file.span)
-                performer.state.uses.append(Use("file", location, result.text, path, Location(path, Span(0, 0))))
+                location, target = Location(performer.place.file, file.span), without_dots(path) or path
+                performer.state.uses.append(Use("file", location, result.text, target, Location(target, Span(0, 0))))
                 substitute = allows_substitutions(performer, child)
                 to.add(file_source(performer, path, at, to, substitute=substitute, must_exist=must_exist))
         elif child.value("name") is not None:

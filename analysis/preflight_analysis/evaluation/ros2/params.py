@@ -12,6 +12,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.shares import located
+from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
 from preflight_analysis.evaluation.ros2.param_files import (
@@ -151,6 +152,7 @@ def file_source(
     """
     state = performer.state
     path = located(state.environment, path)
+    path = without_dots(path) or path
     found = state.read_text(path)
     if isinstance(found, Unreadable):
         kind = "param-file-not-found" if found.kind == "missing" else "param-file-unreadable"
