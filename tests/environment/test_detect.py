@@ -7,6 +7,7 @@ import pytest
 from environment_workspace import file, package, script, space
 from preflight_analysis.environment.detect import detect, detect_environment, workspace_of
 from preflight_analysis.environment.doctor import describe
+from preflight_analysis.environment.view import of_generation
 
 
 def install_ros(prefix: Path, python: str = "python3") -> None:
@@ -218,6 +219,54 @@ def test_workspace_of_a_file(tmp_path: Path) -> None:
     assert workspace_of(str(launch)) == str(launch.parents[2])
     space(tmp_path / "ws" / "devel")
     assert workspace_of(str(launch)) == str(tmp_path / "ws")
+
+
+def test_the_nearest_of_several_workspaces_in_one_repository(tmp_path: Path) -> None:
+    (tmp_path / ".git").mkdir()
+    for name in ("one", "two"):
+        package(tmp_path / name / "src" / "group" / "p")
+        launch = file(tmp_path / name / "src" / "group" / "p" / "launch" / "a.launch")
+        assert workspace_of(str(launch)) == str(tmp_path / name)
+        assert workspace_of(str(tmp_path / name / "_")) == str(tmp_path / name), "checked from that folder"
+        environment = detect(str(launch), None)
+        assert environment.packages["p"].share == str(launch.parents[1])
+    assert workspace_of(str(file(tmp_path / "other" / "a.launch"))) == str(tmp_path)
+    package(tmp_path / "nodes" / "q")
+    (tmp_path / "nodes" / "q" / "src").mkdir()
+    assert workspace_of(str(file(tmp_path / "nodes" / "q" / "a.launch"))) == str(tmp_path)
+    (tmp_path / ".ros-preflight.yaml").touch()
+    assert workspace_of(str(tmp_path / "one" / "_")) == str(tmp_path), "the settings say what belongs together"
+
+
+def test_a_package_of_ros_2_is_not_hidden_by_one_of_ros_1_that_is_installed(tmp_path: Path) -> None:
+    install_debian(tmp_path)
+    package(tmp_path / "usr" / "share" / "topic_tools")
+    prefix = tmp_path / "opt" / "ros" / "jazzy"
+    ament(prefix, "topic_tools")
+    variables = {"ROS_VERSION": "2", "ROS_DISTRO": "jazzy", "AMENT_PREFIX_PATH": str(prefix)}
+    environment = detect_environment(None, variables, root=str(tmp_path))
+    assert {name: found.share for name, found in environment.packages.items()} == {
+        "topic_tools": str(prefix / "share" / "topic_tools")
+    }
+
+
+def test_each_generation_has_its_packages_where_both_are(tmp_path: Path) -> None:
+    install_debian(tmp_path)
+    package(tmp_path / "usr" / "share" / "topic_tools")
+    prefix = tmp_path / "opt" / "ros" / "jazzy"
+    for name in ("topic_tools", "nav2_util"):
+        ament(prefix, name)
+    manifest = "<package><name>{}</name><export><build_type>{}</build_type></export></package>"
+    for name, build_type in (("old", "catkin"), ("new", "ament_cmake"), ("newer", "ament_cmake")):
+        (package(tmp_path / "ws" / "src" / name) / "package.xml").write_text(manifest.format(name, build_type))
+    environment = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path))
+    ros1, ros2 = (of_generation(environment, generation).packages for generation in (1, 2))
+    assert ros1["topic_tools"].share == str(tmp_path / "usr" / "share" / "topic_tools")
+    assert ros2["topic_tools"].share == str(prefix / "share" / "topic_tools")
+    assert {"rospy", "old", "new"} <= set(ros1), "rospkg takes what its path has"
+    assert {"nav2_util", "old", "new"} <= set(ros2)
+    assert "nav2_util" not in ros1
+    assert "rospy" not in ros2
 
 
 def test_a_folder_inside_of_a_package_is_not_taken_for_the_workspace(tmp_path: Path) -> None:

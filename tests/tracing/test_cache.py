@@ -411,7 +411,7 @@ def test_foreign_files_do_no_harm_and_come_to_none(desk: Desk, tmp_path: Path) -
     path.with_name(f"{recipe}-zero.json").symlink_to("/dev/zero")
     Path(os.fsdecode(os.fsencode(path.parent) + b"/\xff.json")).write_text("{}")
     assert desk.hit()
-    assert [kept.node for kept in cache.traces_of("pkg", desk.script.name, None)[1]] == ["/node"]
+    assert [kept.node for kept in cache.traces_of(1, "pkg", desk.script.name, None)[1]] == ["/node"]
     cache.max_bytes = 1
     cache.sweep()
     assert not desk.hit()

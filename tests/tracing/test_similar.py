@@ -251,3 +251,12 @@ def test_a_run_that_ended_without_doing_anything_says_nothing(desk: Desk) -> Non
     assert interface(helped).outcome.status == "exited"
     found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
     assert (found.source, found.elsewhere and found.elsewhere.node) == ("similar", "/works"), "the older build's"
+
+
+def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(desk: Desk) -> None:
+    desk.analyse("works.launch", WORKS)
+    desk.script.unlink()
+    (node,) = desk.analyse("works.launch", WORKS, run=False).tree.nodes
+    similar = SimilarTraces(desk.cache)
+    assert similar.looking({}, 1)(node) is not None
+    assert similar.looking({}, 2)(node) is None

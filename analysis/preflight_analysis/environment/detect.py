@@ -14,7 +14,8 @@ from dataclasses import dataclass
 
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, OF_ROS1, Found, find_packages
+from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, OF_ROS1, Found, crawl, find_packages
+from preflight_analysis.environment.view import by_generation, is_installed_ros1
 
 BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated", "devel_isolated", "install_isolated"})
 """Folders of a workspace that its build makes: what is in them was copied from the source folder."""
@@ -51,19 +52,24 @@ def detect(
 def workspace_of(file: str) -> str:
     """The folder to take as the workspace when only a file is known.
 
-    The catkin or colcon workspace around it, else the project (settings file, git) that it is in, else the folder whose
-    `src` it is below, else its package, else its own folder.
+    The catkin or colcon workspace around it, else the project that it is in (what has a settings file, or in a git
+    repository the nearest folder with packages in its `src`, or the repository), else the folder whose `src` it is
+    below, else its package, else its own folder.
     """
     folder = os.path.dirname(os.path.abspath(file))
     if workspace := _catkin_workspace(folder) or _colcon_workspace(folder):
         return workspace
+    nearest = None
     for candidate in _with_parents(folder):
-        if any(os.path.exists(os.path.join(candidate, mark)) for mark in (SETTINGS_FILE, ".git")):
+        if os.path.exists(os.path.join(candidate, SETTINGS_FILE)):
             return candidate
-    package = next((candidate for candidate in _with_parents(folder) if _is_package(candidate)), None)
-    if package is None:
-        return folder
-    return _above_src(package) or package
+        if nearest is None and _has_sources(candidate):
+            nearest = candidate
+        if os.path.exists(os.path.join(candidate, ".git")):
+            return nearest or candidate
+    if nearest is not None:
+        return nearest
+    return next((candidate for candidate in _with_parents(folder) if _is_package(candidate)), folder)
 
 
 def detect_environment(
@@ -111,10 +117,8 @@ def detect_environment(
     found = find_packages(path, skip=BUILT)
     if package_path is None:
         prefixes = ament_prefixes(variables, colcon or workspace, root)
-    packages = {**installed_packages(prefixes), **found.packages}
     ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
-    if ros2 and package_path is None:
-        packages = _without_installed_ros1(packages, _own(workspace, found.packages.values()), prefixes)
+    packages, shadowed = _in_order(found, prefixes, system, _own(workspace, found.packages.values()), ros2=ros2)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     ros2_python = rclpy_interpreter(given, prefixes, root)
@@ -132,7 +136,7 @@ def detect_environment(
         variables=given,
         package_path=tuple(path),
         packages=packages,
-        shadowed=found.shadowed,
+        shadowed=shadowed,
         devel_spaces=tuple(devel),
         system_prefixes=tuple(system),
         python=python.interpreter if python else None,
@@ -211,14 +215,11 @@ def _colcon_workspace(folder: str) -> str | None:
     return None
 
 
-def _above_src(package: str) -> str | None:
-    """The folder whose `src` a package is below: a workspace that was never built. The home folder is none."""
-    home = os.path.expanduser("~")
-    for candidate in _with_parents(os.path.dirname(package)):
-        above = os.path.dirname(candidate)
-        if os.path.basename(candidate) == "src" and above not in (home, "/", "/usr", "/usr/local"):
-            return above
-    return None
+def _has_sources(folder: str) -> bool:
+    """Whether it is a workspace, built or not: packages are in its `src`. The home folder is none, nor is a package."""
+    if folder in (os.path.expanduser("~"), "/", "/usr", "/usr/local") or _is_package(folder):
+        return False
+    return next(crawl(os.path.join(folder, "src")), None) is not None
 
 
 def _is_ros2(
@@ -241,20 +242,31 @@ def _own(workspace: str | None, packages: Iterable[Package]) -> list[Package]:
     return [p for p in packages if workspace is not None and p.share.startswith(workspace.rstrip("/") + "/")]
 
 
-def _without_installed_ros1(
-    packages: Mapping[str, Package], own: Sequence[Package], prefixes: Sequence[str]
-) -> dict[str, Package]:
-    """Where all packages of a workspace are for ROS 2, an installed ROS 1 is none of theirs: `ros2 launch` sees nothing
-    of its rviz or joint_state_publisher."""
-    if not own or any(package.build_type in OF_ROS1 for package in own):
-        return dict(packages)
-    own_names = {package.name for package in own}
-    kept = tuple(f"{prefix}/" for prefix in prefixes)
-    return {
-        name: package
-        for name, package in packages.items()
-        if name in own_names or package.generation == 2 or package.share.startswith(kept)
-    }
+def _in_order(
+    found: Found, prefixes: Sequence[str], system: Sequence[str], own: Sequence[Package], *, ros2: bool
+) -> tuple[dict[str, Package], dict[str, tuple[Package, ...]]]:
+    """For each name the first package and the others. Generations are apart: an installed ROS 1 hides nothing of
+    ROS 2, and is there at all in an environment of ROS 2 only where the workspace has packages of ROS 1."""
+    built = installed_packages(prefixes)
+    in_system = tuple(os.path.join(prefix, "share", "") for prefix in system)
+    in_prefixes = tuple(os.path.join(prefix, "") for prefix in prefixes)
+    mixed = any(package.build_type in OF_ROS1 for package in own)
+    packages: dict[str, Package] = {}
+    shadowed: dict[str, tuple[Package, ...]] = {}
+    for name in dict.fromkeys((*found.packages, *built)):
+        here = [found.packages[name], *found.shadowed.get(name, ())] if name in found.packages else []
+        if ros2 and not mixed:
+            here = [package for package in here if not is_installed_ros1(package, in_system, in_prefixes)]
+        # What a source is built to is no other package than the source.
+        if name in built and all(package.build_type in OF_ROS1 for package in here):
+            here.append(built[name])
+        if ros2:
+            here = [*by_generation(here)]
+        if here:
+            packages[name] = here[0]
+        if len(here) > 1:
+            shadowed[name] = tuple(here[1:])
+    return packages, shadowed
 
 
 def _with_parents(folder: str) -> Iterator[str]:

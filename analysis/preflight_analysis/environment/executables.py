@@ -52,7 +52,7 @@ class ExecutableIndex:
         found = self._environment.packages.get(package)
         if found is None:
             return Executable(None)
-        if found.generation == 2:
+        if self._is_ament(found):
             return self._find_ament(found, name)
         runnable: list[str] = []
         others: list[str] = []
@@ -63,6 +63,11 @@ class ExecutableIndex:
                     (runnable if mode & _RUNNABLE == _RUNNABLE else others).append(path)
         candidates = tuple(dict.fromkeys(runnable))
         return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
+
+    def _is_ament(self, package: Package) -> bool:
+        """Whether `launch_ros` looks for its executables. One that both generations build (`cmake`) is that of the
+        environment."""
+        return package.generation == 2 or (package.build_type == "cmake" and self._environment.generation == 2)
 
     def _find_ament(self, package: Package, name: str) -> Executable:
         """`lib/<package>` of the prefixes, as `launch_ros` looks for it, and what the package in the source will put
@@ -121,12 +126,13 @@ class ExecutableIndex:
             return ()
         if package not in self._names:
             build = self._build(package)
-            names = set(python_build(found).scripts) if found.generation == 2 else set()
-            for prefix in self._environment.ament_prefixes if found.generation == 2 else ():
+            of_ros2 = self._is_ament(found)
+            names = set(python_build(found).scripts) if of_ros2 else set()
+            for prefix in self._environment.ament_prefixes if of_ros2 else ():
                 names |= set(_listed(os.path.join(prefix, "lib", package)))
             names |= {target.output for target in build.targets.values() if target.kind == "executable"}
             names |= set(build.programs)
-            for folder in self._folders(package, found.share) if found.generation == 1 else ():
+            for folder in self._folders(package, found.share) if not of_ros2 else ():
                 for name, paths in self._walked(folder).items():
                     if name not in names and any(_is_runnable(path) for path in paths):
                         names.add(name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,3 +50,5 @@ class Environment:
     """Prefixes of ROS 2 whose `share` and `lib` hold installed packages, the first one wins."""
     ros2_python: str | None = None
     """The interpreter that has rclpy, None when there is none."""
+    meant: Mapping[str, str] = field(default_factory=dict)
+    """As one launch file sees it: the folders of packages that are others than for most, by name."""

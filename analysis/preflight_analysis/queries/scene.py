@@ -108,7 +108,7 @@ def with_analyses(index: WorkspaceIndex, analyses: Sequence[Analysis]) -> Worksp
         else replace(entry, inclusions=tuple(i for i in entry.inclusions if i.includer not in stale))
         for root, entry in index.entries.items()
     }
-    packages = {n: p.share for a in analyses[:1] for n, p in a.environment.packages.items()}
+    packages = analyses[0].environment.packages if analyses else {}
     written = [i for i in index.written if i.includer not in stale]
     written += (i for found in stale.values() for i in written_includes(found, packages))
     files = {**index.files, **{path: facts_of(found) for path, found in stale.items()}}

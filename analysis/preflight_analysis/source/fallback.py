@@ -48,7 +48,7 @@ class Fallback:
         values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
         values |= {f"{node.name}/{param.name}": param.value for node in tree.nodes for param in node.params}
         params = LaunchParams(values)
-        similar = self._similar.looking(values) if self._similar is not None else None
+        similar = self._similar.looking(values, tree.generation) if self._similar is not None else None
         digests: dict[str, str] = {}
         whole = list(interfaces)
         for at, node in enumerate(tree.nodes):

@@ -109,11 +109,14 @@ class TraceCache(Store):
         entry = {"dependencies": known, "interface": _encode(interface), "made": made}
         return self._keep(self._place(recipe, request), conditions, entry)
 
-    def traces_of(self, package: str, executable: str, plugin: str | None) -> tuple[object, tuple[Kept, ...]]:
+    def traces_of(
+        self, generation: int, package: str, executable: str, plugin: str | None
+    ) -> tuple[object, tuple[Kept, ...]]:
         """What is kept of an executable (a nodelet: of its plugin), the last used first, and what tells when that has
-        changed. `package` and the file's name tell which one it is, wherever it is now and however often it was built.
+        changed. The generation of ROS, `package` and the file's name tell which one it is, wherever it is now and
+        however often it was built.
         """
-        folder = self._executable_folder(package, executable, plugin)
+        folder = self._executable_folder(generation, package, executable, plugin)
         try:
             state = os.stat(folder).st_mtime_ns
             paths = [path for path in folder.iterdir() if path.suffix == ".json"]
@@ -126,10 +129,10 @@ class TraceCache(Store):
         kept = (self._kept(path, used) for used, path in sorted(dated, reverse=True)[:MOST_OF_ONE_EXECUTABLE])
         return state, tuple(each for each in kept if each is not None)
 
-    def state_of(self, package: str, executable: str, plugin: str | None) -> object:
+    def state_of(self, generation: int, package: str, executable: str, plugin: str | None) -> object:
         """What changes with what `traces_of` gives."""
         try:
-            return os.stat(self._executable_folder(package, executable, plugin)).st_mtime_ns
+            return os.stat(self._executable_folder(generation, package, executable, plugin)).st_mtime_ns
         except OSError:
             return None
 
@@ -152,8 +155,8 @@ class TraceCache(Store):
         except (KeyError, TypeError, ValueError, AttributeError):
             return None
 
-    def _executable_folder(self, package: str, executable: str, plugin: str | None) -> Path:
-        return self._folder_of(_executable_digest(package, executable, plugin))
+    def _executable_folder(self, generation: int, package: str, executable: str, plugin: str | None) -> Path:
+        return self._folder_of(_executable_digest(generation, package, executable, plugin))
 
     def _place(self, recipe: Recipe, request: TraceRequest) -> Place:
         named = {
@@ -170,7 +173,7 @@ class TraceCache(Store):
             "cwd": recipe.cwd,
         }
         name = os.path.basename(request.executable)
-        return self._place_of(named, self._executable_folder(request.package, name, part(request)))
+        return self._place_of(named, self._executable_folder(request.generation, request.package, name, part(request)))
 
 
 class _View:
@@ -213,9 +216,9 @@ class _View:
 
 
 @functools.lru_cache(maxsize=4096)
-def _executable_digest(package: str, executable: str, plugin: str | None) -> str:
+def _executable_digest(generation: int, package: str, executable: str, plugin: str | None) -> str:
     # Whatever version of this program made them: the traces of other versions are not read, but bounded as well.
-    return digest_of({"package": package, "executable": executable, "plugin": plugin})
+    return digest_of({"generation": generation, "package": package, "executable": executable, "plugin": plugin})
 
 
 def _valid(known: Mapping[str, Any], view: _View) -> bool:

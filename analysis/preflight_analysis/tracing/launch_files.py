@@ -15,6 +15,7 @@ from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.view import of_generation
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import ros2_recipe, sandbox
 from preflight_analysis.tracing.backend import AGENTS
@@ -31,11 +32,12 @@ _START = (
 
 def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes.Recipe:
     """The recipe of a request (`evaluation.ros2.python_runs.parse_request`)."""
+    environment = of_generation(environment, 2)
     # What the file imports is what the user's ROS 2 has, and that is for its interpreter.
     python = environment.ros2_python or environment.python or sys.executable
     job = {
         **request,
-        "packages": {name: package.share for name, package in environment.packages.items()},
+        "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
         "paths": _module_folders(environment),
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()

@@ -23,7 +23,7 @@ from preflight_analysis.tracing.store import fingerprint
 
 _MAX_REMEMBERED = 4096
 
-_Key = tuple[str, str, "str | None"]
+_Key = tuple[int, str, str, "str | None"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +46,12 @@ class SimilarTraces:
         self._cache = cache
         self._lock = threading.Lock()
         self._remembered: dict[_Key, tuple[object, tuple[Kept, ...]]] = {}
-        self._told: dict[tuple[str, str, str, str], _Told] = {}
+        self._told: dict[tuple[int, str, str, str, str], _Told] = {}
 
-    def looking(self, params: Mapping[str, Any]) -> Callable[[LaunchNode], Interface | None]:
+    def looking(self, params: Mapping[str, Any], generation: int) -> Callable[[LaunchNode], Interface | None]:
         """What the executable of a node did in the most similar run; None where none is known. `params` is the
-        parameter server of the launch. The names are as the node would give them, everything is marked `similar`.
+        parameter server of the launch, `generation` that of ROS: the other one may have a node of the same name. The
+        names are as the node would give them, everything is marked `similar`.
 
         For the nodes of one launch: the disk is asked once for each executable.
         """
@@ -68,10 +69,11 @@ class SimilarTraces:
                     executable,
                     split_args(node.args),
                     params=params,
+                    generation=generation,
                     entry_point=node.resolved.entry_point,
                 )
             )
-            key = (node.package, os.path.basename(executable), part(request))
+            key = (generation, node.package, os.path.basename(executable), part(request))
             if key not in known:
                 known[key] = self._traces(key)
             if path not in builds:
@@ -86,7 +88,7 @@ class SimilarTraces:
         self, node: LaunchNode, request: TraceRequest, traces: tuple[Kept, ...], build: str, said: frozenset[str]
     ) -> Interface | None:
         path = node.resolved.path or ""
-        key = (node.name, node.package, f"{request.executable}:{request.entry_point}", node.args)
+        key = (request.generation, node.name, node.package, f"{request.executable}:{request.entry_point}", node.args)
         told = self._told.get(key)
         if told is not None and told.traces is traces and told.build == build and told.strange == told.given - said:
             return told.found

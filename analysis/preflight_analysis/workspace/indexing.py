@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
@@ -91,7 +92,6 @@ class _Maker:
         self._stale = stale
         self._report = report
         self._total = total
-        self._packages = {name: package.share for name, package in workspace.environment.packages.items()}
         self._written_before: dict[str, list[Inclusion]] = {}
         for inclusion in known.written:
             self._written_before.setdefault(inclusion.includer, []).append(inclusion)
@@ -111,7 +111,8 @@ class _Maker:
         if isinstance(found, Unreadable) or found.root is None:
             return
         self.files[path] = facts_of(found)
-        self.written += written_includes(found, self._packages)
+        packages = self._workspace.environment_of(path).packages
+        self.written += written_includes(found, packages)
 
     def enter(self, root: Root) -> None:
         """Evaluate a root, unless nothing of it changed."""
@@ -141,7 +142,7 @@ class _Maker:
                     self.read(path)
 
 
-def written_includes(launch_file: LaunchFile, packages: Mapping[str, str]) -> Iterator[Inclusion]:
+def written_includes(launch_file: LaunchFile, packages: Mapping[str, Package]) -> Iterator[Inclusion]:
     """The includes of a file whose target its text tells: literal paths, `$(find package)/...` and `$(dirname)/...`."""
     if launch_file.root is None:
         return
@@ -157,13 +158,13 @@ def _no_args(action: Action) -> dict[str, str | None]:
     return {name.text: None for child in action.children if child.kind == "arg" and (name := child.value("name"))}
 
 
-def _written_path(value: Value, path: str, packages: Mapping[str, str]) -> str | None:
+def _written_path(value: Value, path: str, packages: Mapping[str, Package]) -> str | None:
     text = ""
     for part in value.parts:
         if isinstance(part, Literal):
             text += part.text
         elif part.command in ("find", "find-pkg-share") and part.arguments in packages:
-            text += packages[part.arguments]
+            text += packages[part.arguments].share
         elif part.command == "dirname":
             text += os.path.dirname(path)
         else:

@@ -13,6 +13,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.view import of_generation, seen_from
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
@@ -90,6 +91,15 @@ class Analysis:
         return Root(self.root, self.args)
 
 
+@dataclass(frozen=True, slots=True)
+class _View:
+    """What launch files of one generation see, those that mean the same packages; and what was found by it."""
+
+    environment: Environment
+    executables: ExecutableIndex
+    memo: Memo
+
+
 class Workspace:
     """The engine behind server and command. Thread-safe.
 
@@ -108,23 +118,44 @@ class Workspace:
     ) -> None:
         self.environment = environment
         self.sources = sources
+        sources.undecided = environment.generation
         self.commands = commands or NoResults()
         self.cwd = cwd or environment.workspace or os.getcwd()
-        self._executables = ExecutableIndex(environment)
+        self._views: dict[object, _View] = {}
+        self._generations: dict[int, Environment] = {}
         self._similar = similar
         self._nodl = NodlFiles(environment, sources)
         self._fallback = Fallback(SourceAnalysis(environment, sources), similar)
         self._project: tuple[str, ProjectSettings] | None = None
         self._ahead: tuple[Analysis, Analysis] | None = None
         self._lock = threading.Lock()
-        self._memo = Memo()
         self._memo_lock = threading.Lock()
         self._static: dict[tuple[str, tuple[tuple[str, str], ...]], Analysis] = {}
 
     @property
     def executables(self) -> ExecutableIndex:
         """The executables on the disk; a new index after each `refresh`."""
-        return self._executables
+        return self._view_of(self.environment).executables
+
+    def environment_of(self, path: str) -> Environment:
+        """The environment as a launch file sees it."""
+        return self._view(path).environment
+
+    def _view(self, path: str) -> _View:
+        found = self.sources.launch_file(path)
+        generation = self.environment.generation if isinstance(found, Unreadable) else found.generation
+        known = self._generations.get(generation)
+        if known is None:
+            known = self._generations[generation] = of_generation(self.environment, generation)
+        return self._view_of(seen_from(known, path))
+
+    def _view_of(self, environment: Environment) -> _View:
+        key = environment.generation, tuple(environment.meant.items())
+        with self._lock:
+            view = self._views.get(key)
+            if view is None:
+                view = self._views[key] = _View(environment, ExecutableIndex(environment), Memo())
+        return view
 
     def static(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
         """What can be said of `path` launched with `args` without running anything."""
@@ -136,18 +167,19 @@ class Workspace:
         severities = self._project_settings().severities
         if known is not None and known.severities == severities and self.is_current(known.tree):
             return known
-        tree = self._remembering_tree(path, args)
+        view = self._view(path)
+        tree = self._remembering_tree(path, args, view)
         documents, launch_files = self._documents(tree)
         context = Context(
             path,
             tree,
             documents,
             launch_files,
-            self.environment,
-            executables=self._executables,
+            view.environment,
+            executables=view.executables,
             sources=self.sources,
         )
-        analysis = Analysis(path, key[1], tree, documents, launch_files, self.environment, context, severities)
+        analysis = Analysis(path, key[1], tree, documents, launch_files, view.environment, context, severities)
         with self._lock:
             self._static.pop(key, None)
             self._static[key] = analysis
@@ -157,29 +189,28 @@ class Workspace:
 
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered."""
-        return self._evaluate(path, args, None)
+        return self._evaluate(path, args, self._view(path), None)
 
-    def _remembering_tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
+    def _remembering_tree(self, path: str, args: Mapping[str, str], view: _View) -> LaunchTree:
         # One thread at a time has the memo; another one does without.
         if not self._memo_lock.acquire(blocking=False):
-            return self._evaluate(path, args, None)
+            return self._evaluate(path, args, view, None)
         try:
-            return self._evaluate(path, args, self._memo)
+            return self._evaluate(path, args, view, view.memo)
         finally:
             self._memo_lock.release()
 
-    def _evaluate(self, path: str, args: Mapping[str, str], memo: Memo | None) -> LaunchTree:
+    def _evaluate(self, path: str, args: Mapping[str, str], view: _View, memo: Memo | None) -> LaunchTree:
         return evaluate_launch(
-            path, args, self.sources, self._executables, self.environment, self.cwd, self.commands, memo
+            path, args, self.sources, view.executables, view.environment, self.cwd, self.commands, memo
         )
 
     def refresh(self) -> None:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
         with self._lock:
-            self._executables = ExecutableIndex(self.environment)
+            self._views.clear()
             self._nodl = NodlFiles(self.environment, self.sources)
             self._fallback = Fallback(SourceAnalysis(self.environment, self.sources), self._similar)
-            self._memo = Memo()
             self._static.clear()
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
@@ -239,7 +270,7 @@ class Workspace:
             analysis.context,
             graph=graph,
             why_not_run=why_not_run,
-            executables=self._executables,
+            executables=self._view(analysis.root).executables,
             settings_problems=problems,
         )
         documents = analysis.documents if document is None else {**analysis.documents, document.path: document}

@@ -72,6 +72,8 @@ class PythonRun:
     """Texts that earlier runs wrote and that the configurations name."""
     given: Mapping[str, str] = field(default_factory=dict)
     """The variables of the user's environment that the text names: the sandbox hands on no others."""
+    packages: Mapping[str, str] = field(default_factory=dict)
+    """The folders of packages that are others for the launch than for most."""
     replaced: bool = False
     """Whether the text is another one by now, and this the last run that went well: nothing is asked for it again."""
 

@@ -68,6 +68,8 @@ def request(run: PythonRun) -> str:
         told["files"] = dict(run.files)
     if run.given:
         told["given"] = dict(run.given)
+    if run.packages:
+        told["packages"] = dict(run.packages)
     return MARK + json.dumps(told, sort_keys=True)
 
 
@@ -86,6 +88,7 @@ def recorded(
     document, whole = launch_file.document, Span(0, 0)
     given = _given(document.text, context.initial_environment)
     run = PythonRun(launch_file.path, document.text, _variables(context), (), _source(document.text), given=given)
+    run = replace(run, packages=state.environment.meant)
     place, unknowns, problems = Place(launch_file.path, chain, run), len(state.unknowns), len(state.problems)
     told = None
     if document.problems:
