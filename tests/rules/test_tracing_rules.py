@@ -2,6 +2,7 @@
 
 import json
 
+import pytest
 from preflight_check import check, findings_of
 
 
@@ -62,6 +63,62 @@ def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
         {"/n": {"status": "crashed", "exit_code": 1, "params": {"/robot_description": null}}}
         //- commands
         {"xacro robot.xacro": {"status": "not-run", "reason": "--no-run was given"}}
+    """)
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        '<param name="robot_description" command="$(find nowhere)/xacro r.xacro"/>',
+        '<param name="robot_description" textfile="$(find p)/r.urdf"/>',
+        '<param name="robot_description" value="$(env NOT_SET_HERE)"/>',
+        '<param name="robot_description" type="int" value="none"/>',
+        '<rosparam param="robot_description" command="load" file="$(find p)/r.yaml"/>',
+        '<rosparam file="$(find p)/r.yaml"/>',
+        '<rosparam param="robot_description">{</rosparam>',
+    ],
+)
+@pytest.mark.parametrize("access", ["get", "has"])
+def test_a_crash_for_want_of_a_value_that_is_reported_itself_is_a_consequence(setting: str, access: str) -> None:
+    found = findings_of(f"""
+        <launch>
+          {setting}
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "params": {{"/robot_description": {{"access": "{access}"}}}},
+                 "stderr": ["Could not find parameter robot_description on parameter server"]}}}}
+    """)
+    (crash,) = (each for each in found if each.rule != "PRM010" and each.rule.startswith(("TRC", "PRM01")))
+    assert (crash.rule, crash.severity, crash.confidence) == ("TRC001", "info", "possible")
+    assert "it asked for '/robot_description', which has no value: " in crash.message
+    assert any(each.stops_launch for each in found)
+
+
+def test_a_crash_for_want_of_a_private_value_that_is_reported_itself_is_a_consequence() -> None:
+    check("""
+        <launch>
+          <param name="~model" value="$(find nowhere)/m"/>
+                                      ^^^^^^^^^^^^^^^ error[PKG001] package 'nowhere' is not among
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/n/model', which has no value
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"~model": null}}}
+    """)
+
+
+def test_a_crash_for_another_reason_stays_a_warning_where_a_value_is_missing() -> None:
+    check("""
+        <launch>
+          <param name="robot_description" value="$(find nowhere)/m"/>
+                                                 ^^^^^^^^^^^^^^^ error[PKG001] package 'nowhere' is not among
+          <param name="model" value="x"/>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 1
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/model": null}}}
     """)
 
 

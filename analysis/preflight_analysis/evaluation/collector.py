@@ -99,9 +99,9 @@ class Collector:
         if action.kind in _STARTS:
             self.not_taken.append(NotTaken(action, condition, value, origin))
 
-    def note_unknown(self, what: str, reason: str, location: Location) -> None:
-        """Note a value that cannot be known."""
-        self.unknowns.append(Unknown(what, reason, location))
+    def note_unknown(self, what: str, reason: str, location: Location, param: str | None = None) -> None:
+        """Note a value that cannot be known, of the parameter `param` if it is one's."""
+        self.unknowns.append(Unknown(what, reason, location, param))
 
     def anonymous_name(self, identifier: str) -> str:
         """A fresh name for `$(anon identifier)`, numbered in the order of evaluation."""

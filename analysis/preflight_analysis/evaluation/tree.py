@@ -47,6 +47,9 @@ class Unknown:
     what: str
     reason: str
     location: Location
+    param: str | None = None
+    """Of a parameter its full name, which is not set therefore, nor is anything below it; `~name` of a private one of
+    the nodes to come."""
 
 
 class Param(NamedTuple):

@@ -3,8 +3,10 @@
 import re
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
@@ -17,26 +19,52 @@ _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Exit|Interrupt|Warning
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    commands = {p.name for p in context.tree.params.values() if isinstance(p.value, CommandValue)}
-    commands |= {c.param for c in context.tree.commands if c.result is None or c.result.status != "done"}
+    lost = _LostParams(context)
     for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
         outcome = interface.outcome
         failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
         if not failed:
             continue
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
-        lacking = next((r.name for r in context.graph.param_reads if r.node is node and r.name in commands), None)
+        lacking = next(filter(None, (lost.why(r) for r in context.graph.param_reads if r.node is node)), None)
         # Of a parameter that is missing another rule says more, as a warning.
         told = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         ours = lacking is not None or bool(outcome.answers) or any(e.speculative for e in interface.endpoints)
-        note = f"; it asked for '{lacking}', which comes from a command without a result" if lacking else ""
         yield rule.finding(
-            _message(node.name, outcome) + note,
+            _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else ""),
             node_location(node),
             severity="info" if ours or told else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
         )
+
+
+class _LostParams:
+    """Parameters that the launch file sets to a value that is not known here: of those that are, a crash tells less
+    than the finding at the value does."""
+
+    def __init__(self, context: Context) -> None:
+        tree = context.tree
+        self._reasons = {u.param.rstrip("/"): u.reason for u in tree.unknowns if u.param is not None}
+        self._commands = {p.name for p in tree.params.values() if isinstance(p.value, CommandValue)}
+        self._commands |= {c.param for c in tree.commands if c.result is None}
+        self._set = tree.params.keys() - self._commands
+
+    def why(self, read: ParamRead) -> str | None:
+        """`'/x', which has no value: ...` of one that is lost, None of any other."""
+        if read.name in self._commands:
+            return f"'{read.name}', which comes from a command without a result"
+        if read.name in self._set:
+            return None
+        for lost, reason in self._reasons.items():
+            full = f"{read.node.name}/{lost[1:]}" if names.is_private(lost) else lost
+            leaf = full.rpartition("/")[2]
+            below = f"{read.name}/".startswith(f"{full}/")
+            # A search looks for it in every namespace around the node.
+            found = read.use.access == "search" and read.use.name.strip("~/") == leaf
+            if below or found:
+                return f"'{read.name}', which has no value: {reason}"
+        return None
 
 
 def _message(name: str, outcome: Outcome) -> str:
@@ -61,7 +89,8 @@ RULE = Rule(
     why="With the parameters and arguments of this launch file it would most likely end so on the robot too, unless it "
     "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
-    "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns.",
+    "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns, or asked for one whose value "
+    "is an error of its own.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,

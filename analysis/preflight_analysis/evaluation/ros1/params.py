@@ -44,7 +44,7 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
     full = names.join(node, name.removeprefix("~")) if node is not None else name
     value = _value(state, scope, action, attributes, given[0], full)
     if isinstance(value, _NoValue):
-        state.unknown(f"parameter {name}", value.reason, scope, action.kind_span)
+        state.unknown(f"parameter {name}", value.reason, scope, action.kind_span, _full_name(scope, full))
         return
     origin = scope.origin(action.head_span)
     if node is not None or names.is_private(name):
@@ -102,8 +102,7 @@ def _printed(state: State, scope: Scope, action: Action, line: str, param: str) 
         state.problem("command-malformed", origin, command=line, message=str(error))
         return _NoValue(f"its command cannot be split into words: {error}")
     result = state.results.result(line)
-    full = param if names.is_private(param) else names.canonicalize(names.join(scope.ns, param))
-    state.commands.append(Command(line, full, origin, result))
+    state.commands.append(Command(line, _full_name(scope, param), origin, result))
     if result is None:
         return CommandValue(line)
     if result.status == "done":
@@ -114,6 +113,11 @@ def _printed(state: State, scope: Scope, action: Action, line: str, param: str) 
     kind = "command-missing" if result.status == "missing" else "command-failed"
     state.problem(kind, origin, command=line, reason=result.reason, stderr=list(result.stderr_tail))
     return _NoValue(f"its command failed: {result.reason}")
+
+
+def _full_name(scope: Scope, param: str) -> str:
+    """The full name of a parameter; of a private one that is not in a node's tag the name as written."""
+    return param if names.is_private(param) else names.canonicalize(names.join(scope.ns, param))
 
 
 def report_file(state: State, scope: Scope, action: Action, attribute: str, found: Unreadable) -> None:
@@ -150,11 +154,11 @@ def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str |
         return
     below = names.join(ns or "", param or "")
     full = names.join(scope.ns, below) if below else scope.ns
-    text = _yaml_text(state, scope, action, file)
+    text = _yaml_text(state, scope, action, file, full)
     if text is None:
         return
     if substitute:
-        text = _substituted(state, scope, action, text)
+        text = _substituted(state, scope, action, text, full)
         if text is None:
             return
     _load(state, scope, action, text, file, full, bool(below), node)
@@ -174,7 +178,7 @@ class _YamlText:
         return Location(self.file, Span(self.start + span.start, self.start + span.end))
 
 
-def _yaml_text(state: State, scope: Scope, action: Action, file: str | None) -> _YamlText | None:
+def _yaml_text(state: State, scope: Scope, action: Action, file: str | None, full: str) -> _YamlText | None:
     if not file:
         if file is not None:
             report_file(state, scope, action, "file", Unreadable(file, "is empty", "missing"))
@@ -186,17 +190,17 @@ def _yaml_text(state: State, scope: Scope, action: Action, file: str | None) -> 
     found = state.read_text(path)
     if isinstance(found, Unreadable):
         report_file(state, scope, action, "file", found)
-        state.unknown("<rosparam>", f"the file {path} {found.reason}", scope, action.kind_span)
+        state.unknown("<rosparam>", f"the file {path} {found.reason}", scope, action.kind_span, full)
         return None
     state.uses.append(_file_use(scope, action, "file", found.path))
     return _YamlText(found.text, found.path, 0)
 
 
-def _substituted(state: State, scope: Scope, action: Action, text: _YamlText) -> _YamlText | None:
+def _substituted(state: State, scope: Scope, action: Action, text: _YamlText, full: str) -> _YamlText | None:
     value = parse_value(SpannedText(text.text, Span(0, len(text.text))))
     result = resolve(state, scope, value, at=action.head_span)
     if not result.known:
-        state.unknown("<rosparam>", "a substitution in its text is not known", scope, action.kind_span)
+        state.unknown("<rosparam>", "a substitution in its text is not known", scope, action.kind_span, full)
         return None
     return _YamlText(result.text, text.file, text.start if result.text == text.text else None)
 
@@ -217,7 +221,7 @@ def _load(
         if place is not None:
             origin = (*origin, place) if place.file != scope.file else (*scope.chain, place)
         state.problem("bad-yaml", origin, message=message, path=file)
-        state.unknown("<rosparam>", "its YAML is malformed", scope, action.kind_span)
+        state.unknown("<rosparam>", "its YAML is malformed", scope, action.kind_span, full)
 
     try:
         loaded = load_yaml(text.text)

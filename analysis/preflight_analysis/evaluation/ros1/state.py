@@ -132,9 +132,9 @@ class State(Collector):
         self.depends_on_outside |= not found
         return found
 
-    def unknown(self, what: str, reason: str, scope: Scope, span: Span) -> None:
-        """Note a value that cannot be known."""
-        self.note_unknown(what, reason, Location(scope.file, span))
+    def unknown(self, what: str, reason: str, scope: Scope, span: Span, param: str | None = None) -> None:
+        """Note a value that cannot be known, of the parameter `param` if it is one's."""
+        self.note_unknown(what, reason, Location(scope.file, span), param)
 
     def anonymous_name(self, identifier: str) -> str:
         """As for any launch; what depends on the count is not remembered for another place."""
