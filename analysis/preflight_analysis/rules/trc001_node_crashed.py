@@ -89,8 +89,8 @@ RULE = Rule(
     why="With the parameters and arguments of this launch file it would most likely end so on the robot too, unless it "
     "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
-    "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns, or asked for one whose value "
-    "is an error of its own.",
+    "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns, or asked for one whose "
+    "value is an error of its own.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,

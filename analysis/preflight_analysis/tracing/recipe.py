@@ -13,10 +13,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.agents import hooks
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -63,6 +65,8 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
         return ros2_recipe.make(environment, request, preload)
     stable = variables(environment, request.env)
     interpreter, python = shebang_interpreter(environment.python, request.executable, stable["PATH"])
+    if python:
+        stable |= _unbuilt_modules(environment)
     argv = [*interpreter, request.executable, *request.args]
     remapped = python or preload is not None
     if remapped:
@@ -89,7 +93,15 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
     """The recipe of a command of a parameter, whose program was found as `executable`."""
     stable = variables(environment, ())
     interpreter, python = shebang_interpreter(environment.python, executable, stable["PATH"])
+    if python:
+        stable |= _unbuilt_modules(environment)
     return Recipe((*interpreter, executable, *args), inside(stable), stable, cwd, python)
+
+
+def _unbuilt_modules(environment: Environment) -> dict[str, str]:
+    """Where Python finds what a build of the workspace will make known, if it finds it nowhere else."""
+    folders = source_folders(environment)
+    return {hooks.SOURCES: os.pathsep.join(folders)} if folders else {}
 
 
 def inside(stable: Mapping[str, str]) -> dict[str, str]:

@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
+from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import compiled, nodelets, preload, run, sandbox, windows
@@ -27,7 +28,7 @@ from preflight_analysis.tracing.turns import turn
 _log = logging.getLogger(__name__)
 
 _NO_PRELOAD = preload.Preload(None)
-_MISSING_MODULE = re.compile(r"ModuleNotFoundError: No module named '(\w+)")
+_MISSING_MODULE = re.compile(r"ModuleNotFoundError: No module named '((\w+)[\w.]*)'\Z")
 _MASTER_ALONE = "only what a ROS master sees of it is known"
 
 
@@ -127,9 +128,9 @@ class Tracer:
         observed = observe(raw, recipe, request)
         if blind and screen is None:
             observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
-        unbuilt = _unbuilt(observed.interface, self.environment) if request.generation == 2 else None
+        unbuilt = _unbuilt(observed.interface, self.environment, request.generation)
         if unbuilt is not None:
-            return _not_run(f"it imports {unbuilt}, a package of the workspace whose Python modules are not built")
+            return _not_run(unbuilt)
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
             observed = replace(observed, interface=noted)
@@ -169,11 +170,18 @@ def _preloaded(request: TraceRequest) -> bool:
     return request.entry_point is None and preload.applies(request.executable)
 
 
-def _unbuilt(found: Interface, environment: Environment) -> str | None:
-    """The package of the workspace that a node ended for since its messages, say, are not there before it is built."""
+def _unbuilt(found: Interface, environment: Environment, generation: int) -> str | None:
+    """Why it is as if a node had not been run that ended for a module of the workspace that is there once that is
+    built, of its messages say; None for any other."""
     missing = _MISSING_MODULE.search(found.outcome.reason or "") if found.outcome.status == "crashed" else None
-    package = environment.packages.get(missing[1]) if missing is not None else None
-    return package.name if package is not None and package.generation == 2 else None
+    package = environment.packages.get(missing[2]) if missing is not None else None
+    if missing is None or package is None or package.generation != generation:
+        return None
+    if generation == 2:
+        return f"it imports {package.name}, a package of the workspace whose Python modules are not built"
+    if not catkin_python.generates_modules(package):
+        return None
+    return f"it imports {missing[1]}, which is not built yet: package '{package.name}' of the workspace makes it"
 
 
 def _is_refused(found: Interface) -> bool:

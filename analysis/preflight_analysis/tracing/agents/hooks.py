@@ -29,6 +29,8 @@ EXPECTED = "PREFLIGHT_NODE"
 """The environment variable with the full name that the launch file gives a node of ROS 2."""
 SHARES = "PREFLIGHT_SHARES"
 """The environment variable with the folders of packages that are there as source only, a JSON object."""
+SOURCES = "PREFLIGHT_SOURCES"
+"""The environment variable with the folders of Python modules of a workspace that may not be built."""
 _BATCH = 200
 _MAX_FILES = 5_000
 _MAX_WRITES = 20
@@ -165,3 +167,5 @@ def install(library: str) -> None:
     for name in (*WOVEN, *RCLPY):
         sys.meta_path.insert(0, _Finder(name, library, files))
     atexit.register(files.flush)
+    # Last of all: what is built or installed is found first.
+    sys.path.extend(folder for folder in os.environ.get(SOURCES, "").split(os.pathsep) if folder)

@@ -1,0 +1,104 @@
+"""Where the Python modules of a catkin package lie before it is built: what `catkin_python_setup()` will make known.
+
+http://docs.ros.org/en/noetic/api/catkin/html/user_guide/setup_dot_py.html. `setup.py` is read as text, nothing is run.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import os
+import re
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+
+from preflight_analysis.environment.cmake import LISTS
+from preflight_analysis.environment.model import Environment, Package
+
+_CALL = re.compile(r"^\s*catkin_python_setup\s*\(", re.MULTILINE | re.IGNORECASE)
+_MADE_OF = {"msg": ".msg", "srv": ".srv", "action": ".action", "cfg": ".cfg"}
+"""The folders of what modules are made of when a package is built, and the ends of the names of the files."""
+_MAX_TEXT = 200_000
+
+
+def source_folders(environment: Environment) -> tuple[str, ...]:
+    """The folders of the module search path once the workspace is built, as they are in the source."""
+    found: dict[str, None] = {}
+    for package in workspace_packages(environment):
+        setup = os.path.join(package.share, "setup.py")
+        try:
+            state = os.stat(setup)
+        except OSError:
+            continue
+        found.update(dict.fromkeys(_folders(package.share, state.st_mtime_ns)))
+    return tuple(found)
+
+
+def generates_modules(package: Package) -> bool:
+    """Whether a build makes modules of it, of messages, services, actions or dynamic parameters."""
+    return any(
+        name.endswith(end) for folder, end in _MADE_OF.items() for name in _names(os.path.join(package.share, folder))
+    )
+
+
+def workspace_packages(environment: Environment) -> Iterator[Package]:
+    """The packages of ROS 1 that are there as source."""
+    installed = tuple(os.path.join(prefix, "") for prefix in environment.system_prefixes)
+    for package in environment.packages.values():
+        if package.generation == 1 and not package.share.startswith(installed):
+            yield package
+
+
+@lru_cache(maxsize=1024)
+def _folders(folder: str, _changed: int) -> tuple[str, ...]:
+    lists, setup = _text(os.path.join(folder, LISTS)), _text(os.path.join(folder, "setup.py"))
+    if not _CALL.search(lists):
+        return ()
+    given = _package_dir(setup)
+    roots = [given.get("", "")]
+    # A package by name: what it is imported from is the folder above, where that is called the same.
+    for name, place in given.items():
+        above, _, last = os.path.normpath(place).rpartition("/")
+        if name and last == name:
+            roots.append(above)
+    return tuple(dict.fromkeys(os.path.normpath(os.path.join(folder, root)) for root in roots))
+
+
+def _package_dir(text: str) -> Mapping[str, str]:
+    """`package_dir` of the `setup.py`, however that is given to `setup`."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return {}
+    for node in ast.walk(tree):
+        given = isinstance(node, ast.keyword) and node.arg == "package_dir"
+        assigned = isinstance(node, ast.Assign) and any(map(_is_item, node.targets))
+        if given or assigned:
+            assert isinstance(node, (ast.keyword, ast.Assign))
+            with contextlib.suppress(ValueError, TypeError, SyntaxError, RecursionError, MemoryError):
+                found = ast.literal_eval(node.value)
+                if isinstance(found, dict):
+                    return {k: v for k, v in found.items() if isinstance(k, str) and isinstance(v, str)}
+    return {}
+
+
+def _is_item(target: ast.expr) -> bool:
+    """Whether it is `d['package_dir']`."""
+    key = target.slice if isinstance(target, ast.Subscript) else None
+    return isinstance(key, ast.Constant) and key.value == "package_dir"
+
+
+def _text(path: str) -> str:
+    try:
+        with Path(path).open(encoding="utf-8", errors="replace") as file:
+            return file.read(_MAX_TEXT)
+    except OSError:
+        return ""
+
+
+def _names(folder: str) -> list[str]:
+    try:
+        return os.listdir(folder)
+    except OSError:
+        return []
