@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.packages import find_packages
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Frame
@@ -89,11 +91,55 @@ def test_a_nodelet_and_its_manager_keep_a_bond(tmp_path: Path) -> None:
     assert {("publisher", "manager/bond", "bond/Status"), ("subscriber", "manager/bond", "bond/Status")} <= found
 
 
-def test_a_nodelet_that_is_not_installed_says_so_instead_of_waiting() -> None:
-    asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", ("load", "vision/None", "manager"))
-    found = Tracer(environment(), None).trace(asked, threading.Event())
+def nodelet_workspace(tmp_path: Path, library: str = "vision") -> Environment:
+    """A package with a nodelet that is described and not built."""
+    share = tmp_path / "vision"
+    share.mkdir()
+    export = '<export><nodelet plugin="${prefix}/plugins.xml"/></export>'
+    depends = "<depend>nodelet</depend>"
+    (share / "package.xml").write_text(
+        '<package format="2"><name>vision</name><version>0.0.1</version><description>d</description>'
+        f'<maintainer email="a@b.c">a</maintainer><license>x</license>{depends}{export}</package>'
+    )
+    described = '<class name="vision/Rectify" type="vision::Rectify" base_class_type="nodelet::Nodelet"/>'
+    (share / "plugins.xml").write_text(f'<library path="lib/lib{library}">{described}</library>')
+    (share / "CMakeLists.txt").write_text("project(vision)\nadd_library(${PROJECT_NAME} src/rectify.cpp)\n")
+    return replace(environment(tmp_path), packages=find_packages([str(tmp_path)]).packages)
+
+
+@pytest.mark.parametrize("args", [("load", "vision/Rectify", "manager"), ("standalone", "vision/Rectify")])
+def test_a_nodelet_whose_library_is_not_built_is_as_if_it_had_not_been_run(
+    tmp_path: Path, args: tuple[str, ...]
+) -> None:
+    asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", args)
+    found = Tracer(nodelet_workspace(tmp_path), None).trace(asked, threading.Event())
+    assert found.outcome.status == "not-run"
+    assert found.outcome.reason == "the library 'vision' of nodelet 'vision/Rectify' is not built yet"
+    calls = ("client", "manager/load_nodelet", "nodelet/NodeletLoad")
+    assert (calls in own(found)) == (args[0] == "load")
+
+
+def test_a_nodelet_whose_library_no_build_makes_crashes(tmp_path: Path) -> None:
+    asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", ("standalone", "vision/Rectify"))
+    found = Tracer(nodelet_workspace(tmp_path, "vison"), None).trace(asked, threading.Event())
     assert found.outcome.status == "crashed"
-    assert "the class vision/None" in str(found.outcome.reason)
+    assert "the library 'lib/libvison' actually exists" in str(found.outcome.reason)
+
+
+def test_a_nodelet_of_a_package_that_is_not_there_is_as_if_it_had_not_been_run(tmp_path: Path) -> None:
+    asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", ("load", "elsewhere/Thing", "manager"))
+    found = Tracer(nodelet_workspace(tmp_path), None).trace(asked, threading.Event())
+    assert found.outcome.status == "not-run"
+    reason = "package 'elsewhere' of nodelet 'elsewhere/Thing' is not among those of this environment"
+    assert found.outcome.reason == reason
+
+
+@pytest.mark.parametrize("name", ["vision/Rectified", "visoin/Rectify"])
+def test_a_misspelt_nodelet_crashes(tmp_path: Path, name: str) -> None:
+    asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", ("load", name, "manager"))
+    found = Tracer(nodelet_workspace(tmp_path), None).trace(asked, threading.Event())
+    assert found.outcome.status == "crashed"
+    assert f"the class {name}" in str(found.outcome.reason)
 
 
 def test_a_nodelet_manager_is_an_ordinary_node() -> None:

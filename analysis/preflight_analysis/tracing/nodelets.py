@@ -8,9 +8,15 @@ is what is run, and what the loader asks of the manager is added.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from rapidfuzz.distance import OSA
+
+from preflight_analysis.environment.catkin_python import workspace_packages
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -33,13 +39,41 @@ def with_manager(interface: Interface, request: TraceRequest) -> Interface:
     """The interface of what `standalone(request)` runs as that of `request`: it calls its manager, and
     keeps a bond with it."""
     manager = _manager(request)
-    if manager is None or not interface.known:
+    if manager is None:
         return interface
+    # That much the launch file tells, whatever became of the run.
+    source = interface.source if interface.known else "source"
     between = [Endpoint("client", f"{manager}/load_nodelet", "nodelet/NodeletLoad")]
     if "--no-bond" not in request.args:
         # By which each learns that the other has ended.
         between += [Endpoint(role, f"{manager}/bond", "bond/Status") for role in ("publisher", "subscriber")]
-    return replace(interface, endpoints=(*interface.endpoints, *between))
+    return replace(interface, source=source, endpoints=(*interface.endpoints, *between))
+
+
+_SLIP = 3
+"""Edits between the name of a nodelet and the one that was meant, at most."""
+_NO_LIBRARY = re.compile(r"Could not find library corresponding to plugin .* library '([^']*)' actually exists")
+_NO_CLASS = re.compile(r"the class (\S+) with base class type nodelet::Nodelet does not exist\. Declared types are(.*)")
+
+
+def why_not_there(found: Interface, request: TraceRequest, environment: Environment) -> str | None:
+    """Why it is as if a nodelet had not been run that ended since its library is not built yet, or its package is not
+    there; None for any other."""
+    name, said = plugin(request), "\n".join(found.outcome.stderr_tail)
+    if name is None or found.outcome.status != "crashed":
+        return None
+    package = name.partition("/")[0]
+    if (lacking := _NO_LIBRARY.search(said)) is not None:
+        library = os.path.basename(lacking[1]).removeprefix("lib").removesuffix(".so")
+        own = any(package == each.name for each in workspace_packages(environment))
+        if own and ExecutableIndex(environment).is_build_target(package, library):
+            return f"the library '{library}' of nodelet '{name}' is not built yet"
+    elif (missing := _NO_CLASS.search(said)) is not None:
+        # A class of nearly that name is the one that was meant.
+        slip = any(OSA.distance(name, other) <= _SLIP for other in missing[2].split())
+        if not slip and package not in environment.packages:
+            return f"package '{package}' of nodelet '{name}' is not among those of this environment"
+    return None
 
 
 @dataclass(frozen=True, slots=True)

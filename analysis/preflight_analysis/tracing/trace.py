@@ -129,6 +129,7 @@ class Tracer:
         if blind and screen is None:
             observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
         unbuilt = _unbuilt(observed.interface, self.environment, request.generation)
+        unbuilt = unbuilt or nodelets.why_not_there(observed.interface, request, self.environment)
         if unbuilt is not None:
             return _not_run(unbuilt)
         if built.reason is not None:
