@@ -122,6 +122,17 @@ def test_a_crash_for_another_reason_stays_a_warning_where_a_value_is_missing() -
     """)
 
 
+def test_a_crash_for_what_only_the_sandbox_lacks_is_no_warning() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n needs a network; it ended with exit code 1; OSError
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "lacks": "a network", "stderr": ["OSError: [Errno 101] Network is unreachable"]}}
+    """)
+
+
 def test_an_early_end_and_a_slow_start() -> None:
     check("""
         <launch>

@@ -29,7 +29,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lacking = next(filter(None, (lost.why(r) for r in context.graph.param_reads if r.node is node)), None)
         # Of a parameter that is missing another rule says more, as a warning.
         told = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
-        ours = lacking is not None or bool(outcome.answers) or any(e.speculative for e in interface.endpoints)
+        ours = (
+            lacking is not None
+            or outcome.lacks is not None
+            or bool(outcome.answers)
+            or any(e.speculative for e in interface.endpoints)
+        )
         yield rule.finding(
             _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else ""),
             node_location(node),
@@ -68,7 +73,11 @@ class _LostParams:
 
 
 def _message(name: str, outcome: Outcome) -> str:
-    if outcome.reason:
+    if outcome.lacks:
+        message = f"{name} needs {outcome.lacks}; it ended"
+        if outcome.exit_code is not None:
+            message += f" with exit code {outcome.exit_code}"
+    elif outcome.reason:
         message = f"{name} crashed when it was run: {outcome.reason}"
     elif outcome.signal:
         message = f"{name} crashed when it was run: killed by {outcome.signal}"
@@ -86,11 +95,12 @@ RULE = Rule(
     severity="warning",
     what="Reports a node that ended with an error before it reached its event loop, with the line of its standard "
     "error that tells why.",
-    why="With the parameters and arguments of this launch file it would most likely end so on the robot too, unless it "
-    "only lacks hardware or a network that the sandbox does not have. Only what it did until then is known of it. "
+    why="With the parameters and arguments of this launch file it would most likely end so on the robot too. Only "
+    "what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
     "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns, or asked for one whose "
-    "value is an error of its own.",
+    "value is an error of its own, or needs what only the sandbox lacks: a device, a network, a display, a browser's "
+    "own sandbox, a folder to write to, another node's topic.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,

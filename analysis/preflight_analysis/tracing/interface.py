@@ -144,6 +144,8 @@ class Outcome:
     """Wall time of the run, from exec to the end."""
     answers: tuple[str, ...] = ()
     """What was made up so that the node went on, a sentence each."""
+    lacks: str | None = None
+    """What it ended for that only the sandbox lacks: `the device /dev/ttyUSB0, ...`."""
 
 
 def without_stamp(line: str) -> str:

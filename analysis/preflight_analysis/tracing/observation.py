@@ -120,11 +120,13 @@ class Dependencies:
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """A checked run. `lasting` tells whether it would come out the same again, so that it may be cached."""
+    """A checked run. `lasting` tells whether it would come out the same again, so that it may be cached; `wrote` are
+    the files that it opened for writing."""
 
     interface: Interface
     dependencies: Dependencies
     lasting: bool
+    wrote: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
@@ -216,7 +218,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         nodes=tuple(found.nodes),
     )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
-    return Observation(interface, dependencies, lasting=not raw.killed and not raw.cancelled)
+    return Observation(interface, dependencies, not raw.killed and not raw.cancelled, tuple(found.wrote))
 
 
 def stderr_tail(data: bytes) -> tuple[str, ...]:

@@ -36,6 +36,7 @@ from preflight_analysis.tracing.preload_compile import (
     WATCHED,
     Watched,
     compile_library,
+    exports,
 )
 from preflight_analysis.tracing.store import ABANDONED
 
@@ -152,7 +153,7 @@ class Library:
         with contextlib.suppress(OSError):
             info = os.stat(compiler)
             named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *FLAGS)
-            made_of = self._watched.source.read_bytes() + COMMON.read_bytes()
+            made_of = self._watched.source.read_bytes() + COMMON.read_bytes() + exports(self._watched).encode()
             return self._at(hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + made_of).hexdigest())
         return Preload(None, "the C++ compiler or our own source cannot be read")
 

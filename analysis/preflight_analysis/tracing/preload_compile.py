@@ -45,7 +45,7 @@ FLAGS = ("-shared", "-fPIC", "-O1", "-std=c++17", "-fvisibility=hidden", "-Wl,-z
 _PORTABLE = ("-DPREFLIGHT_PORTABLE", "-s", "-Wl,--no-as-needed", "-l:libdl.so.2")
 """For the libraries of other machines, older ones too: see the source. The C++ library stays the node's own: a second
 one in the same process would not know the strings and exceptions of the first."""
-_FILES = "open; open64; openat; openat64; __open_2; __open64_2; fopen; fopen64;"
+_FILES = "open; open64; openat; openat64; __open_2; __open64_2; fopen; fopen64; statvfs; statvfs64;"
 
 
 def compiler() -> str | None:
@@ -53,14 +53,19 @@ def compiler() -> str | None:
     return next((found for found in map(shutil.which, COMPILERS) if found), None)
 
 
+def exports(watched: Watched) -> str:
+    """The linker's version script: which functions are intercepted."""
+    return f"{{ global: {watched.exports} {_FILES} local: *; }};"
+
+
 def compile_library(compiler: str, watched: Watched, path: Path, *, portable: bool = False) -> None:
     """Compile to a temporary name and rename. Raises `OSError` and the exceptions of `subprocess.run`."""
     path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=".") as folder:
         made = os.path.join(folder, "made.so")
-        exports = Path(folder, "exports")
-        exports.write_text(f"{{ global: {watched.exports} {_FILES} local: *; }};")
-        command = [compiler, *FLAGS, f"-Wl,--version-script={exports}", str(watched.source), "-o", made]
+        script = Path(folder, "exports")
+        script.write_text(exports(watched))
+        command = [compiler, *FLAGS, f"-Wl,--version-script={script}", str(watched.source), "-o", made]
         command += _PORTABLE if portable else ["-ldl"]
         subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=True, cwd=folder)
         os.replace(made, path)

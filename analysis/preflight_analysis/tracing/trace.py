@@ -16,7 +16,7 @@ from dataclasses import replace
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import compiled, nodelets, preload, run, sandbox, windows
+from preflight_analysis.tracing import compiled, limits, nodelets, preload, run, sandbox, windows
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
@@ -128,6 +128,7 @@ class Tracer:
         observed = observe(raw, recipe, request)
         if blind and screen is None:
             observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
+        observed = replace(observed, interface=limits.explained(observed, visible))
         unbuilt = _unbuilt(observed.interface, self.environment, request.generation)
         unbuilt = unbuilt or nodelets.why_not_there(observed.interface, request, self.environment)
         if unbuilt is not None:
