@@ -129,7 +129,8 @@ def test_a_crash_for_what_only_the_sandbox_lacks_is_no_warning() -> None:
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n needs a network; it ended with exit code 1; OSError
         </launch>
         //- interfaces
-        {"/n": {"status": "crashed", "exit_code": 1, "lacks": "a network", "stderr": ["OSError: [Errno 101] Network is unreachable"]}}
+        {"/n": {"status": "crashed", "exit_code": 1, "lacks": "a network",
+                 "stderr": ["OSError: [Errno 101] Network is unreachable"]}}
     """)
 
 
