@@ -164,7 +164,7 @@ def test_a_node_that_crashes_without_the_value_of_a_failed_command_is_no_news_of
           <param name="model" command="xacro a.xacro"/>
                                        ^^^^^^^^^^^^^ error[PRM008] code 2
           <node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/model', which comes from a command without a result
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/model', which has no value: its command failed
         </launch>
         //- commands
         {"xacro a.xacro": {"status": "failed", "reason": "exit code 2"}}

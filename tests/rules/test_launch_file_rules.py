@@ -340,8 +340,7 @@ def test_what_is_gone_is_named_with_what_replaces_it() -> None:
     text = """
         <launch>
           <node pkg="gazebo" type="gazebo" name="gazebo"/>
-                     ^^^^^^ error[PKG001]
-                     ^^^^^^ warning[LCH027] are in 'gazebo_ros' since ROS Hydro
+                     ^^^^^^ error[LCH027] are in 'gazebo_ros' since ROS Hydro
           <param name="r" command="xacro --inorder robot.xacro"/>
                                         ^^^^^^^^^^ hint[LCH027] --inorder has no effect
         </launch>
@@ -349,6 +348,15 @@ def test_what_is_gone_is_named_with_what_replaces_it() -> None:
     gazebo, in_order = [finding for finding in check(text) if finding.rule == "LCH027"]
     assert 'pkg="gazebo_ros"' in apply(text, gazebo.fixes[0].edits)["/main.launch"]
     assert 'command="xacro robot.xacro"' in apply(text, in_order.fixes[0].edits)["/main.launch"]
+
+
+def test_what_is_gone_is_told_once(tmp_path: Path) -> None:
+    launch = tmp_path / "a.launch"
+    launch.write_text('<launch><node pkg="robot_state_publisher" type="state_publisher" name="a"/></launch>')
+    packages = {"robot_state_publisher": Package("robot_state_publisher", str(tmp_path), str(tmp_path / "package.xml"))}
+    environment = Environment(1, "noetic", {}, (str(tmp_path),), packages, {}, (), ("/usr",), "/usr/bin/python3")
+    found = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    assert [(each.rule, each.severity) for each in found] == [("LCH027", "error")]
 
 
 def test_an_executable_that_is_still_there_is_not_gone() -> None:
@@ -361,6 +369,41 @@ def test_an_executable_that_is_still_there_is_not_gone() -> None:
         //- /robot_state_publisher/package.xml
         <package/>
     """)
+
+
+def test_a_start_tag_for_the_end_tag_is_told_once() -> None:
+    check("""
+        <launch>
+          <group ns="a">
+            <node pkg="p" type="t" name="b"/>
+          </group>
+        <launch>
+         ^^^^^^ error[LCH001] '/' is missing: </launch> is expected
+    """)
+
+
+def test_a_second_launch_element_is_told_once() -> None:
+    check("""
+        <launch>
+          <launch>
+           ^^^^^^ error[LCH003] a <launch> element stands within another one
+            <arg name="a" value="1"/>
+          </launch>
+        </launch>
+    """)
+
+
+def test_a_misspelt_attribute_that_is_needed_is_told_once() -> None:
+    text = """
+        <launch>
+          <param nam="a" value="1"/>
+           ^^^^^ error[LCH006] <param> needs 'name'; is 'nam' meant to be it?
+          <param name="b" value="1" typ="int"/>
+                                    ^^^ warning[LCH005] <param> has no attribute 'typ'; did you mean 'type'?
+        </launch>
+    """
+    (missing,) = (each for each in check(text) if each.rule == "LCH006")
+    assert '<param name="a"' in apply(text, missing.fixes[0].edits)["/main.launch"]
 
 
 def test_text_between_tags_means_nothing() -> None:

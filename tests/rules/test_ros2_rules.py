@@ -477,7 +477,6 @@ def test_an_attribute_that_ros2_needs() -> None:
                                         ^^^^ hint[LCH034] no node '/box' is started by this launch
             <composable_node pkg="p" plugin="p::A" nam="a"/>
              ^^^^^^^^^^^^^^^ error[LCH006] <composable_node> needs 'name'; is 'nam' meant to be it?
-                                                   ^^^ error[LCH005] <composable_node> has no attribute 'nam'
           </load_composable_node>
         </launch>
     """)

@@ -7,6 +7,8 @@ from preflight_analysis.rules.rule import Rule
 
 def _message(problem: Problem) -> str:
     tag = problem.data["tag"]
+    if tag == "launch":
+        return "a <launch> element stands within another one; roslaunch takes a single one"
     return f"the outermost element is <{tag}>, not <launch>" if tag else "there is no <launch> element in this file"
 
 
@@ -14,7 +16,7 @@ RULE = Rule(
     id="LCH003",
     name="no-launch-element",
     severity="error",
-    what="Reports a launch file without a `<launch>` element around its content.",
+    what="Reports a launch file without a `<launch>` element around its content, or with several.",
     why="`roslaunch` stops with `No root <launch> tag`.",
     example='<node pkg="camera" type="driver" name="camera"/>',
     instead='<launch>\n  <node pkg="camera" type="driver" name="camera"/>\n</launch>',

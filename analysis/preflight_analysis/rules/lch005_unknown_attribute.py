@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.rules.misspelt_attributes import explained
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -13,7 +14,10 @@ from preflight_analysis.rules.syntax import Tags
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
+    elsewhere = context.once(explained)
     for problem in problems_of(rule, context):
+        if problem.location in elsewhere:
+            continue
         name = str(problem.data["name"])
         near = nearest(name, problem.data["allowed"])
         fixes: tuple[Fix, ...] = ()

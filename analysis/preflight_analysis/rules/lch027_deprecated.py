@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Document
@@ -12,65 +12,15 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.per_file import per_file
+from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename, shown
+from preflight_analysis.rules.retired import OLDER_THAN_NOETIC, Retired, retired
 from preflight_analysis.rules.rule import Context, Rule
 
-_OLDER_THAN_NOETIC = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic")
-_OLDER_THAN_MELODIC = _OLDER_THAN_NOETIC[:-1]
+_OLDER_THAN_MELODIC = OLDER_THAN_NOETIC[:-1]
 _PERIOD = re.compile(r"\s+[\d.]+\s*\Z")
 _IN_ORDER = re.compile(r"\s--inorder\b")
-
-
-@dataclass(frozen=True, slots=True)
-class _Retired:
-    """A node that should be another one. `executable` None: all of the package. `removed`: gone since that release."""
-
-    package: str
-    executable: str | None
-    message: str
-    source: str
-    instead_package: str | None = None
-    instead_executable: str | None = None
-    removed: bool = False
-    still_in: tuple[str, ...] = ()
-
-
-_NODES = (
-    _Retired(
-        "robot_state_publisher",
-        "state_publisher",
-        "'state_publisher' was removed from robot_state_publisher in ROS Noetic; use 'robot_state_publisher'",
-        "https://docs.ros.org/en/latest/changelogs/robot_state_publisher/changelog.html (1.15.0)",
-        instead_executable="robot_state_publisher",
-        removed=True,
-        still_in=_OLDER_THAN_NOETIC,
-    ),
-    _Retired(
-        "gazebo",
-        None,
-        "the nodes of package 'gazebo' are in 'gazebo_ros' since ROS Hydro",
-        "https://github.com/ros-simulation/gazebo_ros_pkgs/pull/34",
-        instead_package="gazebo_ros",
-        removed=True,
-    ),
-    _Retired(
-        "tf",
-        "static_transform_publisher",
-        "tf is deprecated since ROS Hydro; tf2_ros has a 'static_transform_publisher' that publishes once, latched, "
-        "and takes no period",
-        "http://wiki.ros.org/tf2/Migration",
-    ),
-    _Retired(
-        "robot_pose_ekf",
-        None,
-        "robot_pose_ekf was dropped from the navigation stack in ROS Melodic in favour of robot_localization",
-        "https://github.com/ros-planning/navigation/issues/701",
-    ),
-)
-_BY_PACKAGE: Mapping[str, tuple[_Retired, ...]] = {
-    package: tuple(each for each in _NODES if each.package == package) for package in {each.package for each in _NODES}
-}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -104,12 +54,9 @@ def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in context.tree.nodes:
-        for each in _BY_PACKAGE.get(node.package, ()):
-            if each.executable not in (None, node.executable):
-                continue
-            if each.removed and (context.environment.distro in each.still_in or node.resolved.path is not None):
-                continue
-            severity: Severity | None = "warning" if each.removed else None
+        for each in retired(context, node):
+            missing: Severity = "error" if has_ros(context) else "warning"
+            severity: Severity | None = missing if each.removed else None
             attribute = "type" if each.executable is not None else "pkg"
             yield rule.finding(
                 each.message,
@@ -120,7 +67,7 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-def _fixes(context: Context, each: _Retired, node: LaunchNode) -> tuple[Fix, ...]:
+def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]:
     if each.instead_executable:
         return rename(context, attribute_location(node, "type"), node.executable, each.instead_executable)
     if each.instead_package:
@@ -143,7 +90,7 @@ def _text(document: Document, location: Location) -> str:
 
 def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
     """Its parameter `use_gui`: https://github.com/ros/joint_state_publisher/pull/34."""
-    if context.environment.distro in _OLDER_THAN_NOETIC:
+    if context.environment.distro in OLDER_THAN_NOETIC:
         return
     for node in context.tree.nodes:
         if (node.package, node.executable) != ("joint_state_publisher", "joint_state_publisher"):

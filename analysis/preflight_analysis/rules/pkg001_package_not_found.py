@@ -11,6 +11,7 @@ from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
+from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -23,7 +24,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in context.tree.nodes:
         # A plain process is of no package, and a component has no executable in its one.
         there = node.resolved.package_path is not None or node.package in packages
-        if node.package and not there and not node.unknowns:
+        if node.package and not there and not node.unknowns and not was_removed(context, node):
             location, chain = attribute_location(node, "pkg"), include_chain(node.origin)
             yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
 

@@ -12,6 +12,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
 
 _SPACES = {1: "devel and install spaces", 2: "installed ones"}
@@ -21,7 +22,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables = context.executables or ExecutableIndex(context.environment)
     for node in context.tree.nodes:
         found = node.resolved
-        if found.path is not None or found.package_path is None or node.unknowns:
+        if found.path is not None or found.package_path is None or node.unknowns or was_removed(context, node):
             continue
         location = attribute_location(node, "type" if context.tree.generation == 1 else "exec")
         chain = include_chain(node.origin)

@@ -103,17 +103,25 @@ def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: 
         state.problem("xml-entity", scope.origin(span), fatal=False, name=name)
         state.unknown(f"&{name};", "entities of a DOCTYPE are not expanded", scope, span)
     root = launch_file.root
-    if root is None or launch_file.extra_roots:
-        span = launch_file.extra_roots[0] if launch_file.extra_roots else Span(0, min(1, len(document.text)))
-        if document.root is not None and root is None:
-            span = document.root.tag_span
-        tag = document.root.tag if document.root is not None else None
-        state.problem("root-not-launch", scope.origin(span), tag=tag)
+    _check_root(state, scope, launch_file)
     if root is not None:
         _conditions_of_launch(state, scope, root)
     if scope.file not in state.visited:
         state.visited.append(scope.file)
     return _actions(state, scope, root.children, default_machine) if root is not None else default_machine
+
+
+def _check_root(state: State, scope: Scope, launch_file: LaunchFile) -> None:
+    """The document element has to be `<launch>`, and the only one of that name."""
+    document, root = launch_file.document, launch_file.root
+    if root is not None:
+        # Of a text that is not well-formed it is said where that ends: a start tag for an end tag is one slip.
+        if launch_file.extra_roots and not document.problems:
+            state.problem("root-not-launch", scope.origin(launch_file.extra_roots[0]), tag="launch")
+    elif document.root is not None:
+        state.problem("root-not-launch", scope.origin(document.root.tag_span), tag=document.root.tag)
+    elif not document.problems:
+        state.problem("root-not-launch", scope.origin(Span(0, min(1, len(document.text)))), tag=None)
 
 
 def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
@@ -265,8 +273,10 @@ def _check_language(state: State) -> None:
         launch_file = state.files.launch_file(path, 1)
         if not isinstance(launch_file, Unreadable):
             memo = state.memo
+            said = {problem.span for problem in launch_file.document.problems} | set(launch_file.extra_roots)
             for found in memo.language(launch_file) if memo is not None else check_language(launch_file):
-                state.problem(found.kind, (Location(path, found.span),), fatal=False, **found.data)
+                if found.span not in said:
+                    state.problem(found.kind, (Location(path, found.span),), fatal=False, **found.data)
 
 
 def _too_deep(state: State, scope: Scope, action: Action) -> bool:

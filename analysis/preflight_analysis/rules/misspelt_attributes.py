@@ -1,0 +1,50 @@
+"""Attributes that nobody knows and that were meant to be one that is missing: one slip, and one finding."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.rule import Context
+from preflight_analysis.rules.syntax import Tag, Tags
+
+MISSING = "missing-attribute"
+"""The kind of problem that an element has without the attribute."""
+
+
+@dataclass(frozen=True, slots=True)
+class Misspelt:
+    """An attribute of the name `name`, written at `location`, that was meant to be `meant`."""
+
+    name: str
+    location: Location
+    meant: str
+
+
+def misspelt(context: Context, tag: Tag, file: str, needed: Iterable[str]) -> Misspelt | None:
+    """The attribute of a tag that was probably meant to be one of those needed."""
+    kind = tag.action.kind
+    schema = TAGS_ROS2.get(kind) if context.tree.generation == 2 else TAGS.get(kind.lower())
+    known = schema.attributes if schema is not None else {}
+    unknown = {attribute.name: attribute for attribute in tag.action.attributes if attribute.name not in known}
+    for name in needed:
+        near = nearest(name, unknown)
+        if near is not None:
+            return Misspelt(near, Location(file, unknown[near].name_span), name)
+    return None
+
+
+def explained(context: Context) -> frozenset[Location]:
+    """Where those are written that stand for a missing one: that finding says it all. Ask through `context.once`."""
+    tags = Tags(context.launch_files)
+    found = set()
+    for problem in context.tree.problems:
+        tag = tags.named_at(problem.location) if problem.kind == MISSING else None
+        each = misspelt(context, tag, problem.location.file, map(str, problem.data["names"])) if tag else None
+        if each is not None:
+            found.add(each.location)
+    return frozenset(found)

@@ -1,0 +1,76 @@
+"""Nodes that newer releases of ROS have removed or replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.rules.rule import Context
+
+OLDER_THAN_NOETIC = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic")
+"""Releases of ROS 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Retired:
+    """A node that should be another one. `executable` None: all of the package. `removed`: gone since that release."""
+
+    package: str
+    executable: str | None
+    message: str
+    source: str
+    instead_package: str | None = None
+    instead_executable: str | None = None
+    removed: bool = False
+    still_in: tuple[str, ...] = ()
+
+
+_NODES = (
+    Retired(
+        "robot_state_publisher",
+        "state_publisher",
+        "'state_publisher' was removed from robot_state_publisher in ROS Noetic; use 'robot_state_publisher'",
+        "https://docs.ros.org/en/latest/changelogs/robot_state_publisher/changelog.html (1.15.0)",
+        instead_executable="robot_state_publisher",
+        removed=True,
+        still_in=OLDER_THAN_NOETIC,
+    ),
+    Retired(
+        "gazebo",
+        None,
+        "the nodes of package 'gazebo' are in 'gazebo_ros' since ROS Hydro",
+        "https://github.com/ros-simulation/gazebo_ros_pkgs/pull/34",
+        instead_package="gazebo_ros",
+        removed=True,
+    ),
+    Retired(
+        "tf",
+        "static_transform_publisher",
+        "tf is deprecated since ROS Hydro; tf2_ros has a 'static_transform_publisher' that publishes once, latched, "
+        "and takes no period",
+        "http://wiki.ros.org/tf2/Migration",
+    ),
+    Retired(
+        "robot_pose_ekf",
+        None,
+        "robot_pose_ekf was dropped from the navigation stack in ROS Melodic in favour of robot_localization",
+        "https://github.com/ros-planning/navigation/issues/701",
+    ),
+)
+_BY_PACKAGE: Mapping[str, tuple[Retired, ...]] = {
+    package: tuple(each for each in _NODES if each.package == package) for package in {each.package for each in _NODES}
+}
+
+
+def retired(context: Context, node: LaunchNode) -> Iterator[Retired]:
+    """What is known of a node of ROS 1 that should be another one. One that was removed is not there either."""
+    for each in _BY_PACKAGE.get(node.package, ()) if context.tree.generation == 1 else ():
+        there = context.environment.distro in each.still_in or node.resolved.path is not None
+        if each.executable in (None, node.executable) and not (each.removed and there):
+            yield each
+
+
+def was_removed(context: Context, node: LaunchNode) -> bool:
+    """Whether it is missing for that."""
+    return any(each.removed for each in retired(context, node))
