@@ -3,7 +3,8 @@
 roslaunch gives `eval` the `math` module, its own functions and, without meaning to, all that Python has
 (http://wiki.ros.org/roslaunch/XML#substitution_args). The same names are known here, but the expression is walked
 and computed by us: no attribute that is not listed, no comprehension over anything unbounded, nothing that could run
-code. What lies outside raises `NotAllowedError`; what roslaunch itself would reject raises `EvaluationError`.
+code. What lies outside raises `NotAllowedError`; what roslaunch itself would reject raises `EvaluationError`. launch's
+PythonExpression has other names, and the rest is the same.
 """
 
 from __future__ import annotations
@@ -172,11 +173,26 @@ def evaluate(expression: str, names: Callable[[str], Any], functions: Mapping[st
     """
     if "__" in expression:
         raise EvaluationError("double underscores are not allowed in $(eval)")
+    return _evaluated(expression, _Walker(names, {**_MATH, **functions}, _CONSTANTS))
+
+
+def evaluate_ros2(expression: str, *, module: bool = True) -> Any:
+    """The value of launch's PythonExpression with the module `math`, whose names count with and without it in front;
+    not `module`: without it alone, as before Iron."""
+
+    def no_names(name: str) -> Any:
+        if name in vars(math):
+            raise NotAllowedError(f"'{name}' is not evaluated")
+        raise KeyError(name)
+
+    return _evaluated(expression, _Walker(no_names, _MATH, {}, frozenset({"math"} if module else ())))
+
+
+def _evaluated(expression: str, walker: _Walker) -> Any:
     try:
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise EvaluationError(f"not an expression: {getattr(error, 'msg', None) or error}") from error
-    walker = _Walker(names, {**_MATH, **functions})
     try:
         result = walker.visit(tree.body)
         _check_weight(result)
@@ -204,9 +220,18 @@ def evaluate_arithmetic(expression: str) -> Any:
 
 
 class _Walker:
-    def __init__(self, names: Callable[[str], Any], functions: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        names: Callable[[str], Any],
+        functions: Mapping[str, Any],
+        constants: Mapping[str, Any],
+        modules: frozenset[str] = frozenset(),
+    ) -> None:
         self._names = names
         self._functions = functions
+        self._constants = constants
+        self._modules = modules
+        """Names that stand for `math`."""
 
     def visit(self, node: ast.expr) -> Any:
         method = getattr(self, "_" + type(node).__name__.lower(), None)
@@ -219,8 +244,10 @@ class _Walker:
 
     def _name(self, node: ast.Name) -> Any:
         # roslaunch looks at its own functions first, then at the arguments, then at Python's functions.
-        if node.id in _CONSTANTS:
-            return _CONSTANTS[node.id]
+        if node.id in self._constants:
+            return self._constants[node.id]
+        if node.id in self._modules:
+            raise NotAllowedError("a module is no value")
         if node.id in self._functions:
             return self._functions[node.id]
         try:
@@ -232,7 +259,16 @@ class _Walker:
                 raise NotAllowedError(f"'{node.id}' is not evaluated") from None
             raise EvaluationError(f"name '{node.id}' is not defined") from None
 
+    def _is_module(self, node: ast.expr) -> bool:
+        return isinstance(node, ast.Name) and node.id in self._modules
+
     def _attribute(self, node: ast.Attribute) -> Any:
+        if self._is_module(node.value):
+            if node.attr in _MATH:
+                return _MATH[node.attr]
+            if hasattr(math, node.attr):
+                raise NotAllowedError("attributes are not evaluated")
+            raise EvaluationError(f"module 'math' has no attribute {node.attr!r}")
         value = self.visit(node.value)
         if not hasattr(value, node.attr):
             raise EvaluationError(f"{type(value).__name__!r} has no attribute {node.attr!r}")
@@ -288,15 +324,15 @@ class _Walker:
         if node.keywords or any(isinstance(a, ast.Starred) for a in node.args):
             raise NotAllowedError("keyword and starred arguments are not evaluated")
         arguments = [self.visit(a) for a in node.args]
-        if isinstance(node.func, ast.Attribute):
+        if isinstance(node.func, ast.Attribute) and not self._is_module(node.func.value):
             return self._method(self.visit(node.func.value), node.func.attr, arguments)
-        if not isinstance(node.func, ast.Name):
+        if not isinstance(node.func, (ast.Name, ast.Attribute)):
             raise NotAllowedError("only functions with a name are called")
-        function = self._name(node.func)
+        function = self.visit(node.func)
         if function in _GROWING and any(a > 1000 for a in arguments):
             raise NotAllowedError("the number is too large")
         if not callable(function):
-            raise EvaluationError(f"'{node.func.id}' is not a function")
+            raise EvaluationError(f"'{ast.unparse(node.func)}' is not a function")
         for argument in arguments:
             _check_weight(argument)
         return function(*arguments)

@@ -32,7 +32,8 @@ class Command:
     result: CommandResult | None
     """The one that the tree was made with."""
     launch_file: bool = False
-    """Whether it is no command of the file's but a run of a Python launch file (`evaluation/ros2/python_runs.py`)."""
+    """Whether it is no command of the file's but a run that its evaluation needs: of a Python launch file
+    (`evaluation/ros2/python_runs.py`) or of an expression (`evaluation/ros2/expressions.py`)."""
 
     @property
     def location(self) -> Location:

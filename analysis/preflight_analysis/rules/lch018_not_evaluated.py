@@ -35,9 +35,9 @@ RULE = Rule(
     name="not-evaluated",
     severity="info",
     what="Says that something that `roslaunch` accepts is not evaluated here: the `command` of a parameter that was "
-    "not run (a hint only; commands are run in the sandbox, if the workspace is trusted), an `$(eval ...)` that would "
-    "need to run code, a Python launch file that was not run, an entity that a DOCTYPE defines, includes and "
-    "groups without end.",
+    "not run (a hint only; commands are run in the sandbox, if the workspace is trusted), an `$(eval ...)` that needs "
+    "Python itself and was not run, a Python launch file that was not run, an entity that a DOCTYPE defines, includes "
+    "and groups without end.",
     why="Values that depend on it are unknown, nodes that need them are not run, and findings that would need them "
     "are left out. It is no error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',

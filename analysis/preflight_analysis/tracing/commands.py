@@ -25,8 +25,10 @@ from typing import Any
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
 from preflight_analysis.tracing import compiled, launch_files, ros2_recipe, run, sandbox
+from preflight_analysis.tracing import expressions as evaluated
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.observation import paths, stderr_tail
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
@@ -152,7 +154,9 @@ class CommandRunner:
     def _job(self, line: str) -> _Job | CommandResult:
         request = parse_request(line)
         if request is not None:
-            return self._launch_file(request)
+            return self._asked(launch_files.make(self.environment, request, self.cwd), str(request["file"]))
+        if (expression := expressions.parse_request(line)) is not None:
+            return self._asked(evaluated.make(self.environment, expression, self.cwd))
         try:
             words = shlex.split(line)
         except ValueError as error:
@@ -174,9 +178,9 @@ class CommandRunner:
         beyond = recipes.command_paths(recipe, executable, named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
-    def _launch_file(self, request: dict[str, Any]) -> _Job:
-        recipe = launch_files.make(self.environment, request, self.cwd)
-        named = tuple(path for path in (recipe.argv[0], str(request["file"])) if os.path.isfile(path))
+    def _asked(self, recipe: recipes.Recipe, *files: str) -> _Job:
+        """The run of something else than a command, for which our own code asks the user's interpreter."""
+        named = tuple(path for path in (recipe.argv[0], *files) if os.path.isfile(path))
         beyond = recipes.command_paths(recipe, recipe.argv[0], named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 import shlex
 import shutil
 from collections.abc import Callable, Sequence
@@ -18,6 +17,7 @@ from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.types import loaded
@@ -26,7 +26,6 @@ from preflight_analysis.launch.model import Literal, Substitution, Value
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, parse_value_ros2
 
 Parts = tuple[Literal | Substitution, ...]
-_MATH_MODULE = re.compile(r"(?<![\w.'\"])math\.(?=[a-z])")
 
 
 class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list
@@ -173,20 +172,37 @@ class Performer:
         return Location(self.place.file, part.span)
 
     def _eval(self, part: Substitution) -> str:
-        text = self._word(part, 0)
-        modules = [m.strip() for m in self._word(part, 1).split(",")] if len(part.words) == 2 else ["math"]
-        if any(module != "math" for module in modules):
-            raise _Failure("eval-not-allowed", fatal=False, expression=text, message="only the module math is known")
-
-        def names(name: str) -> object:
-            raise KeyError(name)
-
+        text, distro = self._word(part, 0), self.state.environment.distro
+        alone = distro in expressions.WITHOUT_MODULES
+        if alone and len(part.words) == 2 and not self.place.file.endswith(".py"):
+            raise _Failure("bad-substitution", text=part.text, message=f"$(eval) takes 1 argument in ROS 2 {distro}")
+        given = self._word(part, 1) if len(part.words) == 2 else "math"
+        modules = [name for each in given.split(",") if (name := each.strip())]
+        if modules != ["math"] and not alone:
+            return self._run_eval(part, text, modules)
         try:
-            return str(expression.evaluate(_MATH_MODULE.sub("", text), names, {}))
-        except expression.NotAllowedError as error:
-            raise _Failure("eval-not-allowed", fatal=False, expression=text, message=str(error)) from error
+            return str(expression.evaluate_ros2(text, module=not alone))
+        except expression.NotAllowedError:
+            return self._run_eval(part, text, modules)
         except expression.EvaluationError as error:
             raise _Failure("eval-error", expression=text, message=str(error)) from error
+
+    def _run_eval(self, part: Substitution, text: str, modules: Sequence[str]) -> str:
+        """The text of an expression that Python itself has to evaluate, in the sandbox."""
+        line = expressions.request(text, modules, self.state.environment.distro)
+        result = self.state.results.result(line)
+        self.state.commands.append(Command(line, "", self.place.origin(part.span), result, launch_file=True))
+        if result is None:
+            self.state.note_unknown(part.text, "it was not evaluated", self._at(part))
+            raise _Failure
+        if result.status != "done":
+            raise _Failure("eval-not-allowed", fatal=False, expression=text, message=result.reason)
+        outcome = expressions.read_answer(result.output)
+        if outcome.text is None and outcome.sure:
+            raise _Failure("eval-error", expression=text, message=outcome.error)
+        if outcome.text is None:
+            raise _Failure("eval-not-allowed", fatal=False, expression=text, message=outcome.error)
+        return outcome.text
 
     def _dirname(self, part: Substitution) -> str:
         return os.path.dirname(self.context.launch_file)
