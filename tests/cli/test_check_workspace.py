@@ -105,7 +105,7 @@ def test_a_workspace_of_ros2(tmp_path: Path, preflight: Run) -> None:
         ([".", "a:=1"], ". is a folder"),
         (["missing"], "missing does not exist"),
         ([".", "--baseline", "missing.json"], "--write-baseline missing.json makes it"),
-        (["x.launch", "--changed-since", "HEAD"], "git: "),
+        (["x.launch", "--changed-since", "HEAD"], "is not in a git repository"),
         (["x.launch", "--changed-since=--output=x"], "is no revision"),
     ],
 )

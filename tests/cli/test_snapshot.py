@@ -268,7 +268,7 @@ def test_what_cannot_be_compared(preflight: Run, repository: Path, sides: list[s
 def test_a_revision_needs_a_repository(preflight: Run) -> None:
     done = preflight("diff", "HEAD:launch/fixed.launch", "launch/fixed.launch", "--no-run")
     assert done.code == 2
-    assert "is in no git repository" in done.err
+    assert "is not in a git repository" in done.err
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])

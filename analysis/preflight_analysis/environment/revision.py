@@ -1,20 +1,20 @@
 """A revision of a git repository as a folder, and the environment of a workspace with that folder in the repository's
 place.
 
-Only git's own reading commands are run, and neither hooks nor filters nor a file monitor of the repository: the files
-are written as they are stored.
+The files are written as they are stored: no filters.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
-import shutil
 import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from preflight_analysis.environment.detect import BUILT
+from preflight_analysis.environment.git import GitError, Repository, open_repository
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import find_packages
 
@@ -38,47 +38,59 @@ def find_revision(text: str, folder: str) -> Revision:
     """What `REV:path` means in `folder`. As for git the path is one from the top of the repository, or with `./` from
     the folder; without it that is tried too. Raises `NoRevisionError`."""
     name, _, path = text.partition(":")
-    if shutil.which("git") is None:
-        raise NoRevisionError("git is not installed")
-    top = _git(folder, "rev-parse", "--show-toplevel")
-    if top is None:
-        raise NoRevisionError(f"{folder} is in no git repository")
-    repository = os.fsdecode(top.rstrip(b"\n"))
-    found = _git(repository, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{name}^{{commit}}")
-    commit = (found or b"").decode("ascii", "replace").strip()
+    try:
+        with open_repository(folder) as repository:
+            return _find(repository, name, path, folder)
+    except GitError as error:
+        raise NoRevisionError(str(error)) from None
+
+
+def _find(repository: Repository, name: str, path: str, folder: str) -> Revision:
+    top = repository.top
+    try:
+        found = repository.ask("rev-parse", "--verify", "--quiet", "--end-of-options", f"{name}^{{commit}}")
+    except GitError:
+        found = b""
+    commit = found.decode("ascii", "replace").strip()
     if not name or not _COMMIT.fullmatch(commit):
-        raise NoRevisionError(f"{name!r} is no revision of {repository}")
-    here = os.path.normpath(os.path.join(os.path.relpath(os.path.realpath(folder), repository), path))
+        raise NoRevisionError(f"{name!r} is no revision of {top}")
+    here = os.path.normpath(os.path.join(os.path.relpath(os.path.realpath(folder), top), path))
     for candidate in (here,) if path.startswith("./") else (os.path.normpath(path), here):
-        if (
-            not candidate.startswith(("..", "/"))
-            and _git(repository, "cat-file", "-e", f"{commit}:{candidate}") is not None
-        ):
-            return Revision(repository, commit, candidate)
+        if not candidate.startswith(("..", "/")):
+            with contextlib.suppress(GitError):
+                repository.ask("cat-file", "-e", f"{commit}:{candidate}")
+                return Revision(top, commit, candidate)
     raise NoRevisionError(f"{path} is not in {name}")
 
 
 def write_revision(revision: Revision, folder: str) -> None:
     """All files of the revision, below an empty folder. What lies in submodules is not there. Raises `NoRevisionError`
     if git fails, and `OSError`."""
-    listed = _git(revision.repository, "ls-tree", "-r", "-z", "--full-tree", revision.commit)
-    if listed is None:
-        raise NoRevisionError(f"git does not list the files of {revision.commit}")
+    try:
+        with open_repository(revision.repository) as repository:
+            _write_all(repository, revision.commit, folder)
+    except GitError as error:
+        raise NoRevisionError(str(error)) from None
+
+
+def _write_all(repository: Repository, commit: str, folder: str) -> None:
+    listed = repository.ask("ls-tree", "-r", "-z", "--full-tree", commit)
     with subprocess.Popen(
-        [*_command(revision.repository), "cat-file", "--batch"],
+        repository.command("cat-file", "--batch"),
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
+        env=repository.environment,
     ) as git:
         assert git.stdin is not None
         assert git.stdout is not None
         for mode, name, path in _entries(listed):
             git.stdin.write(name + b"\n")
             git.stdin.flush()
-            size = git.stdout.readline().split()[-1]
-            if not size.isdigit():
-                raise NoRevisionError(f"git does not have {os.fsdecode(path)} of {revision.commit}")
-            content = git.stdout.read(int(size))
+            answer = git.stdout.readline().split()
+            if not answer or not answer[-1].isdigit():
+                raise NoRevisionError(f"git does not have {os.fsdecode(path)} of {commit}")
+            content = git.stdout.read(int(answer[-1]))
             git.stdout.read(1)
             _write(folder, os.fsdecode(path), mode, content)
 
@@ -124,26 +136,6 @@ def environment_at(environment: Environment, repository: str, folder: str) -> En
 
 def _is_below(path: str, folder: str) -> bool:
     return path == folder or path.startswith(folder.rstrip("/") + "/")
-
-
-def _command(folder: str) -> list[str]:
-    return ["git", "--no-optional-locks", "-c", "core.hooksPath=/dev/null", "-c", "core.fsmonitor=false", "-C", folder]
-
-
-def _git(folder: str, *arguments: str) -> bytes | None:
-    """What git prints, None if it says no."""
-    try:
-        done = subprocess.run(
-            [*_command(folder), *arguments],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            check=False,
-            # A blob that a partial clone lacks would be fetched by programs that the repository's settings name.
-            env={**os.environ, "GIT_NO_LAZY_FETCH": "1"},
-        )
-    except OSError:
-        return None
-    return done.stdout if done.returncode == 0 else None
 
 
 def _entries(listed: bytes) -> Iterator[tuple[bytes, bytes, bytes]]:

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import os
-import subprocess
 from collections.abc import Collection
 from functools import cache
 
+from preflight_analysis.environment.git import GitError, Repository, open_repository
 from preflight_analysis.environment.packages import MANIFEST, crawl
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli.errors import CannotDoError
-
-_TIMEOUT = 60
 
 
 def changed_since(revision: str, folder: str) -> frozenset[str]:
@@ -22,16 +20,26 @@ def changed_since(revision: str, folder: str) -> frozenset[str]:
     committed since, changed, deleted, or new and not ignored. Raises `CannotDoError` where git cannot tell."""
     if revision.startswith("-"):
         raise CannotDoError(f"{revision} is no revision")
-    top = _git(folder, "rev-parse", "--show-toplevel").rstrip("\n")
     try:
-        commit = _git(top, "rev-parse", "--verify", f"{revision}^{{commit}}").strip()
-    except CannotDoError:
+        with open_repository(folder) as repository:
+            return _changed(repository, revision)
+    except GitError as error:
+        raise CannotDoError(str(error)) from None
+
+
+def _changed(repository: Repository, revision: str) -> frozenset[str]:
+    top = repository.top
+    try:
+        commit = repository.ask("rev-parse", "--verify", f"{revision}^{{commit}}").decode().strip()
+    except GitError:
         raise CannotDoError(f"'{revision}' is no revision of {top}, or this clone does not have it") from None
-    with contextlib.suppress(CannotDoError):  # nothing in common that this clone has, a shallow one for instance
-        commit = _git(top, "merge-base", commit, "HEAD").strip()
-    changed = _git(top, "diff", "--name-only", "-z", "--no-renames", "--no-ext-diff", "--no-textconv", commit, "--")
-    new = _git(top, "ls-files", "--others", "--exclude-standard", "-z")
-    return frozenset(os.path.realpath(os.path.join(top, name)) for name in f"{changed}\0{new}".split("\0") if name)
+    with contextlib.suppress(GitError):  # nothing in common that this clone has, a shallow one for instance
+        commit = repository.ask("merge-base", commit, "HEAD").decode().strip()
+    # Git would ask for changes within submodules in a process that obeys the submodule's configuration.
+    changed = repository.ask("diff", "--name-only", "-z", "--no-renames", "--ignore-submodules=dirty", commit, "--")
+    new = repository.ask("ls-files", "--others", "--exclude-standard", "-z")
+    names = os.fsdecode(b"%b\0%b" % (changed, new)).split("\0")
+    return frozenset(os.path.realpath(os.path.join(top, name)) for name in names if name)
 
 
 def touched(analysis: Analysis, changed: Collection[str], settings: str) -> bool:
@@ -54,16 +62,3 @@ def _package_of(folder: str) -> str | None:
         return package.name if package is not None else None
     parent = os.path.dirname(folder)
     return None if parent == folder else _package_of(parent)
-
-
-def _git(folder: str, *arguments: str) -> str:
-    # A repository's own configuration may name a program to ask what changed.
-    command = ["git", "-C", folder, "-c", "core.fsmonitor=false", *arguments]
-    try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_TIMEOUT, check=False)
-    except (OSError, subprocess.TimeoutExpired) as error:
-        raise CannotDoError(f"git does not answer: {error}") from None
-    if done.returncode:
-        said = done.stderr.decode(errors="replace").strip().splitlines()
-        raise CannotDoError(f"git: {said[0] if said else arguments[0]}")
-    return os.fsdecode(done.stdout)
