@@ -3,8 +3,8 @@
 A repository's configuration names programs that git runs even when it only reads: filters, hooks, file monitors,
 difference drivers, what fetches a missing object. A list of all of them is never complete. So git is given a folder of
 ours in place of the repository's `.git`: links to its objects and references and a copy of its index, beside a
-configuration that holds the few settings of `_HARMLESS`. The user's and the system's configuration are left out as well: filters for large
-files that they name (git-lfs) would take their orders from the repository.
+configuration that holds the few settings of `_HARMLESS`. The user's and the system's configuration are left out as
+well: filters for large files that they name (git-lfs) would take their orders from the repository.
 """
 
 from __future__ import annotations

@@ -9,11 +9,11 @@ import os
 import subprocess
 import threading
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast, get_args
 
-from preflight_analysis.environment.ament import python_folders
+from preflight_analysis.environment.ament import ament_prefixes, python_folders, rclpy_interpreter
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation
 from preflight_analysis.tracing.interface import Role
@@ -66,20 +66,18 @@ class Ros2Observer:
             return self._latest
 
     def _start(self) -> None:
-        python = self._environment.ros2_python
+        # Not the environment's own: that has the interpreters and folders of a workspace that nobody sourced.
+        prefixes = ament_prefixes(os.environ, None, "/")
+        python = rclpy_interpreter(os.environ, prefixes, "/")
         if python is None:
-            raise CannotObserveError(
-                "rclpy was not found, which a running ROS 2 system is asked with: source its set-up script, such as "
-                "`source /opt/ros/jazzy/setup.bash`",
-                final=True,
-            )
+            raise CannotObserveError(_lacking(self._environment.ros2_python), final=True)
         try:
             self._process = subprocess.Popen(
-                [python, str(_HELPER)],
+                [python, "-I", str(_HELPER), *_python_path(prefixes)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
-                env=_variables(self._environment),
+                env=_variables(prefixes),
                 cwd="/",
                 text=True,
                 errors="replace",
@@ -117,12 +115,27 @@ def _observation(told: Mapping[str, Any]) -> Observation:
     return Observation(2, nodes, tuple(ends))
 
 
-def _variables(environment: Environment) -> dict[str, str]:
+def _lacking(of_workspace: str | None) -> str:
+    how = "source its set-up script, such as `source /opt/ros/jazzy/setup.bash`"
+    if of_workspace is not None:
+        return (
+            f"rclpy was found by way of the workspace only ({of_workspace}), whose programs are run in the sandbox and "
+            f"nowhere else: {how}, or the workspace's own if you trust it"
+        )
+    return f"rclpy was not found, which a running ROS 2 system is asked with: {how}"
+
+
+def _python_path(prefixes: Sequence[str]) -> list[str]:
+    """Where the helper imports from beside its interpreter's own folders, which alone count with `-I`: as modules on a
+    path that Python starts with, a `sitecustomize` in it would be run, too."""
+    named = [folder for folder in os.environ.get("PYTHONPATH", "").split(os.pathsep) if os.path.isabs(folder)]
+    return list(dict.fromkeys((*named, *(folder for prefix in prefixes for folder in python_folders(prefix)))))
+
+
+def _variables(prefixes: Sequence[str]) -> dict[str, str]:
     """The user's own, with what sourcing the distribution would add where it is not sourced."""
-    given = dict(environment.variables)
-    prefixes = environment.ament_prefixes
+    given = dict(os.environ)
     for name, folders in (
-        ("PYTHONPATH", [folder for prefix in prefixes for folder in python_folders(prefix)]),
         ("LD_LIBRARY_PATH", [os.path.join(prefix, "lib") for prefix in prefixes]),
         ("AMENT_PREFIX_PATH", list(prefixes)),
     ):

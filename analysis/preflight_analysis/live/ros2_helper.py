@@ -120,9 +120,8 @@ def _end_with_input() -> None:
 
 
 def main() -> None:
-    """Show the graph until standard input ends."""
-    here = os.path.dirname(os.path.abspath(__file__))  # its modules are not for this interpreter
-    sys.path[:] = [folder for folder in sys.path if folder != here]
+    """Show the graph until standard input ends. The arguments are folders to import from."""
+    sys.path[:0] = sys.argv[1:]
     threading.Thread(target=_end_with_input, daemon=True).start()
     try:
         rclpy = importlib.import_module("rclpy")
