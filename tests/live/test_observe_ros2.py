@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect
-from preflight_analysis.environment.model import Environment
 from preflight_analysis.live.model import CannotObserveError
 from preflight_analysis.live.observe_ros2 import Ros2Observer
 
@@ -40,7 +39,7 @@ def clean(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def hostile(tmp_path: Path) -> tuple[Environment, Path]:
+def hostile(tmp_path: Path) -> tuple[Path, Path]:
     """A workspace whose build folders hold programs and modules that leave the second path; nobody sourced them."""
     workspace, marker = tmp_path / "workspace", tmp_path / "ran"
     leave = f"open({str(marker)!r}, 'w').close()\n"
@@ -59,12 +58,13 @@ def hostile(tmp_path: Path) -> tuple[Environment, Path]:
         python = workspace / space / "bin/python3"
         python.write_text(f"#!/bin/sh\ntouch '{marker}'\n")
         python.chmod(0o755)
-    return detect(str(workspace)), marker
+    return workspace, marker
 
 
 @pytest.mark.usefixtures("clean")
-def test_an_interpreter_of_the_workspace_is_refused(hostile: tuple[Environment, Path]) -> None:
-    environment, marker = hostile
+def test_an_interpreter_of_the_workspace_is_refused(hostile: tuple[Path, Path]) -> None:
+    workspace, marker = hostile
+    environment = detect(str(workspace))
     assert environment.ros2_python is not None, "nothing of the workspace was found that could be refused"
     observer = Ros2Observer(environment)
     with pytest.raises(CannotObserveError, match=r"by way of the workspace only .*source") as refused:
@@ -75,11 +75,11 @@ def test_an_interpreter_of_the_workspace_is_refused(hostile: tuple[Environment, 
 
 @pytest.mark.usefixtures("clean")
 def test_nothing_of_the_workspace_gets_into_the_users_own(
-    hostile: tuple[Environment, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    hostile: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    environment, marker = hostile
+    workspace, marker = hostile
     users_own(tmp_path / "venv", monkeypatch)
-    observer = Ros2Observer(environment)
+    observer = Ros2Observer(detect(str(workspace)))
     with pytest.raises(CannotObserveError, match="the user's own"):
         observer.observe()
     observer.close()
@@ -88,11 +88,11 @@ def test_nothing_of_the_workspace_gets_into_the_users_own(
 
 @pytest.mark.usefixtures("clean")
 def test_what_the_user_sourced_counts(
-    hostile: tuple[Environment, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    hostile: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A path that the user's own variables name is imported from, in the workspace too; a `sitecustomize` that lies
     there is not run."""
-    environment, marker = hostile
+    workspace, marker = hostile
     venv.create(tmp_path / "venv", with_pip=False, symlinks=True)
     sourced = rclpy(tmp_path / "workspace/sourced", OF_THE_USER)
     folders = sorted((sourced / "lib").iterdir())
@@ -101,7 +101,7 @@ def test_what_the_user_sourced_counts(
     rclpy(tmp_path / "venv", 'raise ImportError("shadowed")')
     monkeypatch.setenv("PATH", f"{tmp_path}/venv/bin:/usr/bin:/bin")
     monkeypatch.setenv("PYTHONPATH", ":".join([".", *(str(folder / "site-packages") for folder in folders)]))
-    observer = Ros2Observer(environment)
+    observer = Ros2Observer(detect(str(workspace)))
     with pytest.raises(CannotObserveError, match="the user's own"):
         observer.observe()
     observer.close()

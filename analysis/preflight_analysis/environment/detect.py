@@ -144,6 +144,7 @@ def detect_environment(
         problems=tuple(problems),
         ament_prefixes=tuple(prefixes),
         ros2_python=ros2_python,
+        own_variables=dict(variables),
     )
 
 

@@ -52,3 +52,6 @@ class Environment:
     """The interpreter that has rclpy, None when there is none."""
     meant: Mapping[str, str] = field(default_factory=dict)
     """As one launch file sees it: the folders of packages that are others than for most, by name."""
+    own_variables: Mapping[str, str] = field(default_factory=dict)
+    """The variables as the user has them, without what is only found in the workspace: what a program outside of the
+    sandbox starts from."""

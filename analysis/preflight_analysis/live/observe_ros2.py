@@ -67,17 +67,18 @@ class Ros2Observer:
 
     def _start(self) -> None:
         # Not the environment's own: that has the interpreters and folders of a workspace that nobody sourced.
-        prefixes = ament_prefixes(os.environ, None, "/")
-        python = rclpy_interpreter(os.environ, prefixes, "/")
+        own = self._environment.own_variables
+        prefixes = ament_prefixes(own, None, "/")
+        python = rclpy_interpreter(own, prefixes, "/")
         if python is None:
             raise CannotObserveError(_lacking(self._environment.ros2_python), final=True)
         try:
             self._process = subprocess.Popen(
-                [python, "-I", str(_HELPER), *_python_path(prefixes)],
+                [python, "-I", str(_HELPER), *_python_path(own, prefixes)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
-                env=_variables(prefixes),
+                env=_variables(own, prefixes),
                 cwd="/",
                 text=True,
                 errors="replace",
@@ -125,16 +126,16 @@ def _lacking(of_workspace: str | None) -> str:
     return f"rclpy was not found, which a running ROS 2 system is asked with: {how}"
 
 
-def _python_path(prefixes: Sequence[str]) -> list[str]:
+def _python_path(own: Mapping[str, str], prefixes: Sequence[str]) -> list[str]:
     """Where the helper imports from beside its interpreter's own folders, which alone count with `-I`: as modules on a
     path that Python starts with, a `sitecustomize` in it would be run, too."""
-    named = [folder for folder in os.environ.get("PYTHONPATH", "").split(os.pathsep) if os.path.isabs(folder)]
+    named = [folder for folder in own.get("PYTHONPATH", "").split(os.pathsep) if os.path.isabs(folder)]
     return list(dict.fromkeys((*named, *(folder for prefix in prefixes for folder in python_folders(prefix)))))
 
 
-def _variables(prefixes: Sequence[str]) -> dict[str, str]:
+def _variables(own: Mapping[str, str], prefixes: Sequence[str]) -> dict[str, str]:
     """The user's own, with what sourcing the distribution would add where it is not sourced."""
-    given = dict(os.environ)
+    given = dict(own)
     for name, folders in (
         ("LD_LIBRARY_PATH", [os.path.join(prefix, "lib") for prefix in prefixes]),
         ("AMENT_PREFIX_PATH", list(prefixes)),
