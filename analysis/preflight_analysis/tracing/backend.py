@@ -135,3 +135,27 @@ def within(path: str, folder: str) -> bool:
 def any_within(paths: Iterable[str], folder: str) -> bool:
     """Whether one of `paths` lies at or below `folder`."""
     return any(within(path, folder) for path in paths)
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """Where something of the host is seen inside, when `bound` are folders that are shown, under any name, though they
+    lie below one of `masks`."""
+
+    masks: tuple[str, ...]
+    bound: tuple[tuple[str, str], ...]
+    """Each as it is shown, and its real path."""
+
+    @classmethod
+    def of(cls, bound: Iterable[str], masks: Iterable[str]) -> Seen:
+        """With the folders as the host has them now."""
+        return cls(tuple(masks), tuple((folder, os.path.realpath(folder)) for folder in bound))
+
+    def places(self, path: str) -> list[str]:
+        """The paths inside of what has this real path."""
+        found = [
+            os.path.normpath(os.path.join(folder, os.path.relpath(path, real)))
+            for folder, real in self.bound
+            if within(path, real)
+        ]
+        return found if any(within(path, mask) for mask in self.masks) else [*found, path]

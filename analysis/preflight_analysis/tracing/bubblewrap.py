@@ -14,7 +14,7 @@ import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from preflight_analysis.tracing import seccomp, sockets
+from preflight_analysis.tracing import mounts, seccomp, sockets
 from preflight_analysis.tracing.backend import PRIVATE, TEMPORARY_BYTES, Backend, Isolated, View
 
 _USERNS_SWITCHES = (
@@ -75,6 +75,8 @@ def _options(view: View) -> list[str]:
         options += ["--ro-bind", path, path]
     for path in sockets.reachable(view.shown, view.masks):
         options += ["--ro-bind", "/dev/null", path]
+    for path in mounts.leading_out(view.shown, view.masks):
+        options += ["--size", "4096", "--perms", "0555", "--tmpfs", path, "--remount-ro", path]
     options += ["--ro-bind", str(view.agents.library), PRIVATE + "/lib/preflight_agents"]
     options += ["--ro-bind", str(view.agents.aspectlib), PRIVATE + "/lib/aspectlib"]
     for name in view.agents.site_names:

@@ -13,7 +13,7 @@ import pwd
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
 
-from preflight_analysis.tracing import seccomp, sockets
+from preflight_analysis.tracing import mounts, seccomp, sockets
 from preflight_analysis.tracing.backend import (
     PRIVATE,
     Backend,
@@ -73,7 +73,8 @@ def _options(view: View, folder: str) -> list[str]:
     for root in view.masks:
         if root not in (_TMP, home):
             options += [f"--blacklist={path}" for path in _shut(root, home)]
-    options += [f"--blacklist={path}" for path in (*view.secrets, *sockets.reachable(shown, view.masks))]
+    leading_out = [*sockets.reachable(shown, view.masks), *mounts.leading_out(shown, view.masks)]
+    options += [f"--blacklist={path}" for path in (*view.secrets, *leading_out)]
     return options
 
 

@@ -20,7 +20,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from preflight_analysis.tracing import seccomp
+from preflight_analysis.tracing import mounts, seccomp
 from preflight_analysis.tracing.backend import (
     PRIVATE,
     Backend,
@@ -46,24 +46,27 @@ def version() -> int:
 
 def readable(view: View) -> list[str]:
     """The outermost files and folders that together hold what may be read: Landlock only knows what is allowed."""
-    kept = [*view.masks, *view.secrets, "/dev"]
-    found = list(view.shown)
+    leading_out = mounts.leading_out(view.shown, view.masks)
+    found: list[str] = []
 
-    def look(folder: str) -> None:
+    def look(path: str, hidden: Sequence[str], *, directory: bool) -> None:
+        if any(within(path, root) for root in hidden):
+            return
+        if not directory or not any_within(hidden, path):
+            found.append(path)
+            return
         try:
-            entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
+            entries = sorted(os.scandir(path), key=lambda entry: entry.name)
         except OSError:
             return
         for entry in entries:
-            path = entry.path
-            if entry.is_symlink() or any(within(path, root) for root in kept):
-                continue
-            if any_within(kept, path):
-                look(path)
-            elif entry.is_dir(follow_symlinks=False) or stat.S_ISREG(entry.stat(follow_symlinks=False).st_mode):
-                found.append(path)
+            directory = entry.is_dir(follow_symlinks=False)
+            if directory or (not entry.is_symlink() and stat.S_ISREG(entry.stat(follow_symlinks=False).st_mode)):
+                look(entry.path, hidden, directory=directory)
 
-    look("/")
+    look("/", (*view.masks, *view.secrets, *leading_out, "/dev"), directory=True)
+    for path in view.shown:
+        look(path, leading_out, directory=os.path.isdir(path))
     return found
 
 

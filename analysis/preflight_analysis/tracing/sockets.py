@@ -7,6 +7,8 @@ import stat
 from collections.abc import Iterable
 from pathlib import Path
 
+from preflight_analysis.tracing.backend import Seen
+
 _TABLE = Path("/proc/net/unix")
 _OWN = ("/dev/", "/proc/")
 """What the sandbox has its own of."""
@@ -19,17 +21,14 @@ def reachable(bound: Iterable[str], masks: Iterable[str]) -> list[str]:
         lines = _TABLE.read_text(errors="surrogateescape").splitlines()[1:]
     except OSError:
         return []
-    hidden = tuple(mask + "/" for mask in masks)
-    forms = [(folder, os.path.realpath(folder) + "/") for folder in bound]
+    seen = Seen.of(bound, masks)
     found: set[str] = set()
     for line in lines:
         name = line.split(None, 7)[7:]
         if not name or not name[0].startswith("/"):
             continue
         path = os.path.realpath(name[0])
-        places = [os.path.join(folder, path[len(real) :]) for folder, real in forms if path.startswith(real)]
-        if not path.startswith((*hidden, *_OWN)):
-            places.append(path)
+        places = seen.places(path) if not path.startswith(_OWN) else []
         if places and _is_socket(path):
             found.update(places)
     return sorted(found)
