@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from preflight_analysis.findings.report import printable
 from preflight_analysis.snapshot.difference import Change, Difference
 from preflight_analysis.snapshot.model import GROUPS, Snapshot
 
@@ -57,7 +58,7 @@ def to_text(found: Difference, before: str, after: str, *, colour: bool = False)
     """Lines with a sign in front: what came (+), went (-) and changed (~). `before` and `after` name the sides."""
 
     def line(kind: str, text: str, indent: str = "") -> str:
-        told = f"{indent}{_SIGNS[kind]} {text}"
+        told = f"{indent}{_SIGNS[kind]} {printable(text)}"
         return f"{_COLOURS[kind]}{told}\x1b[0m" if colour else told
 
     lines = [f"before: {before}", f"after:  {after}", ""]

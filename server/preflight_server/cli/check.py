@@ -181,4 +181,4 @@ def _print(report: Report, failing: Sequence[Finding], checked: Sequence[str], f
             print_text(to_github(report, base))
         case _:
             # Empty counts as not set: https://no-color.org
-            print_text(to_text(report, base=base, colour=colours()))
+            print_text(to_text(report, base=base, colour=colours()), painted=colours())

@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     elif args.format == "markdown":
         print_text(report.to_markdown(found, both[0].title, both[1].title))
     else:
-        print_text(report.to_text(found, both[0].title, both[1].title, colour=colours()))
+        print_text(report.to_text(found, both[0].title, both[1].title, colour=colours()), painted=colours())
     return int(not found.same)
 
 

@@ -13,7 +13,7 @@ from preflight_analysis import __version__
 from preflight_analysis.tracing.cache_folder import VARIABLE
 
 from preflight_server.cli.errors import FAILED, CannotDoError
-from preflight_server.cli.output import say
+from preflight_server.cli.output import LogFormatter, say
 
 _VERBS = ("check", "tree", "graph", "trace", "snapshot", "diff", "watch", "capture", "rules", "doctor", "lsp")
 _SEVERAL_FILES = ("check", "diff")
@@ -23,7 +23,9 @@ _EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; the return value is the exit code."""
-    logging.basicConfig(level=logging.WARNING, format="ros-preflight: %(message)s")
+    handler = logging.StreamHandler()
+    handler.setFormatter(LogFormatter("ros-preflight: %(message)s"))
+    logging.basicConfig(level=logging.WARNING, handlers=[handler])
     args = _parse(sys.argv[1:] if argv is None else argv)
     if getattr(args, "cache_dir", None):
         os.environ[VARIABLE] = args.cache_dir

@@ -1,13 +1,38 @@
-"""What goes to standard output."""
+"""The only way to standard output and standard error: what is printed may come from files, nodes and networks that are
+not trusted, and must not drive the terminal."""
 
 from __future__ import annotations
 
+import logging
 import os
+import re
 import sys
 from collections.abc import Mapping
 from typing import Any
 
 from preflight_analysis.evaluation.tree_json import dumps
+
+_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""All but line break and tab, and what changes the direction of the text around it."""
+_PICTURES = 0x2400
+"""U+2400 and the 32 after it show the control characters of ASCII."""
+_COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
+
+
+def visible(text: str) -> str:
+    """The text with control characters as characters that can be seen: ESC as ␛."""
+    return _CONTROL.sub(_picture, text)
+
+
+def _picture(found: re.Match[str]) -> str:
+    code = ord(found[0])
+    return (
+        chr(_PICTURES + code)
+        if code < 0x20
+        else "\N{SYMBOL FOR DELETE}"
+        if code == 0x7F
+        else "\N{REPLACEMENT CHARACTER}"
+    )
 
 
 def print_json(data: Mapping[str, Any], *, indent: int | None = 2) -> None:
@@ -16,12 +41,14 @@ def print_json(data: Mapping[str, Any], *, indent: int | None = 2) -> None:
 
 
 def dumps_json(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
-    """A JSON document with sorted keys, and a newline."""
-    return dumps(data, indent=indent) + "\n"
+    """A JSON document with sorted keys, and a newline. What would drive a terminal is escaped as JSON has it."""
+    return _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", dumps(data, indent=indent)) + "\n"
 
 
-def print_text(text: str) -> None:
-    """Text as it is, whatever the terminal's encoding can show of it."""
+def print_text(text: str, *, painted: bool = False) -> None:
+    """Text for reading, whatever the terminal's encoding can show of it. `painted`: colours are meant to be there."""
+    parts = _COLOUR.split(text) if painted else [text]
+    text = "".join(part if index % 2 else visible(part) for index, part in enumerate(parts))
     stream = sys.stdout
     try:
         stream.write(text)
@@ -36,4 +63,12 @@ def colours() -> bool:
 
 def say(text: str) -> None:
     """A line on standard error."""
-    print(text, file=sys.stderr)
+    print(visible(text), file=sys.stderr)
+
+
+class LogFormatter(logging.Formatter):
+    """What is logged, as lines on standard error."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """One record."""
+        return visible(super().format(record))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import sys
 
+from preflight_server.cli.output import visible
+
 _BAR = 20
 
 
@@ -44,5 +46,5 @@ class Progress:
             columns = os.get_terminal_size(sys.stderr.fileno()).columns or 80
         except OSError:
             columns = 80
-        sys.stderr.write(f"\r\x1b[K{line[: columns - 1]}")
+        sys.stderr.write(f"\r\x1b[K{visible(line)[: columns - 1]}")
         sys.stderr.flush()

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
         print_text(tree_page(node_tree(analysis, _by_file(analysis)), analysis.documents, os.getcwd()))
         say_errors(analysis)
     else:
-        print_text("".join(f"{line}\n" for line in _painted(analysis, colour=colours())))
+        print_text("".join(f"{line}\n" for line in _painted(analysis, colour=colours())), painted=colours())
         say_errors(analysis)
     return exit_code(analysis, args.fail_on)
 
