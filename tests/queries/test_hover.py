@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from markdown_it import MarkdownIt
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.workspace.index import Root
 from scene_desk import lay
@@ -113,3 +114,19 @@ def test_many_roots(tmp_path: Path) -> None:
 def test_a_file_that_does_not_parse(tmp_path: Path) -> None:
     text = '    <launch><arg name="rate"/><param name="a" value="$(arg $0rate)"<node' + INCLUDES
     assert "By launch:" in hovered(tmp_path, text)
+
+
+def test_a_picture_in_a_value_is_not_loaded(tmp_path: Path) -> None:
+    """Nor in a name: what a launch file says is shown, in an untrusted workspace too."""
+    picture = "`![x](https://evil.example/x.png)`<img src='https://evil.example/y.png'>".replace("<", "&lt;")
+    reader = MarkdownIt("gfm-like", {"html": True, "linkify": False})
+    for text in (
+        f'<launch><arg name="a" default="{picture}" doc="{picture}"/><param name="p" value="$(arg $0a)"/></launch>',
+        f'<launch><arg name="{picture}" default="1"/><param $0name="{picture}" value="{picture}"/></launch>',
+        f'<launch><node $0pkg="{picture}" type="{picture}" name="n"/></launch>',
+        f'<launch><include $0file="{picture}.launch"><arg name="{picture}" value="{picture}"/></include></launch>',
+        f'<launch><param name="p" $0command="{picture}"/></launch>',
+    ):
+        shown = reader.render("\n".join(hovered(tmp_path, "    " + text)))
+        assert "evil.example" in shown
+        assert "<img" not in shown

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.document import Element
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.markdown import code
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import NODE_KINDS
@@ -103,7 +104,7 @@ def remap_targets(analysis: Analysis, file: str, place: Place, element: Element,
 
 
 def _ends(ends: Sequence[Connection]) -> str:
-    lines = [f"- `{end.node.name}` {_ROLES[end.endpoint.role]}" for end in ends[:_SHOWN_ENDS]]
+    lines = [f"- {code(end.node.name)} {_ROLES[end.endpoint.role]}" for end in ends[:_SHOWN_ENDS]]
     if len(ends) > _SHOWN_ENDS:
         lines.append(f"- … and {len(ends) - _SHOWN_ENDS} more")
     return "\n".join(lines)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
+from preflight_analysis.findings.markdown import escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_tree import arguments
 from preflight_analysis.launch.schema import Kind
@@ -93,7 +94,7 @@ def _arguments(analysis: Analysis, file: str, found: PythonPlace) -> Iterator[It
     for each in declared.values():
         value = values.get(each.name)
         detail = f"= {value}" if value is not None else argument_detail(each)
-        yield Item("argument", each.name, each.name, each.doc or "", detail)
+        yield Item("argument", each.name, each.name, escaped(each.doc or ""), detail)
 
 
 def _declared(found: PythonPlace) -> Iterator[ArgDeclaration]:

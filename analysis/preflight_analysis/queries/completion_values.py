@@ -10,6 +10,7 @@ from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.files import Files
+from preflight_analysis.findings.markdown import escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.references import NAMES
 from preflight_analysis.launch.schema import Attribute, Kind
@@ -208,7 +209,7 @@ def _arguments(asked: Asked) -> Iterator[Item]:
         detail = f"= {value}" if value is not None else argument_detail(declared)
         if declared.span.start > asked.offset:
             detail = f"{detail}, declared below"
-        yield Item("argument", declared.name, declared.name, declared.doc or "", detail)
+        yield Item("argument", declared.name, declared.name, escaped(declared.doc or ""), detail)
 
 
 def argument_detail(declared: ArgDeclaration) -> str:
@@ -355,7 +356,7 @@ def _passed_arguments(asked: Asked, element: Element) -> Iterator[Item]:
     passed = {name.value.text for child in siblings if (name := child.get("name")) is not None}
     for declared in accepted(target):
         if declared.name not in passed:
-            yield Item("argument", declared.name, declared.name, declared.doc or "", argument_detail(declared))
+            yield Item("argument", declared.name, declared.name, escaped(declared.doc or ""), argument_detail(declared))
 
 
 def _machines(asked: Asked, element: Element) -> Iterator[Item]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
+from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import NODE_KINDS, Action
@@ -119,7 +120,7 @@ def _contexts(analyses: Sequence[Analysis], file: str, offset: int, unseen: int)
     for values, launches in roots.items():
         more = [f"… and {len(values) - _SHOWN_VALUES} more"] if len(values) > _SHOWN_VALUES else []
         if shown := launches[:left]:
-            lines.append(f"- {', '.join((*values[:_SHOWN_VALUES], *more))} in {', '.join(f'`{n}`' for n in shown)}")
+            lines.append(f"- {', '.join((*values[:_SHOWN_VALUES], *more))} in {', '.join(code(n) for n in shown)}")
         left -= len(shown)
     if hidden := unseen + sum(map(len, roots.values())) - (_SHOWN_ROOTS - left):
         lines.append(f"- … and {hidden} more")
@@ -154,17 +155,17 @@ def _is_of_use(analysis: Analysis, file: str, offset: int) -> bool:
 
 def _made(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
     if action.kind in NODE_KINDS:
-        yield from (f"`{node.name}`" for _, node in nodes_of(analysis, file, action))
+        yield from (code(node.name) for _, node in nodes_of(analysis, file, action))
     elif action.kind == "include":
         for include in analysis.tree.includes:
             if include.origin[-1].file == file and include.origin[-1].span == action.head_span:
-                given = (f" `{name}:={value}`" for name, value in include.args.items())
-                yield f"`{include.path or 'not known'}`{''.join(given)}"
+                given = (" " + code(f"{name}:={value}") for name, value in include.args.items())
+                yield f"{code(include.path or 'not known')}{''.join(given)}"
     elif action.kind in _SET_PARAMETERS:
-        yield from (f"`{p.name}` = {value_text(p.value)}" for p in params_of(analysis.tree, file, action))
+        yield from (f"{code(p.name)} = {value_text(p.value)}" for p in params_of(analysis.tree, file, action))
     elif action.kind in ("remap", "set_remap"):
         for node, remap in remaps_of(analysis.tree, file, action):
-            yield f"`{names.resolve(remap.source, node.name)}` → `{names.resolve(remap.target, node.name)}`"
+            yield f"{code(names.resolve(remap.source, node.name))} → {code(names.resolve(remap.target, node.name))}"
 
 
 def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
@@ -179,13 +180,13 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
         include = include_of(analysis.tree, file, action)
         if include is not None:
             lines = [f"Includes {link(include.path, None)}" if include.path else "Includes a file that is not known"]
-            lines += [f"- `{name}` = {value_text(value)}" for name, value in include.args.items()]
+            lines += [f"- {code(name)} = {value_text(value)}" for name, value in include.args.items()]
             if include.path:
-                lines.insert(1, f"\n`{include.path}`\n")
+                lines.insert(1, f"\n{code(include.path)}\n")
             yield "\n".join(lines)
     elif action.kind in _SET_PARAMETERS:
         params = list(params_of(analysis.tree, file, action))
-        lines = [f"- `{p.name}` = {value_text(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
+        lines = [f"- {code(p.name)} = {value_text(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
         if len(params) > _SHOWN_PARAMS:
             lines.append(f"- … and {len(params) - _SHOWN_PARAMS} more")
         if lines:
@@ -204,25 +205,25 @@ def _command(command: Command) -> str:
     """What a command printed, or why that is not known."""
     result = command.result
     if result is None:
-        return f"`{command.line}` has yet to be run"
+        return f"{code(command.line)} has yet to be run"
     if result.status == "not-run":
-        return f"`{command.line}` was not run: {result.reason}"
+        return f"{code(command.line)} was not run: {escaped(result.reason or '')}"
     if result.status == "done":
         said, lines = "printed", result.output.splitlines()
     else:
-        said, lines = f"failed: {result.reason}", list(result.stderr_tail)
+        said, lines = f"failed: {escaped(result.reason or '')}", list(result.stderr_tail)
     shown = [line[:_SHOWN_COLUMNS] for line in lines[:_SHOWN_LINES]]
     if len(lines) > len(shown):
         shown.append(f"… and {len(lines) - len(shown)} more lines")
     language = "xml" if lines and lines[0].startswith("<") else "text"
-    return "\n".join([f"`{command.line}` {said}", "", f"````{language}", *shown, "````"])
+    return f"{code(command.line)} {said}\n\n{block(shown, language)}"
 
 
 def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
     reached = list(remaps_of(analysis.tree, file, action))
     named = (((names.resolve(r.source, n.name), names.resolve(r.target, n.name)), n.name) for n, r in reached)
     for (source, target), nodes in _grouped(named):
-        lines = [f"`{source}` → `{target}` for {', '.join(f'`{n}`' for n in nodes)}"]
+        lines = [f"{code(source)} → {code(target)} for {', '.join(code(n) for n in nodes)}"]
         if analysis.graph is not None:
             lines += _ends(analysis.graph, target)
         yield "\n".join(lines)
@@ -241,22 +242,22 @@ def _ends(graph: Graph, name: str) -> Iterator[str]:
         if channel is not None:
             verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
             for verb, ends in zip(verbs, (channel.offers, channel.wants), strict=True):
-                nodes = ", ".join(sorted({f"`{c.node.name}`" for c in ends})) or "nobody"
-                yield f"- {kind} `{name}` {verb} {nodes}"
+                nodes = ", ".join(sorted({code(c.node.name) for c in ends})) or "nobody"
+                yield f"- {kind} {code(name)} {verb} {nodes}"
 
 
 def _use(analysis: Analysis, use: Use) -> str:
-    value = "not known" if use.value is None else f"`{use.value}`"
+    value = "not known" if use.value is None else code(use.value)
     if use.kind == "arg":
-        text = f"argument `{use.name}` = {value}"
+        text = f"argument {code(use.name)} = {value}"
     elif use.kind == "find":
-        text = f"package `{use.name}`: {value}"
+        text = f"package {code(use.name)}: {value}"
     elif use.kind == "env":
-        text = f"environment variable `{use.name}` = {value}"
+        text = f"environment variable {code(use.name)} = {value}"
     elif use.kind == "clear_params":
         text = f"parameters below {value} are deleted before the launch sets any"
     else:
-        text = f"`{use.name}` = {value}" if use.name else value
+        text = f"{code(use.name)} = {value}" if use.name else value
     chain = _chain(analysis, use.origin)
     return f"{text}\n\n{chain}" if chain else text
 
@@ -272,7 +273,7 @@ def _chain(analysis: Analysis, origin: Origin) -> str:
 
 
 def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
-    lines = [f"**{node.name}** `{node.package}/{node.executable}`"]
+    lines = [f"**{escaped(node.name)}** {code(f'{node.package}/{node.executable}')}"]
     if node.resolved.path:
         lines[0] += f" — {link(node.resolved.path, None)}"
     if len(node.origin) > 1:
@@ -293,7 +294,7 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
         reads = [p for p in interface.params if not p.builtin]
         if reads and analysis.tree.generation == 1:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]
-        lines += [f"\n{note}" for note in interface.notes]
+        lines += [f"\n{escaped(note)}" for note in interface.notes]
     if analysis.tree.generation == 2:
         lines += _own_params(analysis, node, interface or NOT_RUN)
     frames = frames_of(node, interface or NOT_RUN)
@@ -302,7 +303,7 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
         if len(frames) > _SHOWN_FRAMES:
             lines.append(f"- … and {len(frames) - _SHOWN_FRAMES} more")
     for unknown in node.unknowns:
-        lines += ["", f"Not known: {unknown.what} ({unknown.reason})"]
+        lines += ["", f"Not known: {escaped(unknown.what)} ({escaped(unknown.reason)})"]
     return "\n".join(lines)
 
 
@@ -310,20 +311,20 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
     if interface is None or interface.source == "none":
         reason = interface.outcome.reason if interface is not None else None
         reason = reason or analysis.why_not_run
-        return f"Its interface is not known{f': {reason}' if reason else ' yet'}"
+        return f"Its interface is not known{f': {escaped(reason)}' if reason else ' yet'}"
     source = _SOURCES.get(interface.source, interface.source) + _elsewhere(analysis, interface)
     outcome = interface.outcome
     if outcome.status == "not-run":
-        return f"Interface {source}" + (f"; not run: {outcome.reason}" if outcome.reason else "")
+        return f"Interface {source}" + (f"; not run: {escaped(outcome.reason)}" if outcome.reason else "")
     ending = f" with exit code {outcome.exit_code}" if outcome.exit_code else ""
     ending += f" ({outcome.signal})" if outcome.signal else ""
     how = f"{_OUTCOMES[outcome.status].capitalize()}{ending}"
     cached = ", kept from an earlier run" if interface.cached else ""
     lines = [f"Interface {source}{cached}. {how} after {outcome.seconds:.2f} s."]
     if outcome.status != "spinning" and outcome.reason:
-        lines.append(outcome.reason)
+        lines.append(escaped(outcome.reason))
     if outcome.status == "crashed" and outcome.stderr_tail:
-        lines.append("```text\n" + "\n".join(outcome.stderr_tail) + "\n```")
+        lines.append(block(outcome.stderr_tail))
     return "\n\n".join(lines)
 
 
@@ -332,13 +333,13 @@ def _elsewhere(analysis: Analysis, interface: Interface) -> str:
     run = interface.elsewhere
     if run is None:
         return ""
-    where = f" in `{shown_path(run.launch, analysis.environment.workspace)}`" if run.launch else ""
+    where = f" in {code(shown_path(run.launch, analysis.environment.workspace))}" if run.launch else ""
     changed = ", before the executable changed" if run.changed else ""
-    return f", that of `{run.node}`{where}{changed}"
+    return f", that of {code(run.node)}{where}{changed}"
 
 
 def _frame(frame: Frame) -> str:
-    return f"- frame `{frame.child}` in `{frame.parent}`" + (", static" if frame.static else "")
+    return f"- frame {code(frame.child)} in {code(frame.parent)}" + (", static" if frame.static else "")
 
 
 def _made_at(what: Endpoint | ParamUse) -> str:
@@ -347,14 +348,14 @@ def _made_at(what: Endpoint | ParamUse) -> str:
 
 def _connection(connection: Connection, interface: Interface) -> str:
     endpoint = connection.endpoint
-    text = f"- `{connection.name}`"
+    text = f"- {code(connection.name)}"
     if endpoint.type:
-        text += f" `{endpoint.type}`"
+        text += f" {code(endpoint.type)}"
     if connection.remap is not None:
-        text += f", called `{endpoint.name}` by the node and remapped"
+        text += f", called {code(endpoint.name)} by the node and remapped"
     if endpoint.qos.get("latch"):
         text += ", latched"
-    text += "".join(f", {str(endpoint.qos[p]).replace('_', ' ')}" for p in _SHOWN_QOS if endpoint.qos.get(p))
+    text += "".join(f", {escaped(str(endpoint.qos[p]).replace('_', ' '))}" for p in _SHOWN_QOS if endpoint.qos.get(p))
     if endpoint.speculative:
         text += ", after a made-up answer"
     if endpoint.on_demand:
@@ -370,13 +371,13 @@ def _own_params(analysis: Analysis, node: LaunchNode, interface: Interface) -> l
     lines: list[str] = []
     for param in node.params:
         use = declared.pop(param.name, None)
-        text = f"- `{param.name}` = {value_text(param.value)} from {place(analysis, param.origin[-1])}"
+        text = f"- {code(param.name)} = {value_text(param.value)} from {place(analysis, param.origin[-1])}"
         if param.overrides:
             text += f", in place of {value_text(param.overrides[-1].value)}"
         if use is not None and (default := default_text(use)):
             text += f" ({default})"
         lines.append(text)
-    lines += [f"- `{name}`: {default_text(use)}{_made_at(use)}" for name, use in declared.items()]
+    lines += [f"- {code(name)}: {default_text(use)}{_made_at(use)}" for name, use in declared.items()]
     more = [f"- … and {len(lines) - _SHOWN_PARAMS} more"] if len(lines) > _SHOWN_PARAMS else []
     return ["", "Parameters", *lines[:_SHOWN_PARAMS], *more] if lines else []
 
@@ -385,11 +386,11 @@ def _read(analysis: Analysis, graph: Graph, node: LaunchNode, use: ParamUse) -> 
     full = next((r.name for r in graph.param_reads if r.node is node and r.use == use), use.name)
     param = analysis.tree.params.get(full)
     if param is not None:
-        text = f"- `{full}` = {value_text(param.value)}"
+        text = f"- {code(full)} = {value_text(param.value)}"
     elif use.access in ("set", "delete"):
-        text = f"- `{full}` is {use.access} by the node"
+        text = f"- {code(full)} is {use.access} by the node"
     else:
-        text = f"- `{full}` is not set"
+        text = f"- {code(full)} is not set"
     if use.has_default:
         text += f", default {value_text(use.default)}"
     elif use.mandatory:

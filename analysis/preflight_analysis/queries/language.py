@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.model import LaunchFile, Substitution, action_at
 from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
 from preflight_analysis.launch.schema import Attribute, Kind, Tag
@@ -89,9 +90,9 @@ def attribute_doc(attribute: Attribute) -> str:
     """What an attribute is, what it may be and what it is where it is left out, as Markdown."""
     lines = [attribute.doc]
     if attribute.kind == "choice":
-        lines.append(f"One of {', '.join(f'`{choice}`' for choice in attribute.choices)}.")
+        lines.append(f"One of {', '.join(code(choice) for choice in attribute.choices)}.")
     if attribute.default is not None:
-        lines.append(f"Default: `{attribute.default}`.")
+        lines.append(f"Default: {code(attribute.default)}.")
     return "\n\n".join(lines)
 
 
@@ -102,7 +103,7 @@ def described(launch_file: LaunchFile, offset: int) -> tuple[str, Span] | None:
     if substitution is not None:
         known = language_of(launch_file).substitutions.get(substitution.command)
         takes = f" {known[0]}" if known is not None and known[0] else ""
-        text = f"`$({substitution.command}{takes})` {known[1]}" if known is not None else ""
+        text = f"{code(f'$({substitution.command}{takes})')} {known[1]}" if known is not None else ""
         return (text, substitution.command_span) if text else None
     place = place_in(launch_file, offset)
     element = place.element if place is not None else None
@@ -111,12 +112,12 @@ def described(launch_file: LaunchFile, offset: int) -> tuple[str, Span] | None:
         return None
     if place.kind == "element":
         name = element.tag if is_yaml(launch_file.path) else f"<{element.tag}>"
-        return f"`{name}` {tag.doc}", place.word
+        return f"{code(name)} {tag.doc}", place.word
     if place.kind == "attribute" and place.attribute is not None:
         attribute = tag.attributes.get(place.attribute.name)
         if attribute is not None:
             required = " (required)" if attribute.required else ""
-            return f"`{attribute.name}`{required}: {attribute_doc(attribute)}", place.word
+            return f"{code(attribute.name)}{required}: {attribute_doc(attribute)}", place.word
     return None
 
 

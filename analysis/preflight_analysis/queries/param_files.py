@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.read import is_yaml
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
@@ -60,10 +61,12 @@ def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover
         first.setdefault(reader.node.name, (analysis, reader))
     if param is None:
         lines = [f"- {_node(analysis, reader)}" for analysis, reader in first.values()]
-        title = f"`{section.pattern}` is for" if lines else f"`{section.pattern}` fits no node that gets this file"
+        title = (
+            f"{code(section.pattern)} is for" if lines else f"{code(section.pattern)} fits no node that gets this file"
+        )
     else:
         lines = [f"- {_declared(analysis, reader, param, path)}" for analysis, reader in first.values()]
-        title = f"`{param.name}` = {value_text(param.value)} ({type_text(param.value) or 'no value'})"
+        title = f"{code(param.name)} = {value_text(param.value)} ({type_text(param.value) or 'no value'})"
     more = [f"- … and {len(lines) - _SHOWN_NODES} more"] if len(lines) > _SHOWN_NODES else []
     return Hover("\n".join([title, "", *lines[:_SHOWN_NODES], *more]).rstrip(), span)
 
@@ -82,16 +85,16 @@ def _at(analysis: Analysis, path: str, offset: int) -> tuple[Section, FileParam 
 
 def _node(analysis: Analysis, reader: Reader) -> str:
     node = reader.node
-    return f"`{node.name}` `{node.package}/{node.executable}`, started at {place(analysis, node.location)}"
+    return f"{code(node.name)} {code(f'{node.package}/{node.executable}')}, started at {place(analysis, node.location)}"
 
 
 def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -> str:
     use = reader.declared(param.name)
     if use is None:
-        text = f"`{reader.node.name}`" + (" does not declare it" if reader.interface.known else "")
+        text = code(reader.node.name) + (" does not declare it" if reader.interface.known else "")
     else:
         made = f" — {link(use.source_file, use.source_line)}" if use.source_file else ""
-        text = f"`{reader.node.name}` declares it: {default_text(use)}{made}"
+        text = f"{code(reader.node.name)} declares it: {default_text(use)}{made}"
     effective = next((p for p in reader.node.params if p.name == param.name), None)
     own = Location(path, param.name_span)
     if effective is not None and effective.name_location != own:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from preflight_analysis.evaluation.tree import CommandValue, ParamValue
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.tracing.interface import ParamUse
 
 _LENGTH = 200
@@ -11,13 +12,13 @@ _LENGTH = 200
 def value_text(value: ParamValue) -> str:
     """The value of a parameter on one line."""
     if isinstance(value, CommandValue):
-        return f"what `{value.command}` prints" + (f" ({value.reason})" if value.reason else "")
+        return f"what {code(value.command)} prints" + (f" ({escaped(value.reason)})" if value.reason else "")
     if isinstance(value, bytes):
         return f"{len(value)} bytes"
     if value is None:
         return "not known"
     text = " ".join(str(value).split())
-    return f"`{text[:_LENGTH]}…`" if len(text) > _LENGTH else f"`{text}`"
+    return code(f"{text[:_LENGTH]}…" if len(text) > _LENGTH else text)
 
 
 def type_text(value: ParamValue) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Include, LaunchNode, LaunchTree, Param, Remap, Use
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.model import action_at as action_at  # noqa: PLC0414 - it belongs to what stands at an offset
 from preflight_analysis.workspace.workspace import Analysis
@@ -79,10 +80,10 @@ def link(file: str, line: int | None) -> str:
     """A place as a Markdown link that says file and line."""
     path = Path(file)
     if not path.is_absolute():
-        return f"`{file}`" if line is None else f"`{file}:{line}`"
+        return code(file if line is None else f"{file}:{line}")
     if line is None:
-        return f"[{path.name}]({path.as_uri()})"
-    return f"[{path.name}:{line}]({path.as_uri()}#L{line})"
+        return f"[{escaped(path.name)}]({path.as_uri()})"
+    return f"[{escaped(path.name)}:{line}]({path.as_uri()}#L{line})"
 
 
 def place(analysis: Analysis, location: Location) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
+from preflight_analysis.findings.markdown import escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.arguments import accepted, included_file
 from preflight_analysis.queries.cursor import is_closed
@@ -72,4 +73,4 @@ def _argument_at(document: Document, include: Element, offset: int) -> Element |
 
 
 def _doc(declared: ArgDeclaration) -> str:
-    return " ".join(part for part in (declared.doc, "(required)" if declared.required else "") if part)
+    return " ".join(part for part in (escaped(declared.doc or ""), "(required)" if declared.required else "") if part)

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.findings.report import printable
 from preflight_analysis.snapshot.difference import Change, Difference
 from preflight_analysis.snapshot.model import GROUPS, Snapshot
@@ -100,7 +101,7 @@ def to_markdown(found: Difference, before: str, after: str) -> str:
         ]
     if found.not_compared:
         lines += ["", "Not compared to the end:", ""]
-        lines += [f"- {_code(node)}: {_escaped(reason)}" for node, reason in found.not_compared.items()]
+        lines += [f"- {_code(node)}: {escaped(reason)}" for node, reason in found.not_compared.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -192,10 +193,4 @@ def _qos(side: Mapping[str, Any]) -> str:
 
 def _code(text: str) -> str:
     """Text in a table's cell, to be shown as it is."""
-    text = " ".join(text.split()).replace("|", "\\|")
-    fence = "``" if "`" in text else "`"
-    return f"{fence}{' ' if fence == '``' else ''}{text}{' ' if fence == '``' else ''}{fence}"
-
-
-def _escaped(text: str) -> str:
-    return " ".join(text.split()).replace("<", "&lt;")
+    return code(" ".join(text.split()).replace("|", "\\|"))

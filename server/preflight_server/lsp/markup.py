@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from lsprotocol import types
-
-_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
-_MARKS = re.compile(r"\*\*|`")
+from preflight_analysis.findings.markdown import plain
 
 
 def markup(markdown: str, formats: Sequence[types.MarkupKind] | None) -> types.MarkupContent:
     """In the first format of the client's that we have; links mean nothing in plain text."""
     if formats and formats[0] == types.MarkupKind.PlainText:
-        return types.MarkupContent(types.MarkupKind.PlainText, _MARKS.sub("", _LINK.sub(r"\1", markdown)))
+        return types.MarkupContent(types.MarkupKind.PlainText, plain(markdown))
     return types.MarkupContent(types.MarkupKind.Markdown, markdown)
 
 

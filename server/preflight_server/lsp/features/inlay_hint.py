@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lsprotocol import types
 from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.markdown import code
 from preflight_analysis.queries.hints import Hint
 from preflight_analysis.queries.hints import hints as query
 
@@ -42,7 +43,7 @@ def _converted(hints: Iterable[Hint], positions: Positions) -> list[types.InlayH
     def tooltip(hint: Hint) -> types.MarkupContent | None:
         if hint.label == f"= {hint.values[0]}":
             return None
-        lines = [f"- `{value}`" for value in hint.values] if len(hint.values) > 1 else [f"`{hint.values[0]}`"]
+        lines = [f"- {code(value)}" for value in hint.values] if len(hint.values) > 1 else [code(hint.values[0])]
         return types.MarkupContent(types.MarkupKind.Markdown, "\n".join(lines))
 
     return [

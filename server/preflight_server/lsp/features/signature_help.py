@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
+from preflight_analysis.findings.markdown import code
 from preflight_analysis.queries.signature import Parameter, Signature
 from preflight_analysis.queries.signature import signature as query
 
@@ -28,7 +29,7 @@ def _help(found: Signature, options: types.ClientSignatureInformationOptions) ->
     parameters = [parameter(each) for each in found.parameters]
     # Without support for "none", one past the end is none.
     active = found.active if found.active is not None else len(parameters)
-    doc = markup(f"`{found.doc}`", options.documentation_format)
+    doc = markup(code(found.doc), options.documentation_format)
     return types.SignatureHelp([types.SignatureInformation(found.label, doc, parameters)], 0, active)
 
 
