@@ -302,6 +302,8 @@ def test_types_of_files(neovim: Neovim, untrusted_desk: Desk) -> None:
         "workspace/f_launch.xml": other,
         "workspace/g.launch.py": "",
         "workspace/h.py": "",
+        "workspace/launch/j.py": "",
+        "workspace/k.py": "import os\n\n\ndef generate_launch_description():\n    pass\n",
         "workspace/params.yaml": "a: 1\n",
         "elsewhere/loose.yaml": "a: 1\n",
         "elsewhere/i_launch.yaml": "launch: []\n",
@@ -322,6 +324,7 @@ def test_types_of_files(neovim: Neovim, untrusted_desk: Desk) -> None:
         assert not seen[name][1]
     assert seen["g.launch.py"][:2] == ["python", True]
     assert seen["h.py"][:2] == ["python", False]
+    assert seen["j.py"][:2] == seen["k.py"][:2] == ["python", True]
     assert seen["params.yaml"][:2] == ["yaml", True]
     assert seen["loose.yaml"][:2] == ["yaml", False]
     assert seen["i_launch.yaml"][:2] == ["yaml", True]

@@ -62,6 +62,17 @@ async def test_without_trust_nothing_is_run(desk: Desk, outer: Path) -> None:
         assert not ran.exists()
 
 
+async def test_the_function_makes_it_a_launch_file_whatever_its_name_is(desk: Desk, outer: Path) -> None:
+    path, helper = outer.with_name("bringup_all.py"), outer.with_name("helper.py")
+    path.write_text("def generate_launch_description():\n    raise RuntimeError('no')\n")
+    helper.write_text("def generate():\n    raise RuntimeError('no')\n")
+    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+        editor.open(helper)
+        editor.open(path)
+        await editor.having(path, "LCH032", seconds=60)
+        assert not editor.rules(helper)
+
+
 async def test_beside_the_python_language_server(desk: Desk, outer: Path) -> None:
     """A Python file shows its findings and what a node comes to, and nothing of what Python's own server does."""
     path = outer.parent / "own.launch.py"

@@ -133,3 +133,31 @@ def test_what_the_build_ignores_is_not_checked(desk: Desk) -> None:
         desk.write(f"{marker}/launch/a.launch.yaml", "launch: []")
     index = desk.build()
     assert paths(tuple(index.entries)) == ["AMENT_IGNORE.launch", "COLCON_IGNORE.launch"]
+
+
+PYTHON = """
+from launch import LaunchDescription
+
+def generate_launch_description():
+    return LaunchDescription([])
+"""
+
+
+def test_python_files_that_make_a_launch_description_are_launch_files(desk: Desk) -> None:
+    for name, text in {
+        "p/launch/hello-launch.py": PYTHON,
+        "p/launch/robots/bringup_all.py": PYTHON,
+        "p/launch/helper.py": "def generate(): pass\n",
+        "p/bringup/installed.py": PYTHON,
+        "p/p/module.py": PYTHON,
+        "p/package.xml": "<package><name>p</name><export><build_type>ament_python</build_type></export></package>",
+        "p/setup.py": "from setuptools import setup\n"
+        "setup(name='p', packages=['p'], data_files=[('share/p', ['package.xml', 'bringup/installed.py'])])\n",
+    }.items():
+        (desk.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        desk.write(name, text)
+    desk.workspace = Workspace(detect(str(desk.folder), package_path=(str(desk.folder),)), Sources())
+    assert paths(tuple(desk.build().entries)) == ["bringup_all.py", "hello-launch.py", "installed.py"]
+    whole = desk.write("whole.launch.xml", f'<launch><include file="{desk.folder}/p/launch/hello-launch.py"/></launch>')
+    index = desk.build(changed=[whole])
+    assert paths(tuple(index.entries)) == ["bringup_all.py", "installed.py", "whole.launch.xml"]

@@ -10,13 +10,16 @@ interface LanguageFilter {
  *
  * Many users have associated `*.launch` with XML in their settings, and a `.test` file that starts with an XML
  * declaration is taken for XML too: those are launch files all the same.
+ *
+ * Of the Python files in a `launch` folder the server takes those that make a launch description, whatever their names.
  */
 export const launchFiles: readonly LanguageFilter[] = [
   { scheme: "file", language: "roslaunch" },
   { scheme: "file", language: "xml", pattern: "**/*.{launch,launch.xml,test}" },
   { scheme: "file", language: "xml", pattern: "**/*_launch.xml" },
   { scheme: "file", language: "yaml", pattern: "**/*{.,_}launch.{yaml,yml}" },
-  { scheme: "file", language: "python", pattern: "**/*{.,_}launch.py" },
+  { scheme: "file", language: "python", pattern: "**/*launch.py" },
+  { scheme: "file", language: "python", pattern: "**/launch/**/*.py" },
 ];
 
 /** The documents that the server is told of: launch files, and what may be a parameter file of their nodes. */

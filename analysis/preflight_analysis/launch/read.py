@@ -26,6 +26,10 @@ LAUNCH_SUFFIXES = (
     *(f"{mark}launch.{suffix}" for mark in "._" for suffix in ("xml", "yaml", "yml", "py")),
 )
 """Launch files by their name; any other file is one if a launch file includes it."""
+LAUNCH_FOLDER = "launch"
+"""Where packages have their launch files, whatever they are called."""
+LAUNCH_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
+"""What launch calls in a Python launch file."""
 
 _ONLY_ROS2 = (
     r"""<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""

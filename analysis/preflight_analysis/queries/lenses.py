@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.launch.read import LAUNCH_FUNCTION
 from preflight_analysis.queries.scene import Scene
 from preflight_analysis.workspace.index import Root
-
-_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +32,6 @@ def lenses(scene: Scene) -> Lenses | None:
     nodes = analysis.tree.nodes
     own = sum(any(step.file == scene.path for step in node.origin) for node in nodes)
     head = launch_file.root.head_span
-    if launch_file.partial and (found := _FUNCTION.search(launch_file.document.text)) is not None:
+    if launch_file.partial and (found := LAUNCH_FUNCTION.search(launch_file.document.text)) is not None:
         head = Span(*found.span(1))
     return Lenses(head, tuple(places), own, len(nodes), analysis.launch)

@@ -10,9 +10,10 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
+from preflight_analysis.environment.shares import is_installed, package_around
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.sources import Sources
@@ -43,7 +44,7 @@ def build_index(
     """
     known = previous if previous is not None and changed is not None else WorkspaceIndex()
     stale = frozenset(changed or ())
-    paths = _launch_files(folder, workspace.sources) if folder is not None else []
+    paths = _launch_files(folder, workspace) if folder is not None else []
     maker = _Maker(workspace, known, stale, report, len(paths))
     for path in paths:
         if cancelled():
@@ -172,17 +173,37 @@ def _written_path(value: Value, path: str, packages: Mapping[str, Package]) -> s
     return os.path.normpath(text) if os.path.isabs(text) else None
 
 
-def _launch_files(folder: str, sources: Sources) -> list[str]:
-    """The launch files below a workspace, without those of ROS 2 that colcon ignores. A folder that is nobody's
+def _launch_files(folder: str, workspace: Workspace) -> list[str]:
+    """The launch files below a workspace, without those of ROS 2 that colcon ignores: by their names, and what makes a
+    launch description in Python, where it lies in a launch folder or is installed. A folder that is nobody's
     workspace (`/tmp`, the home folder), taken for one because a file in it was opened alone, is not walked: only its
     own files count."""
     found: list[str] = []
     for place, folders, names, ignored in walk_unignored(folder, SKIPPED):
         if place in (tempfile.gettempdir(), os.path.expanduser("~"), "/"):
             folders.clear()
-        paths = (os.path.join(place, name) for name in names if name.endswith(LAUNCH_SUFFIXES))
-        found += (path for path in paths if not (ignored and _is_of_ros2(path, sources)))
+        in_launch_folder = LAUNCH_FOLDER in place.split(os.sep)
+        for name in names:
+            path = os.path.join(place, name)
+            if name.endswith(LAUNCH_SUFFIXES):
+                is_one = not (ignored and _is_of_ros2(path, workspace.sources))
+            else:
+                placed = name.endswith(PYTHON_SUFFIX) and (in_launch_folder or _is_shared(workspace, path))
+                is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
+            if is_one:
+                found.append(path)
     return found
+
+
+def _is_shared(workspace: Workspace, path: str) -> bool:
+    """Whether a package installs the file beside its other files, and not as one of its modules or programs."""
+    package = package_around(workspace.environment, path)
+    return package is not None and is_installed(package, path) is True
+
+
+def _makes_launch_description(path: str, sources: Sources) -> bool:
+    found = sources.text(path)
+    return not isinstance(found, Unreadable) and LAUNCH_FUNCTION.search(found.text) is not None
 
 
 def _is_of_ros2(path: str, sources: Sources) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_yaml
+from preflight_analysis.launch.read import LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_yaml
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -29,9 +29,11 @@ def is_launch_file(document: OpenDocument) -> bool:
 
 
 def is_python_launch_file(document: OpenDocument) -> bool:
-    """Whether the user's Python language server has it too: we say only what is ours to say."""
-    python = document.path is not None and document.path.endswith(PYTHON_SUFFIX)
-    return python and document.path is not None and document.path.endswith(LAUNCH_SUFFIXES)
+    """By its name, or by the function that launch calls. The user's Python language server has it too: we say only
+    what is ours to say."""
+    if document.path is None or not document.path.endswith(PYTHON_SUFFIX):
+        return False
+    return document.path.endswith(LAUNCH_SUFFIXES) or LAUNCH_FUNCTION.search(document.text) is not None
 
 
 def may_be_parameter_file(document: OpenDocument) -> bool:

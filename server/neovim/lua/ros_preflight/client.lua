@@ -12,6 +12,19 @@ local CLIENT_COMMANDS = { 'rosPreflight.selectRoot', 'rosPreflight.showReference
 
 local status_of = {} -- what each client's server told of itself
 
+-- Whether a Python file is a launch file, whatever it is called; in a launch folder it may become one.
+local function makes_launch_description(bufnr, name)
+  if name:find('/launch/') ~= nil then
+    return true
+  end
+  for _, line in ipairs(vim.api.nvim_buf_get_lines(bufnr, 0, -1, false)) do
+    if line:find('^def%s+generate_launch_description') ~= nil then
+      return true
+    end
+  end
+  return false
+end
+
 -- Whether the server is told of a buffer, and the root of its file. Of Python it gets launch files alone; a YAML file
 -- outside of any workspace is nobody's parameter file.
 function M.served(bufnr)
@@ -20,7 +33,9 @@ function M.served(bufnr)
     return false
   end
   local name = vim.api.nvim_buf_get_name(bufnr)
-  local is_launch = filetype == 'roslaunch' or name:find('[._]launch%.[^.]+$') ~= nil
+  local is_launch = filetype == 'roslaunch'
+    or name:find('[._]launch%.[^.]+$') ~= nil
+    or (filetype == 'python' and makes_launch_description(bufnr, name))
   local root = workspace.root_of(name)
   return is_launch or (filetype == 'yaml' and root ~= nil), root
 end
