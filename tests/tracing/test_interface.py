@@ -313,3 +313,42 @@ def test_subclasses_and_own_sitecustomize_keep_working(tmp_path: Path) -> None:
     )
     found = trace(script, env=(("PYTHONPATH", str(tmp_path)),))
     assert (found.outcome.reason, own(found)) == (None, {("publisher", "loud", "std_msgs/String")})
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    ("first", "why"),
+    [
+        ("#!/opt/nowhere/python2", "there is no '/opt/nowhere/python2', which its first line names"),
+        ("#!/usr/bin/env python2.1", "there is no 'python2.1' on the PATH, which its first line names"),
+        (
+            "#!/usr/bin/python3\r",
+            "there is no '/usr/bin/python3', which its first line names; the file has the line ends of Windows",
+        ),
+        (
+            "#!/usr/bin/env python3\r",
+            "there is no 'python3' on the PATH, which its first line names; the file has the line ends of Windows",
+        ),
+    ],
+)
+def test_an_interpreter_that_is_missing_is_named(tmp_path: Path, first: str, why: str) -> None:
+    script = write_node(tmp_path, "import rospy\n")
+    script.write_bytes(f"{first}\nimport rospy\n".encode())
+    outcome = trace(script).outcome
+    assert (outcome.status, outcome.exit_code) == ("crashed", 127)
+    assert outcome.reason == f"the executable cannot be started: {why}"
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("first", ["#!/usr/bin/env python", "#!/opt/nowhere/python", "#!/opt/nowhere/python -u"])
+def test_python_is_python_3_where_only_that_is_there(tmp_path: Path, first: str) -> None:
+    programs = tmp_path / "bin"
+    programs.mkdir()
+    for name in ("env", "python3", "sh"):
+        (programs / name).symlink_to(f"/usr/bin/{name}")
+    script = write_node(tmp_path, "")
+    body = "import rospy\nrospy.init_node('n')\nrospy.Subscriber('scan', rospy.AnyMsg, print)\nrospy.spin()\n"
+    script.write_text(f"{first}\n{body}")
+    found = trace(script, variables={"PATH": str(programs)})
+    assert found.outcome.status == "spinning", found.outcome
+    assert own(found) == {("subscriber", "scan", "*")}

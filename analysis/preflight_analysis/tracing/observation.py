@@ -27,7 +27,7 @@ from preflight_analysis.tracing.interface import (
     Role,
     without_stamp,
 )
-from preflight_analysis.tracing.recipe import Recipe
+from preflight_analysis.tracing.recipe import Recipe, missing_interpreter
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, RawRun
 
@@ -95,6 +95,8 @@ _WAITS = {
 }
 """What a node waits for at its end, by the kind that the library told."""
 _MAYBE = ("poll", "services", "calls", "transforms", "parameter", "clock")
+_BY_ENV = re.compile(r"\S*env: ['‘](.+?)(\\r)?['’]: No such file or directory")
+_WINDOWS = "; the file has the line ends of Windows"
 _NOT_LOADED = 127
 """What the loader ends a program with whose libraries are not found."""
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
@@ -547,8 +549,7 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...], request: Trac
             reason = f"it wrote more than {DISK_BYTES >> 20} MiB and was stopped"
             return Outcome("crashed", None, None, tail, reason, spent)
         case "exec-failed":
-            why = _CONTROL.sub("", str(end.get("why")))[:300]
-            return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {why}", spent)
+            return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {_why(end, request)}", spent)
         case "ended" if _is_number(code) and 0 < -code < 65:
             return Outcome("crashed", None, _signal(-code), tail, _signal_reason(-code, tail), spent)
         case "ended" if _is_number(code) and code == 0:
@@ -556,6 +557,15 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...], request: Trac
         case "ended" if _is_number(code):
             return Outcome("crashed", code, None, tail, _crash_reason(code, tail), spent)
     return Outcome("crashed", None, None, tail, "the node garbled the report of its run", spent)
+
+
+def _why(end: Mapping[str, Any], request: TraceRequest) -> str:
+    interpreter = missing_interpreter(request.executable)
+    if interpreter is None:
+        return _CONTROL.sub("", str(end.get("why")))[:300]
+    name = _CONTROL.sub("", interpreter)[:300]
+    said = f"there is no '{name}', which its first line names"
+    return said + _WINDOWS if interpreter.endswith("\r") else said
 
 
 def _waiting(end: Mapping[str, Any], found: _Gathered, request: TraceRequest) -> str:
@@ -588,6 +598,10 @@ def _signal_reason(number: int, tail: tuple[str, ...]) -> str:
 
 def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
     exception = next((line for line in reversed(tail) if _EXCEPTION.match(line)), None)
+    unknown = next(filter(None, map(_BY_ENV.match, tail)), None) if code == _NOT_LOADED else None
+    if unknown is not None:
+        said = f"the executable cannot be started: there is no '{unknown[1]}' on the PATH, which its first line names"
+        return said + (_WINDOWS if unknown[2] else "")
     if exception is None and tail and tail[-1].strip():
         exception = without_stamp(tail[-1])
     return f"it ended with exit code {code}" + (f": {exception[:REASON_COLUMNS]}" if exception else "")

@@ -8,6 +8,7 @@ and the folder of roslaunch itself.
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -184,24 +185,29 @@ def _shebang(executable: str) -> list[str]:
             line = file.read(256).split(b"\n", 1)[0]
     except OSError:
         return []
-    return line[2:].decode(errors="replace").split() if line.startswith(b"#!") else []
+    # A carriage return is part of the name for the kernel, and nothing has such a name.
+    return [word for word in re.split("[ \t]+", line[2:].decode(errors="replace")) if word] if line[:2] == b"#!" else []
 
 
 def shebang_interpreter(user_python: str | None, executable: str, path: str) -> tuple[list[str], bool]:
     """What to put before the script, and whether it is Python.
 
     `#!/usr/bin/env python3` means the interpreter that the user's nodes have, which is not always the first of the
-    PATH that this process was started with. A name that the PATH does not know stays for `env` to complain of.
+    PATH that this process was started with. `python` means that one too where there is none of that name: a build puts
+    `python3` there. Any other name that is not known stays for `env` or the kernel to complain of.
     """
     words = _shebang(executable)
     if not words:
         return [], False
     if os.path.basename(words[0]) != "env":
+        if os.path.basename(words[0]) == "python" and user_python and not os.path.exists(words[0]):
+            return [user_python, *words[1:]], True
         return [], os.path.basename(words[0]).startswith("python")
     names_after = [word for word in words[1:] if not word.startswith("-") and "=" not in word]
     name = names_after[0] if names_after else ""
     python = name.startswith("python") and not name.startswith("python2")
-    if python and len(words) == 2 and user_python and shutil.which(name, path=path):
+    known = name == "python" or shutil.which(name, path=path) is not None
+    if python and len(words) == 2 and user_python and known:
         return [user_python], True
     return [], python
 
@@ -209,6 +215,12 @@ def shebang_interpreter(user_python: str | None, executable: str, path: str) -> 
 def is_python(executable: str) -> bool:
     """Whether it is a Python script, by its first line."""
     return any(os.path.basename(word).startswith("python") for word in _shebang(executable)[:2])
+
+
+def missing_interpreter(executable: str) -> str | None:
+    """The interpreter that the first line of a script names and that is not there."""
+    words = _shebang(executable)
+    return words[0] if words and not os.path.exists(words[0]) else None
 
 
 def interpreter_paths(python: str) -> Iterable[str]:
