@@ -73,6 +73,14 @@ class Graph:
         return sum(not interface.complete for interface in self.interfaces)
 
     @cached_property
+    def blind(self) -> int:
+        """How many nodes ended before they came to their event loop, with nothing known of them from elsewhere: what
+        seems to be missing may be theirs."""
+        return sum(
+            each.source == "trace" and each.outcome.status in ("crashed", "timed-out") for each in self.interfaces
+        )
+
+    @cached_property
     def complete(self) -> bool:
         """Whether every node's interface is known to its end: only then does absence mean absence."""
         return self.tree.complete and not self.incomplete

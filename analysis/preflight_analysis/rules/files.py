@@ -9,7 +9,7 @@ from pathlib import Path
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
-from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
 
@@ -50,17 +50,32 @@ def nearest_file(path: str, environment: Environment) -> str | None:
     share = package_folder(path, environment)
     if share is None:
         return None
-    elsewhere = {entry.name: entry for entry in _files(share, deep=True) if entry.suffix == wanted.suffix}
-    near = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
-    return str(elsewhere[near]) if near is not None else None
+    elsewhere: dict[str, list[Path]] = {}
+    for entry in _files(share, deep=True):
+        if entry.suffix == wanted.suffix:
+            elsewhere.setdefault(entry.name, []).append(entry)
+    name = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
+    return _closest(elsewhere[name], wanted.parent) if name is not None else None
+
+
+def _closest(files: list[Path], folder: Path) -> str | None:
+    """The file whose folders have most names in common with `folder`, None if several have."""
+    wanted = set(folder.parts)
+    ranked = sorted(files, key=lambda file: len(wanted & set(file.parent.parts)), reverse=True)
+    if len(ranked) > 1 and len(wanted & set(ranked[0].parent.parts)) == len(wanted & set(ranked[1].parent.parts)):
+        return None
+    return str(ranked[0])
 
 
 def correct_path(context: Context, location: Location, path: str, near: str) -> tuple[Fix, ...]:
     """A fix that makes what is written at `location`, and came to `path`, lead to `near`.
 
-    None if the text does not hold what differs: the name of the file, or of its folders below the package.
+    None if the names of the files are more than a slip apart, or if the text does not hold what differs: the name of
+    the file, or of its folders below the package.
     """
     old, new = Path(path), Path(near)
+    if old.name != new.name and not is_slip(_stem(old.name), _stem(new.name)):
+        return ()
     if old.parent == new.parent:
         return rename(context, location, old.name, new.name)
     share = package_folder(path, context.environment)
@@ -86,7 +101,7 @@ def package_folder(path: str, environment: Environment) -> Path | None:
 
 def _stem(name: str) -> str:
     """What can be a slip of the keyboard: an equal extension would make short names look alike."""
-    return Path(name).stem
+    return name.partition(".")[0] or name
 
 
 def _files(folder: Path, *, deep: bool) -> Iterator[Path]:

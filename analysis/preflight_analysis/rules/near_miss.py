@@ -53,6 +53,20 @@ class NearMiss:
         return self.offering if self.site is self.wanting else self.wanting
 
     @property
+    def strong(self) -> bool:
+        """Whether it speaks for itself, whatever else the launch may hold."""
+        return self.likeness == "typo" and self.same_type
+
+    @property
+    def mendable(self) -> bool:
+        """Whether the evidence will do for a change that is made for the user: like words are of other things as often
+        as not (`pose`, `goal_pose`)."""
+        if self.likeness == "words":
+            same_leaf = _leaf(self.wanting.name) == _leaf(self.offering.name)
+            return self.same_type and self.offering_dangles and same_leaf
+        return self.same_type or self.offering_dangles
+
+    @property
     def why(self) -> str:
         """What speaks for it, for a message: `same type x/Y; '/scan' is absolute`."""
         said = f"same type {self.wanting.endpoint.type}" if self.same_type else "type not known"
@@ -64,8 +78,11 @@ class NearMiss:
         return said
 
 
-def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
-    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one."""
+def near_misses(channels: Mapping[str, Channel], *, blind: bool = False) -> tuple[NearMiss, ...]:
+    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one.
+
+    `blind`: what is not known of some node may well be the other end, so that only strong evidence counts.
+    """
     wants = list(dangling_wants(channels))
     if not wants:
         return ()
@@ -76,7 +93,7 @@ def near_misses(channels: Mapping[str, Channel]) -> tuple[NearMiss, ...]:
         hit = hits.get(index.seeker(wanting))
         if hit is not None:
             near = index.near_miss(wanting, hit)
-            if not index.ambiguous(near):
+            if not index.ambiguous(near) and (near.strong or not blind):
                 found.append(near)
     return tuple(found)
 
@@ -184,7 +201,8 @@ def _pools(wanting: Connection) -> tuple[Hashable, ...]:
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
     """Those of topics, for which several rules ask: do so through `context.once`."""
-    return near_misses(context.graph.topics) if context.graph is not None else ()
+    graph = context.graph
+    return near_misses(graph.topics, blind=graph.blind > 0) if graph is not None else ()
 
 
 def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
@@ -254,6 +272,8 @@ def nodes_looked_at(graph: Graph) -> str:
 def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
     """What makes the two ends meet: the remap that gave the wrong name corrected, else a remap into a node's tag."""
     site, other = near.site, near.other
+    if not near.mendable:
+        return ()
     if site.remap is not None:
         corrected = _correct_remap(context, site, site.remap, other.name)
         if corrected is not None:

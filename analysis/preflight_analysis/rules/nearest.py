@@ -14,6 +14,7 @@ Likeness = Literal["typo", "words"]
 
 _WORD = re.compile(r"[A-Za-z]+|\d+")
 _MIN_PREFIX = 4
+_LONG = 8
 _NAMES = 8192
 
 
@@ -45,6 +46,15 @@ def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = st
         if best is None or rank < best:
             best = rank
     return best[2] if best else None
+
+
+def is_slip(name: str, other: str) -> bool:
+    """Whether they are one small edit apart, two of long names, and have the same numbers: evidence enough for a change
+    that is made for the user, or for calling an unknown name wrong."""
+    if numbers_in(name) != numbers_in(other):
+        return False
+    most = 2 if min(len(name), len(other)) >= _LONG else 1
+    return int(OSA.distance(_folded(name), _folded(other))) <= most
 
 
 def did_you_mean(candidate: str | None) -> str:

@@ -8,7 +8,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.installed import has_ros
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.retired import was_removed
@@ -47,9 +47,11 @@ def _finding(
 ) -> Finding:
     packages = context.environment.packages
     renamed, near = meant
-    fixes = rename(context, location, name, near) if near else ()
+    sure = renamed is not None or (near is not None and is_slip(name, near))
     # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
-    expected = near is None and not has_ros(context)
+    expected = not sure and not has_ros(context)
+    near = None if expected else near
+    fixes = rename(context, location, name, near) if near is not None and sure else ()
     note = "; no ROS is installed here, so the packages of ROS itself are not known" if expected else ""
     hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     return rule.finding(

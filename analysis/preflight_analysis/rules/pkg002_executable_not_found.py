@@ -9,12 +9,14 @@ from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
 
+_NO_PROGRAMS = (".h", ".hh", ".hpp", ".c", ".cc", ".cpp", ".cxx", ".txt", ".md", ".rst", ".launch", ".xml", ".yaml")
+"""Files that may be executable, by some slip, and that nobody means as one."""
 _SPACES = {1: "devel and install spaces", 2: "installed ones"}
 
 
@@ -39,13 +41,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if context.tree.generation == 2 and not names:
             continue  # neither installed, nor with build files that say what it will have
         holder = _other_package(context, executables, node)
-        near = nearest(node.executable, names) or nearest(node.executable, names, key=_stem)
+        programs = [name for name in names if not name.endswith(_NO_PROGRAMS)]
+        near = nearest(node.executable, programs) or nearest(node.executable, programs, key=_stem)
         if holder is not None:
             hint = f"; package '{holder}' has it"
             fixes = rename(context, attribute_location(node, "pkg"), node.package, holder)
         else:
             hint = did_you_mean(near)
-            fixes = rename(context, location, node.executable, near) if near else ()
+            slip = near is not None and (is_slip(node.executable, near) or is_slip(_stem(node.executable), _stem(near)))
+            fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
         yield rule.finding(
             f"package '{node.package}' has no executable '{node.executable}'; looked at its {len(names)} executables "
             f"in {found.package_path} and the {_SPACES[context.tree.generation]}{hint}",

@@ -27,7 +27,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
     remapped = context.once(meant_ends)
-    near = [pair for pair in near_misses(graph.services) if id(pair.wanting) not in remapped]
+    near = [pair for pair in near_misses(graph.services, blind=graph.blind > 0) if id(pair.wanting) not in remapped]
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -53,6 +53,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
             meant = _meant(end, answers.get(id(end.node), ()), unused)
+            if graph.blind and meant is None:
+                continue
             hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
             related = [related_end(meant, "offers")] if meant is not None else []
             yield rule.finding(

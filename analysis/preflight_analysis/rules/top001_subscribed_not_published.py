@@ -46,7 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
     explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.topics):
-        if id(end) not in explained:
+        if id(end) not in explained and not graph.blind:
             yield _hint(rule, graph, end, dangling)
 
 
@@ -89,7 +89,7 @@ RULE = Rule(
     what="Reports a node that subscribes to a topic which no node of the launch publishes. Where one publishes a topic "
     "of a like name and the same type, or one that differs by a leading slash or a namespace, it is a warning that "
     "names both, at the remap that gave the name if there is one; otherwise only a hint, as the publisher may be "
-    "started elsewhere.",
+    "started elsewhere, and nothing where a node ended before its event loop: it may be that one's.",
     why="The node waits for messages that never come, and nothing says so: not `roslaunch`, not the node.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',

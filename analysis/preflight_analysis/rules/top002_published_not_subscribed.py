@@ -14,7 +14,7 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    if graph is None:
+    if graph is None or graph.blind:
         return
     reported = {id(pair.offering) for pair in context.once(topic_near_misses)} | context.once(meant_ends)
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.

@@ -47,6 +47,8 @@ def may_dangle(name: str, endpoint: Endpoint) -> bool:
     So it is for what tools and simulators talk to, for the topics of an action server, whose clients come and go, and
     for four of an action client's five, since the fifth, its result, tells the same.
     """
+    if "$(" in name:
+        return True  # a name that the launch file did not resolve is that of nothing
     if endpoint.builtin or name in _TOPICS or name.endswith(("/tf", "/tf_static")):
         return True
     kind = endpoint.type or ""
