@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -47,12 +47,14 @@ class PythonDesk:
         why_not: str | None = None,
         variables: Mapping[str, str] | None = None,
         sources: Sources | None = None,
+        prefixes: Sequence[Path] = (),
     ) -> Analysis:
         """The analysis after all that it asks for was run; `why_not` is why nothing is, `variables` are set
-        beside those of ROS."""
+        beside those of ROS, `prefixes` are those of an underlay."""
         (self.package / "package.xml").write_text(MANIFEST.format(self.name))
         ros = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
-        environment = detect_environment(None, {**ros, **(variables or {})}, (str(self.folder / "src"),))
+        underlay = tuple(map(str, prefixes))
+        environment = detect_environment(None, {**ros, **(variables or {})}, (str(self.folder / "src"),), underlay)
         results = CommandResults(lambda: why_not)
         workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
         if why_not is not None:

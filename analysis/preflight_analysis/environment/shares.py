@@ -8,7 +8,7 @@ long as the package installs them so; what it installs under other names, or mak
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, read_text
@@ -66,19 +66,33 @@ def installed_from(package: Package, below: str) -> str | None:
     """The file of the source that is installed at this place of the share folder, None if none is known to be."""
     if package.build_type == "ament_python":
         return python_build(package).data.get(below)
+    for where, source in _installed_by_cmake(package):
+        if where == ".":
+            return os.path.join(source, below)
+        if below == where:
+            return source
+        if below.startswith(where + os.sep):
+            return os.path.join(source, os.path.relpath(below, where))
+    return None
+
+
+def installed_elsewhere(package: Package) -> list[tuple[str, str]]:
+    """Paths in the share folder of a package of the workspace, and the files and folders of its source that they will
+    lead to once it is built, where those lie elsewhere."""
+    if package.generation != 2:
+        return []
+    python = package.build_type == "ament_python"
+    found = python_build(package).data.items() if python else _installed_by_cmake(package)
+    pairs = ((os.path.normpath(os.path.join(package.share, where)), os.path.normpath(path)) for where, path in found)
+    return [(where, source) for where, source in pairs if where != source]
+
+
+def _installed_by_cmake(package: Package) -> Iterator[tuple[str, str]]:
+    share = f"share/{package.name}"
     for item in cmake_build(package).installed:
         destination = item.destination.replace("${PROJECT_NAME}", package.name)
-        share = f"share/{package.name}"
-        if destination != share and not destination.startswith(share + "/"):
-            continue
-        where = os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name))
-        if where == ".":
-            return os.path.join(item.source, below)
-        if below == where:
-            return item.source
-        if below.startswith(where + os.sep):
-            return os.path.join(item.source, os.path.relpath(below, where))
-    return None
+        if destination == share or destination.startswith(share + "/"):
+            yield os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name)), item.source
 
 
 def is_installed(package: Package, path: str) -> bool | None:

@@ -7,6 +7,7 @@ import errno
 import hashlib
 import json
 import os
+import re
 import sys
 import zlib
 from collections.abc import Iterable
@@ -14,12 +15,15 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+from preflight_analysis.environment.ament import DISTRIBUTIONS
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.shares import installed_elsewhere, package_around
 from preflight_analysis.environment.view import of_generation
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import ros2_recipe, sandbox
 from preflight_analysis.tracing.backend import AGENTS
 
+_TEXT = re.compile(r"""['"]([A-Za-z]\w*)['"]""")
 _NETWORK = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.ECONNREFUSED, errno.ENETDOWN)
 _WORD = 100_000
 """Characters of one argument; the system's limit is 128 KiB."""
@@ -38,15 +42,28 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     job = {
         **request,
         "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
+        "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()
     words = [data[start : start + _WORD] for start in range(0, len(data), _WORD)]
     recipe = ros2_recipe.make_command(environment, python, ("-c", _START, *words), cwd)
     fixed = {"PYTHONHASHSEED": "0"}
+    if "AMENT_PREFIX_PATH" not in recipe.env:
+        # `ros2 launch` runs where a distribution is sourced, whatever is installed here.
+        fixed["AMENT_PREFIX_PATH"] = f"/opt/ros/{environment.distro or DISTRIBUTIONS[-1]}"
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "recording": _edition()}
     return replace(recipe, env={**recipe.env, **fixed}, stable=stable)
+
+
+def _installed_elsewhere(environment: Environment, file: str, text: str) -> list[tuple[str, str]]:
+    """What the packages that the launch file names, and its own, install at other places of their share folders: it
+    may open those."""
+    own = package_around(environment, file)
+    named = (environment.packages.get(name) for name in sorted(set(_TEXT.findall(text))))
+    packages = {package.name: package for package in (own, *named) if package is not None}
+    return [pair for package in packages.values() for pair in installed_elsewhere(package)]
 
 
 @lru_cache(maxsize=1)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -35,6 +35,7 @@ _PASSED = frozenset(
     (*_SEARCH_PATHS, "PATH", "LANG", "LANGUAGE", "TZ", "PYTHONUNBUFFERED", "PYTHONIOENCODING", "CMAKE_PREFIX_PATH")
 )
 _PASSED_PREFIXES = ("ROS_", "ROSCONSOLE_", "LC_")
+_MAX_LINKS = 5
 _DEFAULT_PATH = "/usr/local/bin:/usr/bin:/bin"
 
 
@@ -126,7 +127,8 @@ def inside(stable: Mapping[str, str]) -> dict[str, str]:
 def visible_paths(environment: Environment) -> list[str]:
     """What nodes of this environment need to see below the masked folders."""
     paths = [*environment.package_path, *environment.devel_spaces, *environment.system_prefixes]
-    paths += [package.share for package in environment.packages.values()]
+    for package in environment.packages.values():
+        paths += [package.share, *_linked(package.manifest)]
     for variable in (
         "PYTHONPATH",
         "LD_LIBRARY_PATH",
@@ -140,6 +142,17 @@ def visible_paths(environment: Environment) -> list[str]:
         paths += interpreter_paths(python) if python else ()
     paths += [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
     return sandbox.needs_binding(paths)
+
+
+def _linked(manifest: str) -> Iterator[str]:
+    """The folders that a package's files are links into, one after another, where it was installed with
+    `--symlink-install`: those of its manifest."""
+    for _ in range(_MAX_LINKS):
+        try:
+            manifest = os.path.join(os.path.dirname(manifest), os.readlink(manifest))
+        except OSError:
+            return
+        yield os.path.dirname(manifest)
 
 
 def request_paths(request: TraceRequest, recipe: Recipe) -> list[str]:

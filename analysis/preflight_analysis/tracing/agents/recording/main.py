@@ -14,6 +14,7 @@ import types
 import zlib
 from typing import Any
 
+from . import installed
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .tell import Teller
@@ -48,6 +49,7 @@ def main() -> None:
 
 def _run(job: dict[str, Any]) -> dict[str, Any]:
     install()
+    installed.install(job["installed"])
     environment = dict(os.environ)
     for path, text in job.get("files", {}).items():
         with open(path, "w", encoding="utf-8") as file:

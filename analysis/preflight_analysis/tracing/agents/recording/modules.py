@@ -407,18 +407,40 @@ class _Finder(importlib.abc.MetaPathFinder):
         return spec
 
 
+_INSTALLED = re.compile(r"ament_python_install_package\s*\(([^)]*)\)")
+
+
 class _PackageFinder(importlib.abc.MetaPathFinder):
     """Python modules of ROS packages that are only source."""
 
     def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
-        share = RECORDER.packages.get(fullname) if path is None else None
-        for folder in (share, os.path.join(share, "src")) if share is not None else ():
-            init = os.path.join(folder, fullname, "__init__.py")
+        for folder in self._folders(fullname) if path is None else ():
+            init = os.path.join(folder, "__init__.py")
             if os.path.isfile(init):
-                return importlib.util.spec_from_file_location(
-                    fullname, init, submodule_search_locations=[os.path.dirname(init)]
-                )
+                return importlib.util.spec_from_file_location(fullname, init, submodule_search_locations=[folder])
         return None
+
+    def _folders(self, name: str) -> Any:
+        share = RECORDER.packages.get(name)
+        if share is not None:
+            yield os.path.join(share, name)
+            yield os.path.join(share, "src", name)
+        for package, share in RECORDER.packages.items():
+            for words in self._installed(share):
+                if words and words[0].replace("${PROJECT_NAME}", package) == name:
+                    folder = dict(zip(words[1:], words[2:])).get("PACKAGE_DIR", name)
+                    yield os.path.join(share, folder.replace("${PROJECT_NAME}", package))
+
+    @staticmethod
+    def _installed(share: str) -> Any:
+        """What each `ament_python_install_package` of a package is given."""
+        try:
+            with open(os.path.join(share, "CMakeLists.txt"), encoding="utf-8", errors="replace") as file:
+                text = file.read()
+        except OSError:
+            return
+        for found in _INSTALLED.finditer(re.sub(r"#.*", "", text)):
+            yield found[1].replace('"', "").split()
 
 
 def install() -> None:
