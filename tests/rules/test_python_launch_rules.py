@@ -22,6 +22,9 @@ def generate_launch_description():
 """
 
 
+HELPER = "def made(n):\n    return {}[n]\n"
+
+
 class Answers:
     """The answer of all runs."""
 
@@ -38,10 +41,12 @@ class Answers:
         return None
 
 
-def _launched(folder: Path, answer: Any, packages: Path | None = None, *, text: str = TEXT) -> Analysis:
+def _launched(
+    folder: Path, answer: Any, packages: Path | None = None, *, text: str = TEXT, helper: str = HELPER
+) -> Analysis:
     path = folder / "a.launch.py"
     path.write_text(text)
-    (folder / "helper.py").write_text("def made(n):\n    return {}[n]\n")
+    (folder / "helper.py").write_text(helper)
     environment = detect_environment(None, {"PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(packages or folder),))
     result = (
         answer if isinstance(answer, CommandResult) or answer is None else CommandResult("done", json.dumps(answer))
@@ -63,6 +68,26 @@ def test_an_exception_is_shown_on_the_line_of_the_launch_file(tmp_path: Path) ->
     (other,) = finding.related
     helper = analysis.documents[other.location.file]
     assert helper.text[other.location.span.start : other.location.span.end].strip() == "return {}[n]"
+
+
+def test_an_assert_without_a_message_is_shown(tmp_path: Path) -> None:
+    text = "import os\nassert os.path.isdir(\n    '/no/such/folder')\nraise StopIteration\n"
+    path = str(tmp_path / "a.launch.py")
+    for line in (2, 3):
+        error = {"error": {"type": "AssertionError", "message": "", "frames": [[path, line, "<module>"]]}}
+        (finding,) = _launched(tmp_path, error, text=text).findings
+        assert finding.message == "AssertionError: assert os.path.isdir( '/no/such/folder')"
+    error = {"error": {"type": "StopIteration", "message": "", "frames": [[path, 4, "<module>"]]}}
+    (finding,) = _launched(tmp_path, error, text=text).findings
+    assert finding.message == "StopIteration"
+
+
+def test_the_assert_of_a_helper_is_shown(tmp_path: Path) -> None:
+    path, helper = tmp_path / "a.launch.py", tmp_path / "helper.py"
+    frames = [[str(path), 4, "generate_launch_description"], [str(helper), 2, "made"]]
+    error = {"error": {"type": "AssertionError", "message": "", "frames": frames}}
+    (finding,) = _launched(tmp_path, error, helper="def made(n):\n    assert n == 2\n").findings
+    assert finding.message == "AssertionError: assert n == 2"
 
 
 def test_a_module_that_is_missing_here_need_not_be_missing_there(tmp_path: Path) -> None:

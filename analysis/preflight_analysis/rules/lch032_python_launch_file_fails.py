@@ -25,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             message = _import(context, problem, has_ros=there)
         else:
             error, said = problem.data["error"], problem.data["message"]
-            message = f"{error}: {said}" if error else f"the launch file cannot be run: {said}"
+            message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
             frames = [place for place in reversed(problem.data["frames"]) if place != problem.location]
             related = tuple(Related("in the traceback", place) for place in frames)
         yield rule.finding(

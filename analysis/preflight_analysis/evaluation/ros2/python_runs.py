@@ -8,6 +8,7 @@ read from it. The answer comes from the user's own process: nothing of its form 
 
 from __future__ import annotations
 
+import ast
 import json
 import os
 import re
@@ -301,6 +302,8 @@ def _raised(
     else:
         behind = [(file, line) for file, line in own if file.startswith("/")]
         places = tuple(_frame(state, run, file, line) for file, line in behind)
+        if name == "AssertionError" and not message and behind:
+            message = _asserted(state, run, *behind[-1])
         state.problem("python-exception", origin, error=name, message=message, frames=places)
 
 
@@ -316,6 +319,17 @@ def _frame(state: Collector, run: PythonRun, file: str, line: int) -> Location:
         return Location(file, run.source.line_span(line))
     found = state.read_text(file)
     return Location(file, found.lines.line_span(line - 1) if isinstance(found, Document) else Span(0, 0))
+
+
+def _asserted(state: Collector, run: PythonRun, file: str, line: int) -> str:
+    """The `assert` that failed on a line and says nothing itself; "" where there is none."""
+    found = state.read_text(file) if file != run.file else None
+    text = found.text if isinstance(found, Document) else run.text if file == run.file else ""
+    module = PythonSource(text, LineIndex(text)).module
+    for node in ast.walk(module) if module is not None else ():
+        if isinstance(node, ast.Assert) and node.lineno <= line <= (node.end_lineno or node.lineno):
+            return f"assert {' '.join((ast.get_source_segment(text, node.test) or '').split())}"
+    return ""
 
 
 def _texts(told: object) -> dict[str, str] | None:
