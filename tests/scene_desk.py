@@ -16,6 +16,7 @@ from __future__ import annotations
 import json
 import re
 import textwrap
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,9 +24,12 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.queries.scene import Scene
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import NOT_RUN
+from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.settle import settled
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_check import interface_from_json
@@ -59,8 +63,17 @@ class Stage:
         return {str(Path(path).relative_to(self.folder)): text for path, text in texts.items()}
 
 
-def lay(folder: Path, text: str, *, named: tuple[Root, ...] = (), analysed: int = 8) -> Stage:
-    """Write the files and analyse what the cursor's file needs."""
+def lay(
+    folder: Path,
+    text: str,
+    *,
+    named: tuple[Root, ...] = (),
+    analysed: int = 8,
+    build_type: str | None = None,
+    runs: bool = False,
+) -> Stage:
+    """Write the files and analyse what the cursor's file needs. `build_type` is that of the package `p`, of ROS 2 where
+    it is an ament one; `runs`: Python launch files are run."""
     cursor: tuple[str, int] | None = None
     files: dict[str, str] = {}
     name = "main.launch"
@@ -78,16 +91,21 @@ def lay(folder: Path, text: str, *, named: tuple[Root, ...] = (), analysed: int 
         path.write_text(content.replace("$0", ""))
         path.chmod(0o755 if "/scripts/" in name else 0o644)
     assert cursor is not None, "no cursor"
-    packages = {"p": Package("p", str(folder / "p"), str(folder / "p/package.xml"))}
+    package = Package("p", str(folder / "p"), str(folder / "p/package.xml"), build_type=build_type)
+    generation, distro = (1, "noetic") if package.generation == 1 else (2, "jazzy")
     environment = Environment(
-        1, "noetic", {}, (str(folder),), packages, {}, (), (), "/usr/bin/python3", workspace=str(folder)
+        generation, distro, {}, (str(folder),), {"p": package}, {}, (), (), "/usr/bin/python3", workspace=str(folder)
     )
-    workspace = Workspace(environment, Sources(), str(folder))
+    results = CommandResults(lambda: None if runs else "not run")
+    workspace = Workspace(environment, Sources(), str(folder), results)
     index = build_index(workspace, str(folder), named)
     assert index is not None
     path = str(folder / cursor[0])
     analyses = []
     for root in (index.roots_reading(path) or index.roots_of(path))[:analysed]:
+        if runs:
+            runner = CommandRunner(environment, str(folder), CommandCache(folder / ".cache"))
+            settled(workspace, root.path, dict(root.args), results, runner, threading.Event())
         analysis = workspace.static(root.path, dict(root.args))
         if interfaces:
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]

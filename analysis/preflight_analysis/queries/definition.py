@@ -14,7 +14,7 @@ from preflight_analysis.launch.model import Action
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.param_files import from_param_file, is_param_file
 from preflight_analysis.queries.places import action_at, remaps_of, use_at
-from preflight_analysis.queries.references import connections, made_at
+from preflight_analysis.queries.references import component_at, connections, made_at
 from preflight_analysis.queries.scene import Scene
 from preflight_analysis.queries.subject import Subject, subject_at
 from preflight_analysis.workspace.workspace import Analysis
@@ -96,6 +96,8 @@ def _of_subject(scene: Scene, subject: Subject) -> tuple[Target, ...]:
             return _targets((Location(p.manifest, Span(0, 0)) for p in packages if p is not None), source)
         case "executable":
             return _targets(_executables(scene, subject), source)
+        case "component":
+            return _targets((place for name in subject.names for place in component_at(scene, name)), source)
         case "param":
             return _targets(_readers(scene, subject), source)
         case "topic":
@@ -108,7 +110,8 @@ def _of_subject(scene: Scene, subject: Subject) -> tuple[Target, ...]:
 
 
 def _executables(scene: Scene, subject: Subject) -> Iterator[Location]:
-    """A script; for what is compiled its source, and its target in the package's `CMakeLists.txt`."""
+    """A script; the function of a console script; for what is compiled its source, and its target in the package's
+    `CMakeLists.txt`."""
     for name in subject.names:
         package, _, executable = name.partition("/")
         nodes = [n for t in scene.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
@@ -116,8 +119,14 @@ def _executables(scene: Scene, subject: Subject) -> Iterator[Location]:
         made = scene.workspace.executables.made_of(package, executable)
         if made is not None:  # what stands in a devel space only leads there
             paths = [made.source]
-        scripts = [path for path in paths if scene.document(path) is not None]
-        yield from (Location(path, Span(0, 0)) for path in scripts)
+        entries = {n.resolved.path: n.resolved.entry_point for n in nodes if n.resolved.entry_point is not None}
+        for path in paths:
+            function = entries.get(path, "").partition(":")[2]
+            made_there = scene.workspace.entry_point(path, function) if function else None
+            if made_there is not None:
+                yield scene.line(made_there.file, made_there.line)
+            elif scene.document(path) is not None:
+                yield Location(path, Span(0, 0))
         if (target := _build_target(scene, package, executable)) is not None:
             yield target
 

@@ -12,7 +12,7 @@ from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.node_names import mentions_of, tags_of
 from preflight_analysis.queries.scene import Scene
-from preflight_analysis.queries.subject import Kind, Subject, annotated, settings_of, subject_at
+from preflight_analysis.queries.subject import Kind, Subject, annotated, own_parameter, settings_of, subject_at
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
 from preflight_analysis.workspace import facts
 
@@ -73,6 +73,20 @@ def _executables(scene: Scene, subject: Subject) -> Iterator[Reference]:
         yield from _mentioned(scene, "executable", name)
 
 
+def _components(scene: Scene, subject: Subject) -> Iterator[Reference]:
+    for name in subject.names:
+        yield from _all(component_at(scene, name), declare=True)
+        yield from _mentioned(scene, "component", name)
+
+
+def component_at(scene: Scene, name: str) -> Iterator[Location]:
+    """Where the class of a component, `package/class`, is defined."""
+    package, _, cls = name.partition("/")
+    found = scene.workspace.component(package, cls)
+    if found is not None:
+        yield scene.line(found.file, found.line)
+
+
 def _nodes(scene: Scene, subject: Subject) -> Iterator[Reference]:
     tags = [n.location for _, n in scene.current.nodes() if n.name in subject.names]
     yield from _all(tags_of(scene, dict.fromkeys((*tags, *_own_tags(scene, subject)))), declare=True)
@@ -92,7 +106,8 @@ def _parameters(scene: Scene, subject: Subject) -> Iterator[Reference]:
             if name in subject.names:
                 yield Reference(param.name_location or param.origin[-1], True)
         for read in analysis.graph.param_reads if analysis.graph else ():
-            if read.name in subject.names and (place := made_at(scene, read.use)) is not None:
+            name = own_parameter(read.node, read.use.name) if analysis.tree.generation == 2 else read.name
+            if name in subject.names and (place := made_at(scene, read.use)) is not None:
                 yield Reference(place, False)
         yield from _annotations(scene, subject, analysis.tree.nodes, parameters=True)
 
@@ -137,6 +152,7 @@ _FINDERS: Mapping[Kind, Callable[[Scene, Subject], Iterator[Reference]]] = {
     "file": _files,
     "package": _packages,
     "executable": _executables,
+    "component": _components,
     "node": _nodes,
     "param": _parameters,
     "topic": _topics,

@@ -23,6 +23,7 @@ _WHAT = {
     "file": "a launch file",
     "package": "a package",
     "executable": "an executable",
+    "component": "a component, whose name its source has too",
     "param": "a parameter, whose name the node's source has too",
     "topic": "a topic, whose name the nodes' sources have too",
     "env": "an environment variable",

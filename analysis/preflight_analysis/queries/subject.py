@@ -14,7 +14,7 @@ from preflight_analysis.queries.places import action_at
 from preflight_analysis.queries.scene import Scene
 from preflight_analysis.workspace.facts import Mention
 
-Kind = Literal["arg", "file", "package", "executable", "node", "param", "topic", "env", "machine"]
+Kind = Literal["arg", "file", "package", "executable", "component", "node", "param", "topic", "env", "machine"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,14 +33,14 @@ class Subject:
 
 def subject_at(scene: Scene, offset: int) -> Subject | None:
     """What is named at `offset`; None where nothing is. Goes by syntax first, so that it works under a condition that
-    is false and in a file that no launcher would take."""
+    is false and in a file that no launcher would take. What a run of a Python launch file told, and a parameter file,
+    go by what came of them."""
     facts = scene.facts(scene.path)
-    if facts is None:
-        return None
-    here = [m for m in facts.mentions if m.span.contains(offset)]
+    here = [m for m in facts.mentions if m.span.contains(offset)] if facts is not None else []
     if here:
         return _of_mention(scene, min(here, key=lambda m: m.span.end - m.span.start))
-    return _of_key(scene, offset) or _of_annotation(scene, offset) or _of_launch_tag(scene, offset)
+    made = _of_key(scene, offset) or _of_remap(scene, offset)
+    return made or _of_annotation(scene, offset) or _of_launch_tag(scene, offset)
 
 
 def _of_mention(scene: Scene, mention: Mention) -> Subject:
@@ -75,12 +75,27 @@ def _global(name: str) -> frozenset[str]:
 
 
 def _of_key(scene: Scene, offset: int) -> Subject | None:
-    """A key in the YAML of a `<rosparam>`."""
+    """A key in YAML, or in the dictionary of a Python launch file."""
+    found: dict[Span, set[str]] = {}
     for tree in scene.trees:
         for name, param in settings_of(tree):
             place = param.name_location
             if place is not None and place.file == scene.path and place.span.contains(offset):
-                return Subject("param", frozenset({name}), place.span)
+                found.setdefault(place.span, set()).add(name)
+    span = min(found, key=lambda each: each.end - each.start, default=None)
+    return Subject("param", frozenset(found[span]), span) if span is not None else None
+
+
+def _of_remap(scene: Scene, offset: int) -> Subject | None:
+    """One of the names of a remap in a Python launch file."""
+    for tree in scene.trees:
+        for node in tree.nodes:
+            for remap in node.remaps:
+                for place in (remap.source_location, remap.target_location):
+                    if place.file == scene.path and place.span.contains(offset):
+                        made = remaps_at(tree, place)
+                        full = frozenset(names.resolve(each.target, owner.name) for owner, each in made)
+                        return Subject("topic", full, place.span)
     return None
 
 
@@ -107,10 +122,17 @@ def _of_launch_tag(scene: Scene, offset: int) -> Subject | None:
 
 def settings_of(tree: LaunchTree) -> Iterator[tuple[str, Param]]:
     """Each setting of a parameter with its full name, also those that a later one replaces."""
-    for name, param in tree.params.items():
+    settings = [*tree.params.items()]
+    settings += ((own_parameter(node, param.name), param) for node in tree.nodes for param in node.params)
+    for name, param in settings:
         for earlier in param.overrides:
             yield name, earlier
         yield name, param
+
+
+def own_parameter(node: LaunchNode, name: str) -> str:
+    """The full name of a parameter of a node of ROS 2, which nobody else has."""
+    return f"{node.name}:{name.removeprefix('~')}"
 
 
 def remaps_at(tree: LaunchTree, place: Location) -> Iterator[tuple[LaunchNode, Remap]]:

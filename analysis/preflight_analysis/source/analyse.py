@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Place
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment
@@ -165,6 +166,10 @@ class SourceAnalysis:
         from preflight_analysis.source.cpp_analysis import CppAnalysis  # noqa: PLC0415
 
         return CppAnalysis(self._environment.packages, self._has_type)
+
+    def component(self, package: str, cls: str) -> Place | None:
+        """Where the C++ class of a component is defined, None where its source is not there."""
+        return self._cpp.component(package, cls, self.text)
 
     def text(self, path: str) -> tuple[str, str] | None:
         """What a file holds, with its digest."""

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
@@ -86,6 +87,15 @@ class CppAnalysis:
                 walk_main(program, (executable, *args), calls)
         calls.finish()
         return calls.found
+
+    def component(self, package: str, cls: str, text: Callable[[str], tuple[str, str] | None]) -> Place | None:
+        """Where the class is defined that a package registers as an rclcpp component."""
+        files = CppFiles(
+            self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text), LIBRARIES
+        )
+        program = files.component(package, cls)
+        found = program.classes.get(tuple(cls.removeprefix("::").split("::"))) if program is not None else None
+        return Place(found.file.path, found.line) if found is not None else None
 
     def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:
         found = files.plugin(plugin, _NODELET)

@@ -73,6 +73,7 @@ class ClassText:
     fields: tuple[FieldText, ...]
     template: tuple[str, ...]
     file: FileText
+    line: int
 
     @property
     def path(self) -> tuple[str, ...]:
@@ -334,7 +335,8 @@ def _class(node: Node, scope: Path, template: tuple[str, ...], file: FileText, d
     for key, each in zip(own, fields, strict=True):
         if not each.static:
             del file.variables[key]
-    file.classes.setdefault(path, ClassText(path[-1], path[:-1], tuple(bases), fields, template, file))
+    line = node.start_point.row + 1
+    file.classes.setdefault(path, ClassText(path[-1], path[:-1], tuple(bases), fields, template, file, line))
 
 
 def _function(node: Node, scope: Path, template: tuple[str, ...], file: FileText, depth: int) -> None:

@@ -785,7 +785,7 @@ def _is_descriptor(value: Any) -> bool:
 
 def _struct(name: str = "Params") -> Instance:
     """A struct whose fields are known and nothing else of it."""
-    return Instance(Class(ClassText(name, (), (), (), (), FileText("")), {}))
+    return Instance(Class(ClassText(name, (), (), (), (), FileText(""), 0), {}))
 
 
 def _message(name: str) -> Instance | None:

@@ -17,6 +17,7 @@ Kind = Literal[
     "arg-passed",
     "package",
     "executable",
+    "component",
     "include",
     "node",
     "param",
@@ -26,7 +27,7 @@ Kind = Literal[
     "machine",
 ]
 """`package`: in `pkg=` or `$(find)`; `executable`: `pkg/type` or, in ROS 2, `pkg/exec`;
-`include`: the text of `file=`, unresolved; `node`,
+`component`: `pkg/plugin`; `include`: the text of `file=`, unresolved; `node`,
 `param` and remaps: the name as written; `env`: in `$(env)`, `$(optenv)` or an `<env>` tag; `machine`: declared or
 used."""
 
@@ -161,6 +162,9 @@ def _of_attribute(action: Action, attribute: ActionAttribute, parent: Action | N
         case ("node" | "test", "type") | ("node" | "node_container" | "lifecycle_node", "exec"):
             package = action.value("pkg")
             yield mention("executable", f"{package.text if package else ''}/{attribute.value.text}")
+        case "composable_node", "plugin":
+            package = action.value("pkg")
+            yield mention("component", f"{package.text if package else ''}/{attribute.value.text}")
         case ("node" | "node_container" | "lifecycle_node" | "composable_node", "name") | (
             "test",
             "name" | "test-name",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import threading
 from collections.abc import Mapping, Sequence
@@ -10,6 +11,7 @@ from functools import cached_property
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
@@ -125,7 +127,8 @@ class Workspace:
         self._generations: dict[int, Environment] = {}
         self._similar = similar
         self._nodl = NodlFiles(environment, sources)
-        self._fallback = Fallback(SourceAnalysis(environment, sources), similar)
+        self._source = SourceAnalysis(environment, sources)
+        self._fallback = Fallback(self._source, similar)
         self._project: tuple[str, ProjectSettings] | None = None
         self._ahead: tuple[Analysis, Analysis] | None = None
         self._lock = threading.Lock()
@@ -156,6 +159,18 @@ class Workspace:
             if view is None:
                 view = self._views[key] = _View(environment, ExecutableIndex(environment), Memo())
         return view
+
+    def component(self, package: str, cls: str) -> Place | None:
+        """Where the class of a component is defined; None where its source is not there."""
+        return self._source.component(package, cls)
+
+    def entry_point(self, path: str, function: str) -> Place | None:
+        """Where a module defines the function that a console script calls."""
+        tree, _ = self._source.tree(path)
+        defined = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+        body = tree.body if tree is not None else ()
+        lines = [each.lineno for each in body if isinstance(each, defined) and each.name == function]
+        return Place(path, lines[-1]) if lines else None
 
     def static(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
         """What can be said of `path` launched with `args` without running anything."""
@@ -210,7 +225,8 @@ class Workspace:
         with self._lock:
             self._views.clear()
             self._nodl = NodlFiles(self.environment, self.sources)
-            self._fallback = Fallback(SourceAnalysis(self.environment, self.sources), self._similar)
+            self._source = SourceAnalysis(self.environment, self.sources)
+            self._fallback = Fallback(self._source, self._similar)
             self._static.clear()
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:

@@ -1,0 +1,178 @@
+"""Definition and references in launch files of ROS 2, in XML and Python."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.queries.definition import definition
+from preflight_analysis.queries.references import references
+from scene_desk import lay
+
+PACKAGE = """
+//- p/package.xml
+<package format="3"><name>p</name><export><build_type>ament_python</build_type></export></package>
+//- p/setup.py
+from setuptools import setup
+setup(name="p", packages=["p"], entry_points={"console_scripts": ["talker = p.talker:start"]})
+//- p/p/__init__.py
+//- p/p/talker.py
+import rclpy
+
+
+class Talker:
+    def start(self):
+        pass
+
+
+def start():
+    rclpy.spin(Talker())
+"""
+CPP = """
+//- p/package.xml
+<package format="3"><name>p</name><export><build_type>ament_cmake</build_type></export></package>
+//- p/CMakeLists.txt
+project(p)
+add_library(filters SHARED src/filter.cpp)
+rclcpp_components_register_nodes(filters "p::Filter")
+//- p/src/filter.hpp
+namespace p {
+class Filter;
+class Filter : public rclcpp::Node {
+public:
+  explicit Filter(const rclcpp::NodeOptions & options);
+};
+}
+//- p/src/filter.cpp
+#include "filter.hpp"
+namespace p {
+Filter::Filter(const rclcpp::NodeOptions & options) : Node("filter", options) {}
+}
+"""
+
+
+def gone_to(tmp_path: Path, text: str, build_type: str = "ament_python", *, runs: bool = False) -> list[str]:
+    stage = lay(tmp_path, text, build_type=build_type, runs=runs)
+    return [stage.shown(target.location) for target in definition(stage.scene, stage.offset, ())]
+
+
+def named_at(tmp_path: Path, text: str, *, runs: bool = False) -> list[str]:
+    stage = lay(tmp_path, text, build_type="ament_python", runs=runs)
+    return [stage.shown(reference.location) for reference in references(stage.scene, stage.offset)]
+
+
+def test_an_entry_point_leads_to_its_function(tmp_path: Path) -> None:
+    text = '//- main.launch.xml\n<launch>\n  <node pkg="p" exec="tal$0ker" name="a"/>\n</launch>\n' + PACKAGE
+    assert gone_to(tmp_path, text) == ["p/p/talker.py:9 def start():"]
+
+
+def test_an_entry_point_leads_to_its_function_from_python(tmp_path: Path) -> None:
+    text = PYTHON.replace('"talker"', '"tal$0ker"', 1) + PACKAGE
+    assert gone_to(tmp_path, text, runs=True) == ["p/p/talker.py:9 def start():"]
+
+
+def test_a_component_leads_to_its_class(tmp_path: Path) -> None:
+    text = """
+//- main.launch.xml
+<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="">
+    <composable_node pkg="p" plugin="p::Fil$0ter" name="filter"/>
+  </node_container>
+  <load_composable_node target="/c">
+    <composable_node pkg="p" plugin="p::Filter" name="other"/>
+  </load_composable_node>
+</launch>
+"""
+    assert gone_to(tmp_path / "a", text + CPP, "ament_cmake") == [
+        "p/src/filter.hpp:3 class Filter : public rclcpp::Node {"
+    ]
+    stage = lay(tmp_path / "b", text + CPP, build_type="ament_cmake")
+    assert [stage.shown(each.location) for each in references(stage.scene, stage.offset)] == [
+        "main.launch.xml:3 p::Filter",
+        "main.launch.xml:6 p::Filter",
+        "p/src/filter.hpp:3 class Filter : public rclcpp::Node {",
+    ]
+
+
+XML = """
+//- main.launch.xml
+<launch>
+  <node pkg="p" exec="talker" name="talker" namespace="front">
+    <param name="ra$0te" value="5"/>
+    <param from="{folder}/params.yaml"/>
+    <remap from="%schatter" to="/words"/>
+  </node>
+  <node pkg="p" exec="talker" name="listener"><remap from="heard" to="/wo%srds"/></node>
+</launch>
+//- params.yaml
+/**:
+  ros__parameters:
+    rate: 7
+//- interfaces
+{"/front/talker": {"publishers": {"chatter": "std_msgs/msg/String"}, "params": {"rate": 1},
+                   "made": {"chatter": ["{folder}/p/p/talker.py", 5], "rate": ["{folder}/p/p/talker.py", 6]}},
+ "/listener": {"subscribers": {"heard": "std_msgs/msg/String"}, "made": {"heard": ["{folder}/p/p/talker.py", 9]}}}
+"""
+
+
+def test_a_parameter_is_found_where_it_is_set_and_declared(tmp_path: Path) -> None:
+    assert named_at(tmp_path, XML.replace("%s", "") + PACKAGE) == [
+        "main.launch.xml:3 rate",
+        "p/p/talker.py:6 pass",
+        "params.yaml:3 rate",
+    ]
+
+
+def test_a_parameter_is_found_from_its_file(tmp_path: Path) -> None:
+    text = XML.replace("%s", "").replace("$0", "").replace("    rate: 7", "    ra$0te: 7") + PACKAGE
+    assert named_at(tmp_path, text) == ["params.yaml:3 rate", "main.launch.xml:3 rate", "p/p/talker.py:6 pass"]
+
+
+@pytest.mark.parametrize("at", [0, 1])
+def test_a_topic_is_found_at_all_its_ends(tmp_path: Path, at: int) -> None:
+    cursors = tuple("$0" if n == at else "" for n in range(2))
+    assert named_at(tmp_path, XML.replace("$0", "") % cursors + PACKAGE) == [
+        "main.launch.xml:5 chatter",
+        "main.launch.xml:5 /words",
+        "main.launch.xml:7 heard",
+        "main.launch.xml:7 /words",
+        "p/p/talker.py:5 def start(self):",
+        "p/p/talker.py:9 def start():",
+    ]
+
+
+PYTHON = """
+//- main.launch.py
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(
+            package="p", executable="talker", name="talker", namespace="front",
+            remappings=[("chatter", "/words")],
+            parameters=[{"rate": 5}],
+        ),
+        Node(package="p", executable="talker", name="listener", remappings=[("heard", "/words")]),
+    ])
+//- interfaces
+""" + XML.partition("//- interfaces\n")[2]
+
+
+@pytest.mark.parametrize("name", ['"$0chatter"', '"$0/words"', '"$0heard"'])
+def test_remaps_in_python(tmp_path: Path, name: str) -> None:
+    text = PYTHON.replace(name.replace("$0", ""), name, 1) + PACKAGE
+    assert named_at(tmp_path, text, runs=True) == [
+        "main.launch.py:9 chatter",
+        "main.launch.py:9 /words",
+        "main.launch.py:12 heard",
+        "main.launch.py:12 /words",
+        "p/p/talker.py:5 def start(self):",
+        "p/p/talker.py:9 def start():",
+    ]
+
+
+def test_parameters_in_python(tmp_path: Path) -> None:
+    text = PYTHON.replace('"rate": 5', '"$0rate": 5') + PACKAGE
+    assert named_at(tmp_path, text, runs=True) == ["main.launch.py:10 rate", "p/p/talker.py:6 pass"]
