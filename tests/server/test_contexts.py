@@ -143,3 +143,24 @@ async def test_indexing_shows_its_progress(desk: Desk) -> None:
         values = await editor.until(lambda: next(iter(editor.progress_of("Indexing launch files").values()), None))
         await editor.until(lambda: values[-1]["kind"] == "end")
         assert "launch files" in values[-1]["message"]
+
+
+async def test_findings_are_those_of_the_root_that_was_selected(desk: Desk) -> None:
+    fragment, fast, slow = lay(desk)
+    (desk.workspace / "50.launch").write_text("<launch/>\n")
+    fragment.write_text(FRAGMENT.replace("</launch>", '  <include file="$(dirname)/$(arg rate).launch"/>\n</launch>'))
+    async with editing(desk) as editor:
+        editor.open(fragment)
+        await editor.having(fragment, "LCH013")  # 2.launch, as slow.launch includes it
+        select: dict[str, Any] = {"uri": fragment.as_uri(), "root": {"uri": fast.as_uri(), "args": {}}}
+        await ask(editor, "rosPreflight/selectRoot", select)
+        await editor.without(fragment, "LCH013")
+        select["root"] = {"uri": slow.as_uri(), "args": {}}
+        await ask(editor, "rosPreflight/selectRoot", select)
+        await editor.having(fragment, "LCH013")
+        select["root"] = {"uri": fragment.as_uri(), "args": {"rate": "50"}}
+        await ask(editor, "rosPreflight/selectRoot", select)
+        await editor.without(fragment, "LCH013")
+        select["root"] = None
+        await ask(editor, "rosPreflight/selectRoot", select)
+        await editor.having(fragment, "LCH013")

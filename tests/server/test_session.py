@@ -29,7 +29,7 @@ async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypat
     try:
         for version in (1, 2):
             document = server.texts.open(launch_file.as_uri(), "roslaunch", version, "<launch/>")
-            server.sources.open(str(launch_file), document.text)
+            session.takes(document)
             session.text_changed(document, own=True, quiet=0)
             await asyncio.wait_for(session.settled(), 10)
             await asyncio.sleep(0.2)

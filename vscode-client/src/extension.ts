@@ -1,6 +1,6 @@
 import {
   commands,
-  type Disposable,
+  Disposable,
   EventEmitter,
   type ExtensionContext,
   languages,
@@ -88,6 +88,7 @@ export function activate(context: ExtensionContext): void {
     command("choosePython", () => choosePython(log)),
     command("setServerPath", setServerPath),
     registerDoctor(server),
+    followLaunchFiles(),
     onFirstLaunchFile(() => {
       statusBar = new StatusBar();
       void server.restart();
@@ -139,6 +140,18 @@ function registerDoctor(server: ServerSession): Disposable {
 
 function isLaunchFile(document: TextDocument): boolean {
   return languages.match(launchFiles, document) > 0;
+}
+
+/** Tells the editor whether the active file is a launch file, of whatever language: buttons and commands go by it. */
+function followLaunchFiles(): Disposable {
+  const tell = () => {
+    const document = window.activeTextEditor?.document;
+    const is = document !== undefined && isLaunchFile(document);
+    void commands.executeCommand("setContext", "rosPreflight.launchFile", is);
+  };
+  tell();
+  // A file gets another language without another editor being active.
+  return Disposable.from(window.onDidChangeActiveTextEditor(tell), workspace.onDidOpenTextDocument(tell));
 }
 
 /** Calls back once, when a launch file is or comes to be open: an XML file of another kind needs no server. */

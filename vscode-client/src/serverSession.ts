@@ -11,6 +11,10 @@ import type { Life, ServerStatus } from "./serverStatus";
 import { SetupFailed, setupPaths, Setups } from "./setups";
 import { isExecutable, pythons, surroundings } from "./surroundings";
 
+/** As README.md says; a test holds the two together. */
+const HOW_TO_INSTALL =
+  "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'";
+
 const statusChanged = new NotificationType<ServerStatus>("rosPreflight/status");
 const analysed = new NotificationType<object>("rosPreflight/analysed");
 const live = new NotificationType<Live>("rosPreflight/live");
@@ -189,7 +193,7 @@ export class ServerSession {
     const known = wheel === undefined ? undefined : installed(storage, wheel, isExecutable);
     const nowhere = "the command ros-preflight was not found on PATH, in the selected Python environment or in ~/.local/bin";
     if (known === undefined && (wheel === undefined || !mayInstall)) {
-      throw new InstallFailed(`${nowhere}. Install it with 'pipx install ros-preflight', or name it in the settings.`);
+      throw new InstallFailed(`${nowhere}. ${HOW_TO_INSTALL}, or name it in the settings.`);
     }
     const [program = "", ...args] = known ?? (await this.install(storage, wheel ?? ""));
     return { program, args: [...args, "lsp"], foundIn: "the extension's own virtual environment" };

@@ -14,7 +14,6 @@ from typing import Any
 
 from lsprotocol import types
 from preflight_analysis import __version__
-from preflight_analysis.workspace.sources import Sources
 from pygls.lsp.server import LanguageServer
 
 from preflight_server.lsp import features
@@ -43,7 +42,6 @@ class PreflightServer(LanguageServer):
             protocol_cls=PreflightProtocol,
         )
         self.texts = TextStore()
-        self.sources = Sources()
         self.folders: Folders | None = None
         self.after_analysis: list[Callable[[], None]] = []
         """Called on the event loop whenever analyses were replaced by newer ones."""

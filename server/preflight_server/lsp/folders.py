@@ -106,9 +106,9 @@ class Folders:
     def _take_over(self, document: OpenDocument, quiet: float) -> None:
         if document.path is None:
             return
-        self._server.sources.open(document.path, document.text)
         owner = self.of(document.path)
         for session in self:
+            session.takes(document)
             if session is owner or session.depends_on(document.path):
                 session.text_changed(document, own=session is owner, quiet=quiet)
 
@@ -117,8 +117,8 @@ class Folders:
         path = document.path
         if path is None or self._server.texts.by_path(path) is not None:
             return
-        self._server.sources.close(path)
         for session in self:
+            session.leaves(path)
             if session.shows(path) or session.depends_on(path):
                 session.closed(path)
 

@@ -26,6 +26,7 @@ from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
+from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
@@ -89,7 +90,9 @@ class Session:
         """The environment that the client gives the folder, None for the server's own."""
         self.folder = folder
         self.settings = settings
-        self._sources = server.sources
+        self._sources = Sources()
+        for document in server.texts:
+            self.takes(document)
         self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
         self._workspace: Workspace | None = None
         self._analyses: dict[Root, Analysis] = {}
@@ -124,9 +127,18 @@ class Session:
 
     # What the handlers report
 
+    def takes(self, document: OpenDocument) -> None:
+        """The text of a document counts in place of the file, whichever folder that belongs to."""
+        if document.path is not None:
+            self._sources.open(document.path, document.text)
+
+    def leaves(self, path: str) -> None:
+        """The file on disk counts again."""
+        self._sources.close(path)
+
     def text_changed(self, document: OpenDocument, *, own: bool, quiet: float) -> None:
-        """A document was opened or its text changed, and the user will not type for `quiet` seconds. `own`: it belongs
-        to this folder, and is shown in the context of its roots."""
+        """A document was opened or its text changed, which `takes` was told, and the user will not type for `quiet`
+        seconds. `own`: it belongs to this folder, and is shown in the context of its roots."""
         if document.path is None:
             return
         if not own:
@@ -143,7 +155,7 @@ class Session:
         self._touch([document.path], document.path, quiet=quiet)
 
     def closed(self, path: str) -> None:
-        """The file on disk counts again."""
+        """A document that this folder depends on was closed."""
         self._focus = [p for p in self._focus if p != path]
         self._touch([path], None, quiet=0)
 
@@ -443,13 +455,13 @@ class Session:
         analyses = dict(self._analyses)
         known, why = (self.runs.known(root), self.runs.why_not_run) if root is not None else ({}, None)
         stale = frozenset(self._dirty) - {root}
-        explicit = frozenset((*self._selected.values(), *self.indexing.named))
+        explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)
 
         def work() -> _Round:
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
                 analyses[root] = with_known(workspace, static, known, why)
-            return self._merge(analyses, stale, explicit)
+            return self._merge(analyses, stale, explicit, selected)
 
         try:
             return await self.in_pool(work)
@@ -457,14 +469,26 @@ class Session:
             _log.exception("the analysis of %s broke; its findings are left as they are", root)
             return None
 
-    def _merge(self, analyses: Mapping[Root, Analysis], stale: Collection[Root], explicit: Collection[Root]) -> _Round:
-        """The findings of all roots by file. Runs in a thread: files that are not open are read for their lines."""
+    def _merge(
+        self,
+        analyses: Mapping[Root, Analysis],
+        stale: Collection[Root],
+        explicit: Collection[Root],
+        selected: Mapping[str, Root],
+    ) -> _Round:
+        """The findings of all roots by file, of a file for which the user chose a root those in that one. Runs in a
+        thread: files that are not open are read for their lines."""
         reached: dict[str, list[str]] = {}
         for root, analysis in analyses.items():
             reached.setdefault(root.path, []).extend(analysis.tree.files)
         tops = frozenset(roots(reached))
         kept = {root: a for root, a in analyses.items() if root.path in tops or root in explicit}
-        findings = by_file((self._report(root, a, root in stale) for root, a in kept.items()), self._every_root)
+        reports = {root: self._report(root, a, root in stale) for root, a in kept.items()}
+        findings = by_file(reports.values(), self._every_root)
+        for path, root in selected.items():
+            if root in reports and path in reports[root].files:
+                alone = by_file([reports[root]], self._every_root)
+                findings[path] = alone.get(path, ())
         documents = {path: document for a in kept.values() for path, document in a.documents.items()}
         converter = Converter(self._server.texts, documents, related=self._shows_related)
         return _Round(analyses, findings, {path: converter.diagnostics(found) for path, found in findings.items()})

@@ -2,6 +2,10 @@
 local options = require('ros_preflight.options')
 local workspace = require('ros_preflight.workspace')
 
+-- As README.md says; a test holds the two together.
+local INSTALL =
+  'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'
+
 local M = {}
 
 M.NAME = 'ros_preflight'
@@ -45,7 +49,8 @@ function M.can_start(cmd)
   if type(cmd) ~= 'table' or vim.fn.executable(cmd[1]) == 1 then
     return true
   end
-  vim.notify_once(('ros-preflight: %s is not on PATH (pipx install ros-preflight)'):format(cmd[1]), vim.log.levels.WARN)
+  local told = ("ros-preflight: %s is not on PATH. In a clone of the repository run '%s'"):format(cmd[1], INSTALL)
+  vim.notify_once(told, vim.log.levels.WARN)
   return false
 end
 
