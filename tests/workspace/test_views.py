@@ -11,6 +11,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.settle import settled
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -20,6 +21,17 @@ LAUNCH = """<launch>
   <include file="$(find-pkg-share common)/launch/part.launch.xml"/>
   <node pkg="robot" exec="driver.py"/>
 </launch>
+"""
+NODE = """
+#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/string.hpp>
+
+int main(int argc, char** argv) {{
+  rclcpp::init(argc, argv);
+  auto node = rclcpp::Node::make_shared("n");
+  auto publisher = node->create_publisher<std_msgs::msg::String>("{}", 1);
+  rclcpp::spin(node);
+}}
 """
 
 
@@ -53,6 +65,21 @@ def test_the_package_that_holds_the_launch_file_is_meant_then_the_nearest_worksp
     index = build_index(workspace, str(repository))
     assert index is not None
     assert sorted(Path(root.path).name for root in index.entries) == ["a.launch.xml", "a.launch.xml"]
+
+
+def test_a_node_does_what_the_source_of_the_package_says_that_is_meant(repository: Path) -> None:
+    workspace = Workspace(detect_environment(str(repository), {}, root=str(repository)), Sources())
+    for name in ("one", "two"):
+        robot = repository / name / "src/robot"
+        file(robot / "CMakeLists.txt", text="add_executable(driver driver.cpp)\n")
+        file(robot / "driver.cpp", text=NODE.format(name))
+        launch = file(robot / "launch/c.launch.xml", text='<launch><node pkg="robot" exec="driver"/></launch>')
+        static = workspace.static(str(launch))
+        (node,) = static.tree.nodes
+        graph = workspace.with_interfaces(static, [not_run(node, "no trust")], "no trust").graph
+        assert graph is not None
+        own = [end.name for end in graph.interfaces[0].endpoints if not end.builtin]
+        assert own == [name]
 
 
 def test_elsewhere_the_order_of_the_path_decides(repository: Path) -> None:

@@ -99,6 +99,9 @@ class _View:
 
     environment: Environment
     executables: ExecutableIndex
+    nodl: NodlFiles
+    source: SourceAnalysis
+    fallback: Fallback
     memo: Memo
 
 
@@ -126,9 +129,6 @@ class Workspace:
         self._views: dict[object, _View] = {}
         self._generations: dict[int, Environment] = {}
         self._similar = similar
-        self._nodl = NodlFiles(environment, sources)
-        self._source = SourceAnalysis(environment, sources)
-        self._fallback = Fallback(self._source, similar)
         self._project: tuple[str, ProjectSettings] | None = None
         self._ahead: tuple[Analysis, Analysis] | None = None
         self._lock = threading.Lock()
@@ -138,7 +138,12 @@ class Workspace:
     @property
     def executables(self) -> ExecutableIndex:
         """The executables on the disk; a new index after each `refresh`."""
-        return self._view_of(self.environment).executables
+        return self._common.executables
+
+    @property
+    def _common(self) -> _View:
+        """What launch files of the environment's generation see, those that mean no other packages than most."""
+        return self._view_of(self._of_generation(self.environment.generation))
 
     def environment_of(self, path: str) -> Environment:
         """The environment as a launch file sees it."""
@@ -147,26 +152,37 @@ class Workspace:
     def _view(self, path: str) -> _View:
         found = self.sources.launch_file(path)
         generation = self.environment.generation if isinstance(found, Unreadable) else found.generation
+        return self._view_of(seen_from(self._of_generation(generation), path))
+
+    def _of_generation(self, generation: int) -> Environment:
         known = self._generations.get(generation)
         if known is None:
             known = self._generations[generation] = of_generation(self.environment, generation)
-        return self._view_of(seen_from(known, path))
+        return known
 
     def _view_of(self, environment: Environment) -> _View:
         key = environment.generation, tuple(environment.meant.items())
         with self._lock:
             view = self._views.get(key)
             if view is None:
-                view = self._views[key] = _View(environment, ExecutableIndex(environment), Memo())
+                source = SourceAnalysis(environment, self.sources)
+                view = self._views[key] = _View(
+                    environment,
+                    ExecutableIndex(environment),
+                    NodlFiles(environment, self.sources),
+                    source,
+                    Fallback(source, self._similar),
+                    Memo(),
+                )
         return view
 
     def component(self, package: str, cls: str) -> Place | None:
         """Where the class of a component is defined; None where its source is not there."""
-        return self._source.component(package, cls)
+        return self._common.source.component(package, cls)
 
     def entry_point(self, path: str, function: str) -> Place | None:
         """Where a module defines the function that a console script calls."""
-        tree, _ = self._source.tree(path)
+        tree, _ = self._common.source.tree(path)
         defined = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
         body = tree.body if tree is not None else ()
         lines = [each.lineno for each in body if isinstance(each, defined) and each.name == function]
@@ -224,9 +240,6 @@ class Workspace:
         """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
         with self._lock:
             self._views.clear()
-            self._nodl = NodlFiles(self.environment, self.sources)
-            self._source = SourceAnalysis(self.environment, self.sources)
-            self._fallback = Fallback(self._source, self._similar)
             self._static.clear()
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
@@ -312,7 +325,8 @@ class Workspace:
     ) -> Sequence[Interface]:
         """The interfaces with what is known beside runs."""
         interfaces = from_settings(tree, interfaces, project.nodes)
-        return self._fallback.fill_in(tree, self._nodl.fill_in(tree, interfaces))
+        view = self._view(tree.file)
+        return view.fallback.fill_in(tree, view.nodl.fill_in(tree, interfaces))
 
     def _project_settings(self) -> ProjectSettings:
         """The settings file of the workspace as it is now."""
