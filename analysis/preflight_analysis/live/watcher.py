@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.live.compare import compare
 from preflight_analysis.live.model import CannotObserveError, Comparison, Expected, Issue, Observation
+from preflight_analysis.live.model import State as Status
 from preflight_analysis.live.observe_ros1 import Ros1Observer
 from preflight_analysis.live.observe_ros2 import Ros2Observer
 
@@ -63,7 +64,8 @@ def observer(generation: int, environment: Environment) -> Observer:
 
 class Watcher:
     """`expected` is asked at each look: it may change. An issue is told once it has lasted `settle` seconds, as nodes
-    take a moment to start, and those that are started again are away for one. `allow_extra`: what is extra does not
+    take a moment to start, and those that are started again are away for one; as long as nodes turn up that were not
+    there before, others may follow, and what is missing has to last from then on. `allow_extra`: what is extra does not
     count."""
 
     def __init__(
@@ -81,6 +83,8 @@ class Watcher:
         self._allow_extra = allow_extra
         self._clock = clock
         self._since: dict[Issue, float] = {}
+        self._nodes: set[str] = set()
+        self._grown = 0.0
         self._told: Event | None = None
         self._run: str | None = None
         self._was_there = False
@@ -100,6 +104,7 @@ class Watcher:
         if not self._was_there or lost or restarted:
             events.append(Attached(self._observer.place, restarted))
             self._told = None
+            self._nodes.clear()
         self._was_there = True
         if known or restarted:
             self._run = live.run
@@ -109,11 +114,38 @@ class Watcher:
             found = replace(found, issues=tuple(issues))
         now = self._clock()
         self._since = {issue: self._since.get(issue, now) for issue in found.issues}
-        lasting = tuple(issue for issue in found.issues if now - self._since[issue] >= self._settle)
-        return [*events, *self._new(State(replace(found, issues=lasting)))]
+        if not self._nodes.issuperset(live.nodes):
+            self._nodes.update(live.nodes)
+            self._grown = now
+        lasting = tuple(issue for issue in found.issues if self._has_lasted(issue, now))
+        shown = replace(found, issues=lasting)
+        missing = {issue for issue in found.issues if issue.kind == "missing"}
+        if not missing <= set(lasting):
+            shown = _still_starting(shown)
+        return [*events, *self._new(State(shown))]
+
+    def _has_lasted(self, issue: Issue, now: float) -> bool:
+        since = self._since[issue]
+        return now - (max(since, self._grown) if issue.kind == "missing" else since) >= self._settle
 
     def _new(self, event: Event) -> list[Event]:
         if event == self._told:
             return []
         self._told = event
         return [event]
+
+
+def _still_starting(found: Comparison) -> Comparison:
+    """The comparison in which what is not there is called missing only where an issue that has lasted says so."""
+    known = {issue.name or issue.node for issue in found.issues if issue.kind == "missing"}
+
+    def states(of: Mapping[str, Status]) -> dict[str, Status]:
+        return {name: "unsure" if state == "missing" and name not in known else state for name, state in of.items()}
+
+    return replace(
+        found,
+        nodes=states(found.nodes),
+        topics=states(found.topics),
+        services=states(found.services),
+        actions=states(found.actions),
+    )
