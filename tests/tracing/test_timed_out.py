@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +12,7 @@ import pytest
 from preflight_analysis.tracing.observation import observe
 from preflight_analysis.tracing.recipe import make
 from preflight_analysis.tracing.run import RawRun
-from tracing_desk import environment, request, trace, write_node
+from tracing_desk import environment, own, request, trace, write_node
 
 
 def reason(tmp_path: Path, waits: Any, told: tuple[dict[str, Any], ...] = (), **more: Any) -> str:
@@ -65,3 +68,43 @@ def test_a_node_that_goes_on_computing_after_an_answer(tmp_path: Path) -> None:
     found = trace(write_node(tmp_path, body)).outcome
     assert found.status == "timed-out"
     assert (found.reason or "").endswith("; before that it waits for the service start, and was told that it is there")
+
+
+def test_a_node_that_was_busy_all_the_time_is_slow(tmp_path: Path) -> None:
+    asked = request(write_node(tmp_path, ""))
+    end = {"ev": "end", "status": "timed-out", "waits": [], "initialised": True, "seconds": 5.0, "cpu": 4.5}
+    for queued, lasting in ((0.1, True), (3.0, False)):
+        raw = RawRun([{"own": {**end, "queued": queued}}], b"", started=0.0)
+        observed = observe(raw, make(environment(tmp_path), asked), asked)
+        assert observed.interface.outcome.reason == "it is slow: it was still busy after 5 s"
+        assert observed.lasting == lasting
+
+
+@pytest.mark.ros
+def test_what_others_do_with_the_processor_is_not_the_nodes_time(tmp_path: Path) -> None:
+    script = write_node(
+        tmp_path,
+        """
+        import time
+        import rospy
+        from std_msgs.msg import String
+        rospy.init_node("n")
+        while time.process_time() < 2.5:
+            pass
+        rospy.Publisher("late", String, queue_size=1)
+        rospy.spin()
+        """,
+    )
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    others = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
+    try:
+        found = trace(script)
+    finally:
+        os.sched_setaffinity(0, before)
+        for other in others:
+            other.kill()
+            other.wait()
+    assert found.outcome.status == "spinning", found.outcome
+    assert own(found) == {("publisher", "late", "std_msgs/String")}
+    assert found.outcome.seconds > 5

@@ -99,6 +99,8 @@ _BY_ENV = re.compile(r"\S*env: ['‘](.+?)(\\r)?['’]: No such file or director
 _WINDOWS = "; the file has the line ends of Windows"
 _NOT_LOADED = 127
 """What the loader ends a program with whose libraries are not found."""
+_HELD_UP = 1.0
+"""Seconds that a node waited for a processor: with them its time may have been enough."""
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
 
 
@@ -220,7 +222,18 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         nodes=tuple(found.nodes),
     )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
-    return Observation(interface, dependencies, not raw.killed and not raw.cancelled, tuple(found.wrote))
+    lasting = not raw.killed and not raw.cancelled and not _was_held_up(outcome, found.end)
+    return Observation(interface, dependencies, lasting, tuple(found.wrote))
+
+
+def _was_held_up(outcome: Outcome, end: Mapping[str, Any] | None) -> bool:
+    """Whether a node whose time was up may have come further on a machine with less to do."""
+    return outcome.status == "timed-out" and _seconds(end, "queued") > _HELD_UP
+
+
+def _seconds(end: Mapping[str, Any] | None, name: str) -> float:
+    value = end.get(name) if end is not None else None
+    return float(value) if isinstance(value, (int, float)) and 0 <= value < 3600 else 0.0
 
 
 def stderr_tail(data: bytes) -> tuple[str, ...]:
@@ -531,8 +544,7 @@ def _outcome(raw: RawRun, found: _Gathered, tail: tuple[str, ...], request: Trac
             said = f": {tail[-1]}" if tail else ""
             return Outcome("not-run", None, None, tail, f"the sandbox could not start the node{said}")
         return Outcome("crashed", None, None, tail, "the node ended the whole sandbox")
-    seconds = end.get("seconds")
-    spent = float(seconds) if isinstance(seconds, (int, float)) and 0 <= seconds < 3600 else 0.0
+    spent = _seconds(end, "seconds")
     code = end.get("code")
     match end.get("status"):
         case "spinning":
@@ -578,6 +590,8 @@ def _waiting(end: Mapping[str, Any], found: _Gathered, request: TraceRequest) ->
         kind, name = waits[0]
         if isinstance(kind, str) and kind in _WAITS and _text(name, _NAME):
             text = f"it waits for {_WAITS[kind].format(name)}, and did not reach its event loop {limit}"
+    elif _seconds(end, "cpu") > WALL_SECONDS / 2:
+        text = f"it is slow: it was still busy {limit.replace('within', 'after')}"
     elif request.params.get("/use_sim_time") is True and not any("simulated time" in answer for answer in given):
         text += "; it may wait for simulated time: /use_sim_time is set, and nobody tells the time here"
     return text + (f"; before that {'; '.join(given)}" if given else "")

@@ -23,7 +23,9 @@ from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS, Agents
 
 WALL_SECONDS = 5.0
-"""From exec to the end, at most."""
+"""From exec to the end, at most, but for the time in which it waits for a processor that others have."""
+STRETCH_SECONDS = 5.0
+"""How much of that time there may be."""
 QUIET_SECONDS = 0.3
 """A loop with sleeps counts as the event loop after so long without a new endpoint or parameter call."""
 LOOPED_SECONDS = 0.1
@@ -99,13 +101,14 @@ def execute(
         "params": encode_params(params),
         "limits": {
             "wall": WALL_SECONDS,
+            "stretch": STRETCH_SECONDS,
             "quiet": QUIET_SECONDS,
             "looped": LOOPED_SECONDS,
             "settled": SETTLED_SECONDS,
             "starving": STARVING_SECONDS,
         },
     }
-    return _execute(recipe, job, WALL_SECONDS, visible, interpreter, cancel, agents)
+    return _execute(recipe, job, WALL_SECONDS + STRETCH_SECONDS, visible, interpreter, cancel, agents)
 
 
 def execute_command(

@@ -100,7 +100,7 @@ class Tracer:
         if self.cache is None:
             return nullcontext()
         digest = hashlib.sha256(repr(request).encode(errors="surrogatepass")).hexdigest()
-        seconds = run.WALL_SECONDS + run.OUTER_SECONDS
+        seconds = run.WALL_SECONDS + run.STRETCH_SECONDS + run.OUTER_SECONDS
         return turn(self.cache.folder / "turns" / f"{digest[:32]}.lock", cancel, seconds)
 
     def _finished(self, found: Interface, request: TraceRequest) -> Interface:

@@ -76,6 +76,10 @@ class Run:
         self.polled = ""
         self.polled_at = 0.0
         self.cpu = 0.0
+        self.queued = 0.0
+        """Seconds for which the node wanted a processor and got none."""
+        self.stretch = 0.0
+        """The part of it by which its time is longer."""
         self.pid = -1
         self.screen: Optional[int] = None
         """The process of the node's X server."""
@@ -203,11 +207,21 @@ class Run:
             return None if self.visits.busy(self.pid, self.active, fed) else why
         return why
 
+    def _leave_out_queueing(self, now: float) -> None:
+        """What a node does must not depend on what else the machine does: while others have the processors it is
+        neither quiet, nor is its time running."""
+        queued = _queued_seconds(self.pid)
+        if queued > self.queued:
+            more, self.queued = queued - self.queued, queued
+            self.active = min(now, self.active + more)
+            self.stretch = min(self.job["limits"]["stretch"], self.stretch + more)
+
     def _over(self) -> Optional[str]:
         now = time.monotonic()
         if self.spins:
             return "spinning"
-        if now - self.started > self.job["limits"]["wall"]:
+        self._leave_out_queueing(now)
+        if now - self.started > self.job["limits"]["wall"] + self.stretch:
             return "timed-out"
         if self.ending:
             return None
@@ -238,6 +252,15 @@ def _cpu_seconds(pid: int) -> float:
         with open(f"/proc/{pid}/stat") as stat:
             fields = stat.read().rpartition(")")[2].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    except (OSError, IndexError, ValueError):
+        return 0.0
+
+
+def _queued_seconds(pid: int) -> float:
+    """How long the main thread of a process has waited for a processor; 0 where the kernel does not count it."""
+    try:
+        with open(f"/proc/{pid}/schedstat") as stat:
+            return int(stat.read().split()[1]) * 1e-9
     except (OSError, IndexError, ValueError):
         return 0.0
 
@@ -376,6 +399,8 @@ def _main(job: dict[str, Any]) -> None:
                 "initialised": run.initialised,
                 "dropped": run.dropped,
                 "seconds": time.monotonic() - run.started,
+                "cpu": _cpu_seconds(run.pid),
+                "queued": run.queued,
             }
         }
     )
@@ -450,6 +475,7 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
         if ended == 0 and not run.initialised and not followed and (left := run.census.left_behind(run.screen)):
             # It goes on as a daemon, or was a script that started the node in the background.
             followed, run.pid, ended = True, left[0], None
+            run.queued = _queued_seconds(run.pid)
         if ended is not None:
             if run.visits is not None and run.visits.made:
                 return "spinning", None, ""  # it was, until we talked to it
