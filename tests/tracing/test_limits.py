@@ -51,6 +51,7 @@ def test_words_that_tell(said: str, what: str) -> None:
         "ValueError: cannot display a map without cells",
         "OSError: [Errno 2] No such file or directory: '/etc/nothing'",
         "could not write to /dev/null",
+        '  File "/home/me/dev/ws/src/p/nodes/lane_net.py", line 3, in <module>',
     ],
 )
 def test_words_that_are_the_nodes_own(said: str) -> None:

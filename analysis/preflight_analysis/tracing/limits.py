@@ -37,7 +37,7 @@ _SIGNS = (
     (r"Wrong input topic|does not appear to be published yet", "another node to publish a topic when it starts"),
 )
 _KNOWN = tuple((re.compile(pattern, re.IGNORECASE), what) for pattern, what in _SIGNS)
-_DEVICE = re.compile(r"/dev/(?!null\b|zero\b|u?random\b|shm\b|stdin\b|stdout\b|stderr\b|tty\b)[\w./-]*\w")
+_DEVICE = re.compile(r"(?<![\w/.-])/dev/(?!null\b|zero\b|u?random\b|shm\b|stdin\b|stdout\b|stderr\b|tty\b)[\w./-]*\w")
 _PATH = re.compile(r"(?<![\w/.])/(?!dev/|proc/)[^\s'\":;,\]\[()<>]+")
 _WRITES = re.compile(r"writ|creat|sav|mkdir|Permission denied", re.IGNORECASE)
 
