@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -175,6 +177,32 @@ def test_a_batch_reports_what_a_command_cannot_be_made_of(
     done = preflight("tree", "--batch", jobs)
     (answer,) = map(json.loads, done.out.splitlines())
     assert [error["rule"] for error in answer["errors"]] == rules
+
+
+SLOW = """
+import time
+from launch import LaunchDescription
+from launch_ros.actions import Node
+began = time.time()
+time.sleep(2)
+def generate_launch_description():
+    times = f'{began} {time.time()}'
+    return LaunchDescription([Node(package='arm', executable='a', name=NAME, parameters=[{'times': times}])])
+"""
+
+
+def test_a_batch_runs_python_launch_files_side_by_side(tmp_path: Path, preflight: Run) -> None:
+    """Each in a sandbox of its own, and the answers come in the order of the jobs."""
+    names = ("first", "second", "third")
+    for name in names:
+        (tmp_path / f"{name}.launch.py").write_text(SLOW.replace("NAME", repr(name)))
+    (tmp_path / "jobs.jsonl").write_text("".join(json.dumps({"file": f"{n}.launch.py"}) + "\n" for n in names))
+    done = preflight("tree", "--batch", tmp_path / "jobs.jsonl")
+    nodes = [json.loads(line)["nodes"][0] for line in done.out.splitlines()]
+    assert [node["name"] for node in nodes] == ["/first", "/second", "/third"]
+    spans = sorted(tuple(map(float, node["params"]["times"].split())) for node in nodes)
+    overlap = any(later[0] < earlier[1] for earlier, later in itertools.pairwise(spans))
+    assert overlap == (len(os.sched_getaffinity(0)) > 1)
 
 
 @pytest.mark.parametrize(

@@ -118,24 +118,25 @@ class CommandRunner:
         """The cached result, if it is still valid; nothing is run."""
         try:
             job = self._job(line)
-            if isinstance(job, CommandResult):
-                return job
-            output = self.cache.load(job.recipe, self._packages) if self.cache is not None else None
-            return CommandResult("done", output) if output is not None else None
+            return job if isinstance(job, CommandResult) else self._known(job)
         except Exception:
             _log.exception("looking up the command %s failed", line)
             return None
 
     def run(self, line: str, cancel: threading.Event) -> CommandResult:
         """The cached result, or that of a new run. Never raises: what stands in the way is the result's reason."""
-        found = self.lookup(line)
-        if found is not None:
-            return found
         try:
-            return self._run(line, cancel)
+            job = self._job(line)
+            if isinstance(job, CommandResult):
+                return job
+            return self._known(job) or self._run(line, job, cancel)
         except Exception as error:
             _log.exception("running the command %s failed", line)
             return CommandResult("not-run", reason=f"the run failed: {error}")
+
+    def _known(self, job: _Job) -> CommandResult | None:
+        output = self.cache.load(job.recipe, self._packages) if self.cache is not None else None
+        return CommandResult("done", output) if output is not None else None
 
     @functools.cached_property
     def _packages(self) -> str:
@@ -184,13 +185,10 @@ class CommandRunner:
         beyond = recipes.command_paths(recipe, recipe.argv[0], named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
-    def _run(self, line: str, cancel: threading.Event) -> CommandResult:
+    def _run(self, line: str, job: _Job, cancel: threading.Event) -> CommandResult:
         status = sandbox.probe()
         if not status.works:
             return CommandResult("not-run", reason=f"no sandbox: {status.reason}")
-        job = self._job(line)
-        if isinstance(job, CommandResult):
-            return job
         if cancel.is_set():
             return CommandResult("not-run", reason="the run was cancelled")
         agents = compiled.copies().of(self._interpreter, job.visible)

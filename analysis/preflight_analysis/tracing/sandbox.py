@@ -174,13 +174,15 @@ def needs_binding(paths: Iterable[str]) -> list[str]:
 
     A folder that holds all of a masked one (a package path of `~`, say) is left out: it would show everything in it.
     """
+    masks = _masks()
+    held = (*masks, home())
     wanted: set[str] = set()
-    for path in paths:
+    for path in dict.fromkeys(paths):
         if not path or not os.path.isabs(path):
             continue
-        for form in (os.path.normpath(path), os.path.realpath(path)):
-            too_much = any(within(root, form) for root in (*_masks(), home()))
-            if masked(form) and not too_much and os.path.lexists(form):
+        for form in {os.path.normpath(path), os.path.realpath(path)}:
+            too_much = any(within(root, form) for root in held)
+            if any(within(form, root) for root in masks) and not too_much and os.path.lexists(form):
                 wanted.add(form)
     kept: list[str] = []
     for path in sorted(wanted):

@@ -1,4 +1,4 @@
-"""`tree --batch`: many launch files in one process, one line of JSON each, in the order of the jobs."""
+"""`tree --batch`: many launch files in one process, side by side; one line of JSON each, in the order of the jobs."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import os
 import threading
 from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -23,7 +24,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
 from preflight_server.cli.errors import CLEAN, CannotDoError
-from preflight_server.cli.output import print_json
+from preflight_server.cli.output import dumps_json, print_text
 
 BASE_ENV: Mapping[str, str] = {
     "HOME": "/home/robot",
@@ -70,32 +71,78 @@ class Job:
 
 
 def answer_all(jobs: Path, *, no_run: bool = False) -> int:
-    """Answer all jobs. Of what the files ask for only Python launch files are run, unless `no_run`. Raises
-    `CannotDoError` at the first line that is no job."""
-    environment_of = lru_cache(maxsize=4)(_environment)
-    for job in _read(jobs):
-        sources = Sources()
-        sources.undecided = 2 if job.env.get("ROS_VERSION") == "2" else 1
-        launch_file = sources.launch_file(job.file)
-        generation = 1 if isinstance(launch_file, Unreadable) else launch_file.generation
-        args = parse_arguments(job.args) if generation == 1 else parse_ros2_arguments(job.args)
-        environment = environment_of(generation, job.package_path, tuple(sorted(job.env.items())))
-        results = CommandResults(lambda: NO_RUN if no_run else None, _COMMAND)
-        workspace = Workspace(environment, sources, _CWD, results)
-        if no_run:
-            analysis = workspace.static(job.file, args)
-        else:
-            runner = CommandRunner(environment, _CWD, CommandCache())
-            analysis = settled(workspace, job.file, args, results, runner, threading.Event(), only_launch_files=True)
-        print_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
+    """Answer all jobs, side by side where they have something run. Of what the files ask for only Python launch files
+    are run, unless `no_run`, each in a sandbox of its own. Raises `CannotDoError` if a line is no job."""
+    given = tuple(_read(jobs))
+    surroundings = lru_cache(maxsize=4)(_Surroundings)
+    cancel = threading.Event()
+
+    def answer(job: Job) -> str:
+        around = surroundings(job.package_path, tuple(sorted(job.env.items())))
+        return _answer(job, around, cancel, no_run=no_run)
+
+    with ThreadPoolExecutor(1 if no_run else _cores()) as pool:
+        try:
+            for text in pool.map(answer, given):
+                print_text(text)
+        except BaseException:
+            cancel.set()
+            pool.shutdown(cancel_futures=True)
+            raise
     return CLEAN
 
 
-def _environment(generation: int, package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]) -> Environment:
-    base = BASE_ENV if generation == 1 else BASE_ENV_ROS2
-    variables = {**base, "ROS_PACKAGE_PATH": os.pathsep.join(package_path), **dict(env)}
-    prefixes = [prefix for prefix in dict(env).get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix]
-    return detect_environment(None, variables, package_path, prefixes)
+class _Surroundings:
+    """What jobs with the same variables and package path share. Thread-safe."""
+
+    def __init__(self, package_path: tuple[str, ...], env: tuple[tuple[str, str], ...]) -> None:
+        self._package_path = package_path
+        self._env = dict(env)
+        self._lock = threading.Lock()
+        self._runners: dict[int, CommandRunner] = {}
+        self._sources = {1: Sources(), 2: Sources()}
+        self._sources[2].undecided = 2
+
+    def generation(self, file: str) -> int:
+        """Of ROS, for which a launch file is."""
+        undecided = 2 if self._env.get("ROS_VERSION") == "2" else 1
+        launch_file = self._sources[undecided].launch_file(file)
+        return 1 if isinstance(launch_file, Unreadable) else launch_file.generation
+
+    def sources(self, generation: int) -> Sources:
+        """The files, where one that shows no generation is of this one."""
+        return self._sources[generation]
+
+    def runner(self, generation: int) -> CommandRunner:
+        """What runs Python launch files, in the environment of a generation."""
+        with self._lock:
+            if generation not in self._runners:
+                self._runners[generation] = CommandRunner(self._environment(generation), _CWD, CommandCache())
+            return self._runners[generation]
+
+    def _environment(self, generation: int) -> Environment:
+        base = BASE_ENV if generation == 1 else BASE_ENV_ROS2
+        variables = {**base, "ROS_PACKAGE_PATH": os.pathsep.join(self._package_path), **self._env}
+        prefixes = [prefix for prefix in self._env.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix]
+        return detect_environment(None, variables, self._package_path, prefixes)
+
+
+def _answer(job: Job, around: _Surroundings, cancel: threading.Event, *, no_run: bool) -> str:
+    generation = around.generation(job.file)
+    args = parse_arguments(job.args) if generation == 1 else parse_ros2_arguments(job.args)
+    runner = around.runner(generation)
+    results = CommandResults(lambda: NO_RUN if no_run else None, _COMMAND)
+    workspace = Workspace(runner.environment, around.sources(generation), _CWD, results)
+    if no_run:
+        analysis = workspace.static(job.file, args)
+    else:
+        analysis = settled(workspace, job.file, args, results, runner, cancel, only_launch_files=True)
+    return dumps_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
+
+
+def _cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0))
 
 
 def _read(jobs: Path) -> Iterator[Job]:

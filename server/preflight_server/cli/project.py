@@ -74,15 +74,15 @@ class OpenWorkspace:
     workspace: Workspace
     results: CommandResults
     no_run: bool
+    runner: CommandRunner
 
     def analysed(self, path: str, values: Mapping[str, str]) -> Project:
         """A launch file with its arguments."""
         if self.no_run:
             return Project(self.workspace, self.workspace.static(path, values))
-        runner = CommandRunner(self.workspace.environment, self.workspace.cwd, CommandCache())
         cancel = threading.Event()
         try:
-            return Project(self.workspace, settled(self.workspace, path, values, self.results, runner, cancel))
+            return Project(self.workspace, settled(self.workspace, path, values, self.results, self.runner, cancel))
         except KeyboardInterrupt:
             cancel.set()
             raise
@@ -92,7 +92,9 @@ def open_workspace(environment: Environment, args: argparse.Namespace, *, simila
     """The workspace of an environment; `similar` as for `analyse`."""
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
     elsewhere = SimilarTraces(TraceCache()) if similar else None
-    return OpenWorkspace(Workspace(environment, Sources(), commands=results, similar=elsewhere), results, args.no_run)
+    workspace = Workspace(environment, Sources(), commands=results, similar=elsewhere)
+    runner = CommandRunner(environment, workspace.cwd, CommandCache())
+    return OpenWorkspace(workspace, results, args.no_run, runner)
 
 
 def run_nodes(
