@@ -15,7 +15,7 @@ class _Master:
     def __init__(self, *runs: str | None) -> None:
         self._runs = iter(runs)
 
-    def observe(self) -> Observation:
+    def observe(self, within: float = 0.0) -> Observation:
         run = next(self._runs)
         if run is None:
             raise CannotObserveError("connection refused")

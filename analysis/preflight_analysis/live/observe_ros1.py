@@ -16,10 +16,13 @@ import time
 import xmlrpc.client
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from functools import partial
 from typing import Any
 from urllib.parse import urlsplit
 from xml.parsers.expat import ExpatError
 
+from preflight_analysis.live.bounded import BoundedSocket, Transport
 from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation, is_builtin
 from preflight_analysis.tracing.interface import Role
 
@@ -27,6 +30,8 @@ DEFAULT_MASTER = "http://localhost:11311"
 _CALLER = "/ros_preflight_watch"
 _TIMEOUT = 3.0
 """Seconds for an answer of the master, of a node or of a service."""
+_LOOK_SECONDS = 10.0
+"""For all answers of one look: who is not asked by then may live."""
 _ALIVE_SECONDS = 2.0
 """How long a node that answered is taken to be alive: to ask all of a large robot at each look costs it too much."""
 _WORKERS = 16
@@ -36,20 +41,16 @@ _FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError
 """What asking a server leads to that is not there, or is something else: xmlrpc takes what it gets for right."""
 
 
-class _Transport(xmlrpc.client.Transport):
-    def make_connection(self, host: Any) -> http.client.HTTPConnection:
-        connection = super().make_connection(host)
-        connection.timeout = _TIMEOUT
-        return connection
-
-
 class _RefusedError(Exception):
     """The server understood and says no."""
 
 
-def _call(uri: str, method: str, *arguments: object) -> Any:
-    """The value that a server of ROS answers with, which is the third of three."""
-    with xmlrpc.client.ServerProxy(uri, transport=_Transport(), allow_none=True) as server:
+def _call(until: float, uri: str, method: str, *arguments: object) -> Any:
+    """The value that a server of ROS answers with, which is the third of three. `until` is when the look ends."""
+    if urlsplit(uri).scheme != "http":
+        raise ValueError("no address of ROS")
+    transport = Transport(min(until, time.monotonic() + _TIMEOUT))
+    with xmlrpc.client.ServerProxy(uri, transport=transport, allow_none=True) as server:
         answer = getattr(server, method)(_CALLER, *arguments)
     if not isinstance(answer, list) or len(answer) != 3:
         raise ValueError("no answer of ROS")
@@ -78,11 +79,12 @@ class Ros1Observer:
         """Ask nothing more."""
         self._pool.shutdown(wait=False, cancel_futures=True)
 
-    def observe(self) -> Observation:
-        """The system as it is now. Raises `CannotObserveError`."""
+    def observe(self, within: float = math.inf) -> Observation:
+        """The system as it is now, asked for so many seconds at most. Raises `CannotObserveError`."""
+        until = time.monotonic() + min(within, _LOOK_SECONDS)
         try:
-            publishers, subscribers, services = (_side(side) for side in _call(self.uri, "getSystemState"))
-            types = {str(name): str(kind) for name, kind in _call(self.uri, "getTopicTypes")}
+            publishers, subscribers, services = (_side(side) for side in _call(until, self.uri, "getSystemState"))
+            types = {str(name): str(kind) for name, kind in _call(until, self.uri, "getTopicTypes")}
         except (*_FAILURES, _RefusedError) as error:
             raise CannotObserveError(
                 f"{self.place} does not answer: {_reason(error)}", final=_is_no_uri(self.uri)
@@ -90,28 +92,28 @@ class Ros1Observer:
         names = sorted(
             {node for side in (publishers, subscribers, services) for nodes in side.values() for node in nodes}
         )
-        nodes = dict(zip(names, self._pool.map(self._node, names), strict=True))
+        nodes = dict(zip(names, self._pool.map(partial(self._node, until), names), strict=True))
         alive = [
             name
             for name, of in services.items()
             if any(nodes[n].dead is None for n in of) and not is_builtin(1, "service", name)
         ]
-        service_types = dict(zip(alive, self._pool.map(self._service_type, alive), strict=True))
+        service_types = dict(zip(alive, self._pool.map(partial(self._service_type, until), alive), strict=True))
         ends = [
             *_ends("publisher", publishers, types),
             *_ends("subscriber", subscribers, types),
             *_ends("service", services, service_types),
         ]
-        return Observation(1, nodes, tuple(ends), self._run())
+        return Observation(1, nodes, tuple(ends), self._run(until))
 
-    def _run(self) -> str | None:
+    def _run(self, until: float) -> str | None:
         """roslaunch gives each run of a master an id."""
         try:
-            return str(_call(self.uri, "getParam", "/run_id"))
+            return str(_call(until, self.uri, "getParam", "/run_id"))
         except (*_FAILURES, _RefusedError):
             return None
 
-    def _node(self, name: str) -> LiveNode:
+    def _node(self, until: float, name: str) -> LiveNode:
         """A node that refuses the connection has ended. One whose address is not known on this machine may live."""
         reason: str | None = None
         if time.monotonic() - self._answered.get(name, -math.inf) < _ALIVE_SECONDS:
@@ -119,11 +121,11 @@ class Ros1Observer:
         for known in (self._addresses.get(name), None):
             try:
                 # A node that was started again has another address.
-                address = known or str(_call(self.uri, "lookupNode", name))
+                address = known or str(_call(until, self.uri, "lookupNode", name))
                 if known is None and address == self._addresses.get(name):
                     break
                 self._addresses[name] = address
-                _call(address, "getPid")
+                _call(until, address, "getPid")
                 self._answered[name] = time.monotonic()
                 return LiveNode(name)
             except socket.gaierror:
@@ -131,16 +133,18 @@ class Ros1Observer:
             except _RefusedError:
                 return LiveNode(name)  # it left meanwhile, or answers
             except _FAILURES as error:
+                if time.monotonic() >= until:
+                    return LiveNode(name)
                 reason = _reason(error)
         return LiveNode(name, dead=reason)
 
-    def _service_type(self, name: str) -> str | None:
+    def _service_type(self, until: float, name: str) -> str | None:
         try:
-            address = str(_call(self.uri, "lookupService", name))
+            address = str(_call(until, self.uri, "lookupService", name))
             known = self._service_types.get((name, address))
             if known is not None:
                 return known
-            found = _probe(address, name)
+            found = _probe(min(until, time.monotonic() + _TIMEOUT), address, name)
         except (*_FAILURES, _RefusedError, struct.error):
             return None
         if found is not None:
@@ -158,16 +162,16 @@ def _ends(role: Role, side: Mapping[str, Iterable[str]], types: Mapping[str, str
     return [LiveEnd(role, node, name, known.get(name)) for name, nodes in side.items() for node in nodes]
 
 
-def _probe(address: str, service: str) -> str | None:
+def _probe(until: float, address: str, service: str) -> str | None:
     """The type that a service tells to who only asks: a header each way, fields with their length before them."""
     parts = urlsplit(address)
     fields = (b"probe=1", b"md5sum=*", b"callerid=" + _CALLER.encode(), b"service=" + service.encode())
     header = b"".join(struct.pack("<I", len(each)) + each for each in fields)
-    with socket.create_connection((parts.hostname or "", parts.port or 0), timeout=_TIMEOUT) as connection:
+    with closing(BoundedSocket((parts.hostname or "", parts.port or 0), until, _MAX_HEADER)) as connection:
         connection.sendall(struct.pack("<I", len(header)) + header)
         with connection.makefile("rb") as answer:
             (size,) = struct.unpack("<I", answer.read(4))
-            data = answer.read(min(size, _MAX_HEADER))
+            data = answer.read(min(size, _MAX_HEADER - 4))
     while len(data) >= 4:
         (size,) = struct.unpack("<I", data[:4])
         name, _, value = data[4 : 4 + size].partition(b"=")
@@ -180,7 +184,7 @@ def _probe(address: str, service: str) -> str | None:
 def _is_no_uri(uri: str) -> bool:
     with contextlib.suppress(ValueError):
         parts = urlsplit(uri)
-        return parts.scheme not in ("http", "https") or not parts.hostname
+        return parts.scheme != "http" or not parts.hostname
     return True
 
 

@@ -5,6 +5,7 @@ the user asks to watch."""
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import threading
@@ -50,15 +51,17 @@ class Ros2Observer:
             process.kill()
             process.wait()
 
-    def observe(self) -> Observation:
-        """The system as it was last told. Raises `CannotObserveError`."""
+    def observe(self, within: float = math.inf) -> Observation:
+        """The system as it was last told; only the first time it is waited for. Raises `CannotObserveError`."""
         with self._starting:
             if self._closed:
                 raise CannotObserveError(f"{self.place} is not watched any more", final=True)
             if self._process is None:
                 self._start()
         with self._news:
-            self._news.wait_for(lambda: self._latest is not None or self._error is not None, _START_SECONDS)
+            self._news.wait_for(
+                lambda: self._latest is not None or self._error is not None, min(within, _START_SECONDS)
+            )
             if self._error is not None:
                 raise CannotObserveError(self._error, final=True)
             if self._latest is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -22,8 +23,8 @@ class Observer(Protocol):
     def place(self) -> str:
         """What is observed, for people."""
 
-    def observe(self) -> Observation:
-        """The system as it is now. Raises `CannotObserveError`."""
+    def observe(self, within: float = math.inf) -> Observation:
+        """The system as it is now, asked for so many seconds at most. Raises `CannotObserveError`."""
 
     def close(self) -> None:
         """Leave nothing running."""
@@ -89,10 +90,10 @@ class Watcher:
         self._run: str | None = None
         self._was_there = False
 
-    def look(self) -> list[Event]:
-        """What is new since the last look."""
+    def look(self, within: float = math.inf) -> list[Event]:
+        """What is new since the last look. It takes so many seconds at most."""
         try:
-            live = self._observer.observe()
+            live = self._observer.observe(within)
         except CannotObserveError as error:
             self._since.clear()
             return self._new(Waiting(str(error), error.final))

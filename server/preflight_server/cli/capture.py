@@ -105,7 +105,7 @@ def _captured(
     while True:
         error = None
         try:
-            seen = watched.observe()
+            seen = watched.observe(max(began + args.timeout - time.monotonic(), _POLL_SECONDS))
         except CannotObserveError as cannot:
             seen, error = None, cannot
         now = time.monotonic()

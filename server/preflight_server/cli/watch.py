@@ -70,7 +70,7 @@ def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> in
     give_up = time.monotonic() + args.timeout
     last: Event | None = None
     while True:
-        last = next(reversed(watcher.look()), last)
+        last = next(reversed(watcher.look(max(give_up - time.monotonic(), _POLL_SECONDS))), last)
         if isinstance(last, State) and last.comparison.same:
             break
         if time.monotonic() >= give_up or (isinstance(last, Waiting) and last.final):
