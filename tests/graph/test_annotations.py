@@ -1,5 +1,8 @@
 """Annotations: read from elements and comments, used where no run tells better, written from a run."""
 
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
 import pytest
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit
@@ -184,3 +187,14 @@ def test_the_template_has_one_of_each_to_fill_in() -> None:
     assert read is not None
     assert read.endpoints == ()
     assert "needs a name" in problems[0].message
+
+
+@pytest.mark.parametrize("name", ["a--b", "--", "---", "a-->b", "x\ny", "<!--", "é\x1b"])
+def test_no_name_breaks_the_comment(name: str) -> None:
+    """A node may send what it likes; the file stays well-formed, and the name is read as it was."""
+    interface = replace(NOT_RUN, source="trace", endpoints=(Endpoint("publisher", name, "std_msgs/String"),))
+    comment = annotation_text(interface)
+    ET.fromstring(f"<launch>{comment}</launch>")
+    inside = ET.fromstring(f"<launch>{comment.removeprefix('<!--').removesuffix('-->')}</launch>")
+    shown = "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)
+    assert [topic.get("name") for topic in inside.iter("topic")] == [shown]

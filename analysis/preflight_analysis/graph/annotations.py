@@ -343,5 +343,7 @@ def _one_of(words: Sequence[str]) -> str:
 
 
 def _quoted(value: str) -> str:
-    # A comment must not hold two hyphens in a row; no legal ROS name or type has one.
-    return quoteattr(value, {'"': "&quot;"})
+    # A comment of XML must not hold two hyphens in a row; a line break or another control character would end what
+    # begins with a hash, or be no XML at all. No legal name or type has any of them, but a node may send what it likes.
+    shown = "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in value)
+    return quoteattr(shown, {'"': "&quot;", "--": "-&#45;"})

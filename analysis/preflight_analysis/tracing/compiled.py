@@ -24,7 +24,7 @@ from typing import Any
 from preflight_analysis.tracing import run
 from preflight_analysis.tracing.agents.compiling import FOLDERS
 from preflight_analysis.tracing.backend import AGENTS, Agents
-from preflight_analysis.tracing.cache_folder import cache_folder
+from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 
 _log = logging.getLogger(__name__)
 
@@ -36,7 +36,7 @@ class Copies:
     """The copies in one cache folder, one an interpreter. Usable from several threads at once."""
 
     def __init__(self, folder: Path | None = None) -> None:
-        self._folder = folder or cache_folder() / "agents"
+        self._folder = folder or cache_folder("agents")
         self._lock = threading.Lock()
         self._found: dict[str, Agents] = {}
 
@@ -56,7 +56,7 @@ class Copies:
     def _copy(self, interpreter: str, visible: list[str]) -> Agents:
         place = self._folder / _digest(interpreter)
         if not place.is_dir():
-            self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            make_private(self._folder)
             with tempfile.TemporaryDirectory(dir=self._folder, prefix=".") as folder:
                 made = Path(folder, "made")
                 for name, path in _sources():

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from preflight_analysis.tracing import preload_compile
-from preflight_analysis.tracing.cache_folder import cache_folder
+from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 from preflight_analysis.tracing.preload_compile import (
     COMMON,
     FLAGS,
@@ -72,7 +72,7 @@ class Library:
     one to take, where there is such a file and it can be loaded."""
 
     def __init__(self, folder: Path | None = None, prebuilt: Path | None = None, watched: Watched = ROSCPP) -> None:
-        self._folder = folder or cache_folder() / "preload"
+        self._folder = folder or cache_folder("preload")
         self._prebuilt = prebuilt or watched.prebuilt
         self._watched = watched
         self._lock = threading.Lock()
@@ -99,6 +99,7 @@ class Library:
                 _used(plan.path)
                 return plan
             try:
+                make_private(Path(plan.path).parent)
                 compile_library(self._compiler or "", self._watched, Path(plan.path))
                 self._tidy()
             except subprocess.TimeoutExpired:
@@ -184,7 +185,7 @@ def _supported() -> bool:
 def _copy(prebuilt: Path, path: Path) -> bool:
     """Whether the prebuilt library can be loaded here; then it stands at `path`."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        make_private(path.parent)
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=".") as folder:
             made = os.path.join(folder, "made.so")
             shutil.copyfile(prebuilt, made)

@@ -21,7 +21,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from preflight_analysis.tracing.cache_folder import cache_folder
+from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 
 MAX_BYTES = 64 << 20
 VARIANTS = 32
@@ -53,7 +53,7 @@ class Store:
     """
 
     def __init__(self, name: str, schema: str, entry_bytes: int, folder: Path | None, max_bytes: int) -> None:
-        self.folder = folder or cache_folder() / name
+        self.folder = folder or cache_folder(name)
         self.max_bytes = max_bytes
         self._schema = schema
         self._entry_bytes = entry_bytes
@@ -269,6 +269,6 @@ def _temporary(folder: Path) -> tuple[int, str]:
     for _ in range(_TRIES):
         # `mkdir` says that it exists, too, where it is gone a moment later.
         with contextlib.suppress(FileNotFoundError, FileExistsError):
-            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            make_private(folder)
             return tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
     raise FileNotFoundError(folder)

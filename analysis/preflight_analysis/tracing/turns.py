@@ -10,6 +10,8 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from preflight_analysis.tracing.cache_folder import make_private
+
 _POLL = 0.05
 
 
@@ -23,7 +25,7 @@ def turn(path: Path, cancel: threading.Event, seconds: float) -> Iterator[None]:
     deadline = time.monotonic() + seconds
     held: int | None = None
     with contextlib.suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        make_private(path.parent)
         while held is None:
             try:
                 held = _locked(path)
