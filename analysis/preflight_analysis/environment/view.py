@@ -35,6 +35,8 @@ def seen_from(environment: Environment, file: str) -> Environment:
 
     Of packages of one name the one that holds the file is meant, else that of the nearest workspace, else the first.
     """
+    if not environment.shadowed:
+        return environment
     sources = tuple(_source_folders(file))
     meant: dict[str, Package] = {}
     for name, others in environment.shadowed.items():
@@ -60,7 +62,7 @@ def is_installed_ros1(package: Package, installed: tuple[str, ...], prefixes: tu
 
 
 def _nearest(packages: Sequence[Package], file: str, sources: Sequence[str]) -> Package:
-    around = (p for p in packages if file.startswith(_below((p.share,))))
+    around = (p for p in packages if file.startswith(p.share + "/"))
     beside = (p for source in sources for p in packages if p.share.startswith(source))
     return next(around, None) or next(beside, None) or packages[0]
 

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.view import of_generation
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
@@ -145,6 +146,10 @@ class CommandRunner:
         return hashlib.sha256(json.dumps(places).encode(errors="surrogatepass")).hexdigest()
 
     @functools.cached_property
+    def _of_ros2(self) -> Environment:
+        return of_generation(self.environment, 2)
+
+    @functools.cached_property
     def _visible(self) -> list[str]:
         return recipes.visible_paths(self.environment)
 
@@ -155,7 +160,7 @@ class CommandRunner:
     def _job(self, line: str) -> _Job | CommandResult:
         request = parse_request(line)
         if request is not None:
-            return self._asked(launch_files.make(self.environment, request, self.cwd), str(request["file"]))
+            return self._asked(launch_files.make(self._of_ros2, request, self.cwd), str(request["file"]))
         if (expression := expressions.parse_request(line)) is not None:
             return self._asked(evaluated.make(self.environment, expression, self.cwd))
         try:

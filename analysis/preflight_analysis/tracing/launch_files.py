@@ -18,7 +18,6 @@ from typing import Any
 from preflight_analysis.environment.ament import DISTRIBUTIONS
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.shares import installed_elsewhere, package_around
-from preflight_analysis.environment.view import of_generation
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import ros2_recipe, sandbox
 from preflight_analysis.tracing.backend import AGENTS
@@ -35,8 +34,7 @@ _START = (
 
 
 def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes.Recipe:
-    """The recipe of a request (`evaluation.ros2.python_runs.parse_request`)."""
-    environment = of_generation(environment, 2)
+    """The recipe of a request (`evaluation.ros2.python_runs.parse_request`) in an environment as ROS 2 sees it."""
     # What the file imports is what the user's ROS 2 has, and that is for its interpreter.
     python = environment.ros2_python or environment.python or sys.executable
     job = {
