@@ -166,6 +166,8 @@ async def test_a_half_typed_tag_starts_no_run(desk: Desk) -> None:
         await editor.until(ended)
         said = [value.get("message") for values in editor.runs.values() for value in values]
         assert said[-1] == "1 node", "only the talker"
+        editor.change(desk.launch_file, desk.launch_file.read_text())
+        await editor.having(desk.launch_file, "TOP001")
 
 
 READS_FIRST = """#!/usr/bin/env python3
