@@ -9,6 +9,7 @@ import ast
 import contextlib
 import os
 import re
+import time
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -20,10 +21,26 @@ _CALL = re.compile(r"^\s*catkin_python_setup\s*\(", re.MULTILINE | re.IGNORECASE
 _MADE_OF = {"msg": ".msg", "srv": ".srv", "action": ".action", "cfg": ".cfg"}
 """The folders of what modules are made of when a package is built, and the ends of the names of the files."""
 _MAX_TEXT = 200_000
+_LASTS_SECONDS = 1.0
+
+
+_last: tuple[Environment, float, tuple[str, ...]] | None = None
 
 
 def source_folders(environment: Environment) -> tuple[str, ...]:
-    """The folders of the module search path once the workspace is built, as they are in the source."""
+    """The folders of the module search path once the workspace is built, as they are in the source.
+
+    Asked for each node of a launch at each keystroke: the disk is looked at once a second.
+    """
+    global _last  # noqa: PLW0603 - a memory of one, replaced as a whole
+    known = _last
+    now = time.monotonic()
+    if known is None or known[0] is not environment or now - known[1] > _LASTS_SECONDS:
+        known = _last = environment, now, _found(environment)
+    return known[2]
+
+
+def _found(environment: Environment) -> tuple[str, ...]:
     found: dict[str, None] = {}
     for package in workspace_packages(environment):
         setup = os.path.join(package.share, "setup.py")
