@@ -116,6 +116,7 @@ def test_the_hosts_files_and_sockets_are_out_of_reach(tmp_path: Path) -> None:
 def test_secrets_of_the_environment_stay_outside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PREFLIGHT_TEST_SECRET", "hunter2")
     monkeypatch.setenv("ROS_API_TOKEN", "hunter2")
+    monkeypatch.setenv("ROS_MIRROR", "https://robot:hunter2@packages.example/ros")
     script = write_node(
         tmp_path,
         """

@@ -319,11 +319,12 @@ def test_variables_that_the_file_names_are_those_of_the_environment(desk: Python
         assert [node.name for node in tree.nodes] == [f"/{robot}_small0"]
 
 
-def test_secrets_are_not_handed_on_and_not_said_to_be_unset(desk: PythonDesk) -> None:
-    path = _described(desk, "Node(package='p', executable='x', name='n')", before="import os\nos.environ['MY_TOKEN']\n")
-    tree = desk.launch(path, variables={"MY_TOKEN": "hidden"}).tree
+@pytest.mark.parametrize(("name", "value"), [("MY_TOKEN", "hidden"), ("MIRROR", "https://me:hidden@host/path")])
+def test_secrets_are_not_handed_on_and_not_said_to_be_unset(desk: PythonDesk, name: str, value: str) -> None:
+    path = _described(desk, "Node(package='p', executable='x', name='n')", before=f"import os\nos.environ['{name}']\n")
+    tree = desk.launch(path, variables={name: value}).tree
     assert not tree.problems
-    assert "the sandbox is not told what MY_TOKEN is" in [unknown.reason for unknown in tree.unknowns]
+    assert f"the sandbox is not told what {name} is" in [unknown.reason for unknown in tree.unknowns]
 
 
 def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(desk: PythonDesk) -> None:

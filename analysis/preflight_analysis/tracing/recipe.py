@@ -185,7 +185,9 @@ def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dic
     kept = {
         name: value
         for name, value in environment.variables.items()
-        if (name in _PASSED or name.startswith(_PASSED_PREFIXES)) and name not in overridden and not is_secret(name)
+        if (name in _PASSED or name.startswith(_PASSED_PREFIXES))
+        and name not in overridden
+        and not is_secret(name, value)
     }
     kept.setdefault("PATH", _DEFAULT_PATH)
     kept.update((name, value) for name, value in extra if name and "=" not in name and "\0" not in name + value)

@@ -196,7 +196,8 @@ def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
     if _READS_ENVIRONMENT.search(text) is None:
         return {}
     names = {name for _, name in _NAMED.findall(text)}
-    return {name: environment[name] for name in sorted(names & environment.keys()) if not is_secret(name)}
+    known = {name: environment[name] for name in sorted(names & environment.keys())}
+    return {name: value for name, value in known.items() if not is_secret(name, value)}
 
 
 def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
