@@ -140,7 +140,69 @@ def test_loops_macros_and_folders(desk: Desk) -> None:
     )
     assert desk.sources(build, "first") == ["src/first.cpp", "src/common.cpp"]
     assert desk.sources(build, "inner") == ["below/inner.cpp", "src/shared.cpp"]
-    assert {t.output for t in build.targets.values()} >= {"x", "y", "windows", "linux", "included", "last"}
+    assert {t.output for t in build.targets.values()} >= {"x", "y", "linux", "included", "last"}
+    assert build.executable("windows") is None
+
+
+def places(build: Build, folder: Path) -> list[tuple[str, str, str]]:
+    return [(str(Path(i.source).relative_to(folder)), i.destination, i.name) for i in build.installed]
+
+
+def test_what_is_installed_under_conditions_and_from_included_files(desk: Desk) -> None:
+    desk.write("cmake/rules.cmake", "install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/maps DESTINATION share/demo)\n")
+    build = desk.build(
+        """
+        project(demo)
+        set(where share/${PROJECT_NAME})
+        if(WIN32)
+          set(where apps)
+        elseif(APPLE)
+          set(where Library)
+        endif()
+        include(cmake/rules.cmake)
+        if(NOT WIN32)
+          install(DIRECTORY launch/ DESTINATION ${where})
+        else()
+          return()
+        endif()
+        if(WITH_ARM AND (A OR B))
+          install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/arm DESTINATION ${CMAKE_INSTALL_DATADIR}/demo)
+        else()
+          install(FILES no_arm.yaml DESTINATION ${where})
+        endif()
+        install(PROGRAMS scripts/a.launch.py DESTINATION ${where}/launch)
+        ament_auto_package(USE_SCOPED_HEADER_INSTALL_DIR INSTALL_TO_SHARE config)
+        """
+    )
+    assert places(build, desk.folder) == [
+        ("cmake/maps", "share/demo", "maps"),
+        ("launch", "share/demo", ""),
+        ("arm", "share/demo", "arm"),
+        ("no_arm.yaml", "share/demo", "no_arm.yaml"),
+        ("scripts/a.launch.py", "share/demo/launch", "a.launch.py"),
+        ("config", "share/${PROJECT_NAME}", "config"),
+    ]
+    assert build.complete
+
+
+@pytest.mark.parametrize(
+    ("text", "complete"),
+    [
+        ("", True),
+        ("find_package(a)\nament_target_dependencies(b c)\nrosidl_generate_interfaces(d e)\ninclude(CTest)\n", True),
+        ("generate_dcf(config)\n", False),
+        (
+            "macro(generate_dcf name)\n  install(DIRECTORY ${name} DESTINATION share)\nendmacro()\ngenerate_dcf(a)\n",
+            True,
+        ),
+        ("install(DIRECTORY ${elsewhere}/launch DESTINATION share/demo)\n", False),
+        ("install(CODE x)\n", False),
+        ("include(../more.cmake)\n", False),
+    ],
+)
+def test_whether_all_that_is_installed_is_known(desk: Desk, text: str, complete: bool) -> None:
+    assert desk.build(f"project(demo)\n{text}ament_package()\n").complete == complete
+    assert not read_build(str(desk.folder / "nothing"), "demo", read).complete
 
 
 def test_scripts(desk: Desk) -> None:

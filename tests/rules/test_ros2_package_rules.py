@@ -125,6 +125,56 @@ def test_nothing_is_said_where_the_build_files_do_more_than_is_understood(worksp
     assert found == ["PKG002"], "an executable that no entry point makes"
 
 
+SHARE = "share/${PROJECT_NAME}"
+
+
+@pytest.mark.parametrize(
+    ("rules", "said"),
+    [
+        (f"install(DIRECTORY launch config DESTINATION {SHARE})", []),
+        ("ament_auto_package(INSTALL_TO_SHARE launch config)", []),
+        (
+            f"install(DIRECTORY launch/ config DESTINATION {SHARE})",
+            [
+                "'launch/arm.launch.xml' is in the source of package 'arm', but its CMakeLists.txt installs it as "
+                "'arm.launch.xml'"
+            ],
+        ),
+        (
+            f"install(DIRECTORY launch DESTINATION share)\ninstall(DIRECTORY config/ DESTINATION {SHARE}/config)",
+            [
+                "'launch/bringup.launch.xml' is not installed by the CMakeLists.txt of package 'arm': "
+                "`ros2 launch arm bringup.launch.xml` does not find it",
+                "'launch/arm.launch.xml' is in the source of package 'arm', but its CMakeLists.txt does not install it",
+            ],
+        ),
+        (
+            f"install(DIRECTORY launch DESTINATION {SHARE})",
+            ["'config/arm.yaml' is in the source of package 'arm', but its CMakeLists.txt does not install it"],
+        ),
+        (f"install(DIRECTORY launch DESTINATION {SHARE})\ngenerate_dcf(config)", []),
+    ],
+)
+def test_where_it_is_installed(tmp_path: Path, rules: str, said: list[str]) -> None:
+    folder = tmp_path / "src" / "arm"
+    files = {
+        "package.xml": manifest("arm", "ament_cmake"),
+        "CMakeLists.txt": f"project(arm)\n{rules}\nament_package()\n",
+        "config/arm.yaml": "arm:\n  ros__parameters: {a: 1}\n",
+        "launch/arm.launch.xml": "<launch/>",
+        "launch/bringup.launch.xml": """<launch>
+          <include file="$(find-pkg-share arm)/launch/arm.launch.xml"/>
+          <node pkg="arm" exec="arm" name="arm"><param from="$(find-pkg-share arm)/config/arm.yaml"/></node>
+        </launch>""",
+    }
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = workspace.static(str(folder / "launch/bringup.launch.xml"), {}).findings
+    assert [finding.message for finding in findings if finding.rule == "PKG005"] == said
+
+
 COMPONENTS = """cmake_minimum_required(VERSION 3.8)
 project(vision)
 add_library(detector SHARED src/detector.cpp)

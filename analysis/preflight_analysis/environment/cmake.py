@@ -1,7 +1,8 @@
 """What a package builds and installs, as its `CMakeLists.txt` says. CMake itself is not run.
 
-All ways of a condition count, a loop over known items is gone through, macros and functions of the file are followed.
-A variable that nothing sets is empty, as in CMake, so is one whose value only CMake would know.
+All branches of a condition count, but for those of other platforms; a loop over known items is gone through, macros and
+functions of the file are followed. A variable that nothing sets is empty, as in CMake, so is one whose value only CMake
+would know.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import fnmatch
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from preflight_analysis.environment.walk import walk
@@ -33,7 +34,29 @@ _TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _VARIABLE = re.compile(r"\$\{([^${}]*)\}")
-_ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction"}
+_ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction", "if": "endif"}
+_BRANCHES = ("else", "elseif")
+_PLATFORM = {"UNIX": True} | dict.fromkeys(("WIN32", "APPLE", "MSVC", "ANDROID", "CYGWIN", "MINGW"), False)
+"""Conditions whose value is known: what robots run on is Linux."""
+_INSTALLS_NOTHING = re.compile(
+    r"(?:ament|catkin|check|cmake|cuda|find|get|gtest|include|link|pkg|pluginlib|pybind11|python|qt[456]?"
+    r"|rclcpp|roslaunch|roslint|rosidl|set|target|test|try|xacro)_\w+"
+    r"|add_(?:compile|custom|definitions|dependencies|executable|library|link|subdirectory|test)\w*"
+    r"|generate_(?:export_header|parameter_library|parameter_module)"
+    r"|(?:autoware|nav2)_package|aux_source_directory|block|break|configure_file|continue|define_property|enable_\w+"
+    r"|endblock|endwhile|execute_process|export|file|include|install|list|mark_as_advanced|math|message|option|package"
+    r"|project|return|separate_arguments|set|string|source_group|unset|while"
+)
+"""Commands that are known to install no launch or parameter file, or are followed."""
+_FOLDERS = {
+    "CMAKE_INSTALL_PREFIX": "",
+    "CMAKE_INSTALL_BINDIR": "bin",
+    "CMAKE_INSTALL_DATADIR": "share",
+    "CMAKE_INSTALL_DATAROOTDIR": "share",
+    "CMAKE_INSTALL_INCLUDEDIR": "include",
+    "CMAKE_INSTALL_LIBDIR": "lib",
+}
+"""Variables that CMake sets, as they are in a ROS workspace; GNUInstallDirs' among them."""
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
 _NO_SOURCES = frozenset(
     "WIN32 MACOSX_BUNDLE EXCLUDE_FROM_ALL STATIC SHARED MODULE OBJECT PUBLIC PRIVATE INTERFACE".split()  # noqa: SIM905
@@ -98,6 +121,8 @@ class Build:
     """The YAML file of each library of generate_parameter_library, by the name that its header has."""
     component_programs: Mapping[str, str] = field(default_factory=dict)
     """The class of the one component that an executable is made to run, by the name of the executable."""
+    complete: bool = False
+    """Whether all that it installs is known: no command that is not known here may install more."""
 
     def executable(self, name: str) -> Target | None:
         """The target whose file has this name."""
@@ -138,9 +163,10 @@ class Build:
 def read_build(folder: str, package: str, read: Read) -> Build:
     """What the `CMakeLists.txt` of the package in `folder` says. Nothing raises; what is not understood is left out."""
     lists = _Lists(folder, read)
+    complete = False
     with contextlib.suppress(_TooLargeError):
-        lists.folder(folder, {"PROJECT_NAME": package}, 0)
-    return lists.build()
+        complete = lists.folder(folder, {**_FOLDERS, "PROJECT_NAME": package}, 0)
+    return replace(lists.build(), complete=complete and lists.complete)
 
 
 class _TooLargeError(Exception):
@@ -158,7 +184,7 @@ class _Command:
     name: str
     words: tuple[_Word, ...]
     inner: tuple[_Command, ...] = ()
-    """What stands between a `foreach`, `macro` or `function` and its end."""
+    """What stands between an `if`, `foreach`, `macro` or `function` and its end."""
 
 
 def _commands(text: str) -> tuple[_Command, ...]:
@@ -225,6 +251,8 @@ class _Lists:
         self._parameter_libraries: dict[str, str] = {}
         self._macros: dict[str, _Command] = {}
         self._left = _MAX_COMMANDS
+        self.complete = True
+        """Whether nothing was met that may install more than is known."""
 
     def build(self) -> Build:
         return Build(
@@ -239,13 +267,15 @@ class _Lists:
             self._component_programs,
         )
 
-    def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> None:
+    def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> bool:
+        """Whether there is something to read in the folder."""
         text = self._read(os.path.join(folder, LISTS)) if depth < _MAX_DEPTH else None
         if text is None:
-            return
+            return False
         here = {"CMAKE_CURRENT_SOURCE_DIR": folder, "CMAKE_CURRENT_LIST_DIR": folder}
         above = {"CMAKE_SOURCE_DIR": self._top, "PROJECT_SOURCE_DIR": self._top, **variables}
         self._block(_commands(text), {**above, **here}, depth + 1)
+        return True
 
     def _block(self, commands: Sequence[_Command], variables: dict[str, str], depth: int) -> None:
         for command in commands:
@@ -254,11 +284,29 @@ class _Lists:
                 raise _TooLargeError
             if command.name == "foreach":
                 self._foreach(command, variables, depth)
+            elif command.name == "if":
+                self._if(command, variables, depth)
             elif command.name in ("macro", "function"):
                 if command.words:
                     self._macros[_expanded(command.words[0].text, variables).lower()] = command
             else:
+                if command.name == "install" and any(map(_is_only_known_to_cmake(variables), command.words)):
+                    self.complete = False
                 self._command(command.name, _words(command.words, variables), variables, depth)
+
+    def _if(self, command: _Command, variables: dict[str, str], depth: int) -> None:
+        """All branches, unless a condition says that it is for another platform."""
+        condition, branch = command.words, []
+        for each in (*command.inner, None):
+            if each is not None and each.name not in _BRANCHES:
+                branch.append(each)
+                continue
+            known = _known(condition)
+            if known is not False:
+                self._block(branch, variables, depth + 1)
+            if known or each is None:
+                break
+            condition, branch = each.words if each.name == "elseif" else (), []
 
     def _foreach(self, command: _Command, variables: dict[str, str], depth: int) -> None:
         words = _words(command.words, variables)
@@ -322,7 +370,10 @@ class _Lists:
                 self._install(rest, folder, relayed=name == "catkin_install_python")
             case "install", [("DIRECTORY" | "FILES") as kind, *rest] if "DESTINATION" in rest[:-1]:
                 self._data(rest, folder, whole=kind == "DIRECTORY")
-            case "package", ["INSTALL_TO_SHARE", *folders]:  # ament_auto_package
+            case "install", ["TARGETS" | "EXPORT", *_]:
+                pass
+            case "package", [*_] if "INSTALL_TO_SHARE" in words:  # ament_auto_package
+                folders = words[words.index("INSTALL_TO_SHARE") + 1 :]
                 self._data([*folders, "DESTINATION", "share/${PROJECT_NAME}"], folder, whole=True)
             case "rclcpp_components_register_node", [target, *rest] if "PLUGIN" in rest[:-1]:
                 self._component(target, rest)
@@ -332,13 +383,21 @@ class _Lists:
                 self._parameter_libraries[library] = os.path.normpath(os.path.join(folder, file))
             case "add_subdirectory", [below, *_]:
                 self.folder(os.path.normpath(os.path.join(folder, below)), variables, depth)
-            case "include", [file, *_] if file.endswith(".cmake") and depth < _MAX_DEPTH:
-                path = os.path.normpath(os.path.join(folder, file))
-                text = self._read(path) if path.startswith(self._top + os.sep) else None
-                if text is not None:
-                    self._block(_commands(text), variables, depth + 1)
+            case "include", [file, *_] if file.endswith(".cmake"):
+                self._include(os.path.normpath(os.path.join(folder, file)), variables, depth)
             case _:
-                pass
+                if name == "install" or not _INSTALLS_NOTHING.fullmatch(name):
+                    self.complete = False
+
+    def _include(self, path: str, variables: dict[str, str], depth: int) -> None:
+        text = self._read(path) if path.startswith(self._top + os.sep) and depth < _MAX_DEPTH else None
+        if text is None:
+            self.complete = False
+            return
+        before = variables["CMAKE_CURRENT_LIST_DIR"]
+        variables["CMAKE_CURRENT_LIST_DIR"] = os.path.dirname(path)
+        self._block(_commands(text), variables, depth + 1)
+        variables["CMAKE_CURRENT_LIST_DIR"] = before
 
     def _called(self, macro: _Command, words: list[str], variables: dict[str, str], depth: int) -> None:
         if depth >= _MAX_DEPTH:
@@ -391,9 +450,24 @@ class _Lists:
         end = next((index for index, word in enumerate(words) if word in _PLACES), len(words))
         files, rest = words[:end], list(words[end:])
         renamed = rest[rest.index("RENAME") + 1] if "RENAME" in rest[:-1] else None
+        if "DESTINATION" in rest[:-1]:  # launch files that are programs are installed like others
+            self._data(words, folder, whole=False)
         for file in files:
             path = os.path.normpath(os.path.join(folder, file))
             self._programs.setdefault(renamed or os.path.basename(path), Program(path, relayed))
+
+
+def _known(condition: Sequence[_Word]) -> bool | None:
+    """Whether a condition holds; None where that depends on more than the platform. Without one it is an `else`."""
+    words = [word.text for word in condition]
+    negated = words[:1] == ["NOT"]
+    if not words or len(words) != 1 + negated or words[-1] not in _PLATFORM:
+        return None
+    return _PLATFORM[words[-1]] is not negated
+
+
+def _is_only_known_to_cmake(variables: Mapping[str, str]) -> Callable[[_Word], bool]:
+    return lambda word: any(name not in variables for name in _VARIABLE.findall(word.text))
 
 
 def _stem(path: str) -> str:

@@ -68,11 +68,15 @@ def installed_from(package: Package, below: str) -> str | None:
         return python_build(package).data.get(below)
     for where, source in _installed_by_cmake(package):
         if where == ".":
-            return os.path.join(source, below)
-        if below == where:
-            return source
-        if below.startswith(where + os.sep):
-            return os.path.join(source, os.path.relpath(below, where))
+            path = os.path.join(source, below)
+        elif below.startswith(where + os.sep):
+            path = os.path.join(source, os.path.relpath(below, where))
+        elif below == where:
+            path = source
+        else:
+            continue
+        if os.path.exists(path):
+            return path
     return None
 
 
@@ -88,23 +92,31 @@ def installed_elsewhere(package: Package) -> list[tuple[str, str]]:
 
 
 def _installed_by_cmake(package: Package) -> Iterator[tuple[str, str]]:
+    """What is installed below the package's share folder: where there, and the file or folder of the source."""
     share = f"share/{package.name}"
     for item in cmake_build(package).installed:
-        destination = item.destination.replace("${PROJECT_NAME}", package.name)
+        destination = os.path.normpath(item.destination.replace("${PROJECT_NAME}", package.name)).lstrip("/")
         if destination == share or destination.startswith(share + "/"):
             yield os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name)), item.source
 
 
-def is_installed(package: Package, path: str) -> bool | None:
-    """Whether a file of a package's source gets to its share folder; None where that is not known."""
+def installed_at(package: Package, path: str) -> tuple[str, ...] | None:
+    """Where in the share folder of its package a file of the source gets to when it is installed; None where it may get
+    to other places too, as the build files do more than is understood."""
     path = os.path.normpath(path)
     if package.build_type == "ament_python":
         build = python_build(package)
-        return path in build.data.values() if build.complete and build.data else None
-    if package.build_type == "ament_cmake":
-        installed = [os.path.normpath(item.source) for item in cmake_build(package).installed]
-        return any(path == source or path.startswith(source + os.sep) for source in installed) if installed else None
-    return None
+        places = tuple(below for below, source in build.data.items() if source == path)
+        return places if build.complete and build.data else None
+    if package.build_type != "ament_cmake" or not cmake_build(package).complete:
+        return None
+    found = []
+    for where, source in _installed_by_cmake(package):
+        if path == source:
+            found.append(where)
+        elif path.startswith(source + os.sep):
+            found.append(os.path.normpath(os.path.join(where, os.path.relpath(path, source))))
+    return tuple(found)
 
 
 def python_build(package: Package) -> PythonBuild:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.environment.model import Package
-from preflight_analysis.environment.shares import is_installed, package_around
+from preflight_analysis.environment.shares import installed_at, installed_from, package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -17,19 +17,54 @@ _IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPack
 _END = re.compile(r"^[ \t]*ament_package\s*\(", re.MULTILINE)
 
 
+_LAUNCH = "launch"
+
+
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    named: set[str] = set()
     for use in context.tree.uses:
-        if use.kind not in ("include", "file") or use.target is None:
+        if use.kind not in ("include", "file") or use.target is None or not _by_share(context, use.location):
             continue
-        path = use.target.file
-        package = package_around(context.environment, path)
-        if package is None or package.generation != 2 or not _by_share(context, use.location):
+        # What stands at the place in the source is taken for what is there once it is installed.
+        path = os.path.normpath(use.name)
+        package = _package_of(context, path)
+        if package is None:
             continue
-        if path.startswith(package.share + os.sep) and os.path.isfile(path) and is_installed(package, path) is False:
-            below = os.path.relpath(path, package.share)
-            by = "setup.py" if package.build_type == "ament_python" else "CMakeLists.txt"
-            message = f"'{below}' is in the source of package '{package.name}', but its {by} does not install it"
-            yield rule.finding(message, use.location, fixes=_fixes(context, package, below))
+        named.add(path)
+        below, places = os.path.relpath(path, package.share), installed_at(package, path)
+        if places is None or below in places or installed_from(package, below) is not None:
+            continue
+        message = f"'{below}' is in the source of package '{package.name}', but its {_build_file(package)} "
+        if places:
+            yield rule.finding(f"{message}installs it as '{places[0]}'", use.location)
+        else:
+            fixes = _fixes(context, package, below)
+            yield rule.finding(f"{message}does not install it", use.location, fixes=fixes)
+    for path, launch_file in context.launch_files.items():
+        package = _package_of(context, path) if path not in named and launch_file.root is not None else None
+        if package is None or launch_file.root is None:
+            continue
+        below = os.path.relpath(path, package.share)
+        if below.startswith(_LAUNCH + os.sep) and installed_at(package, path) == ():
+            yield rule.finding(
+                f"'{below}' is not installed by the {_build_file(package)} of package '{package.name}': "
+                f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",
+                Location(path, launch_file.root.head_span),
+                confidence="likely",
+                fixes=_fixes(context, package, below),
+            )
+
+
+def _package_of(context: Context, path: str) -> Package | None:
+    """The package of ROS 2 in whose source the file is."""
+    package = package_around(context.environment, path)
+    if package is None or package.generation != 2 or not path.startswith(package.share + os.sep):
+        return None
+    return package if os.path.isfile(path) else None
+
+
+def _build_file(package: Package) -> str:
+    return "setup.py" if package.build_type == "ament_python" else "CMakeLists.txt"
 
 
 def _by_share(context: Context, location: Location) -> bool:
@@ -94,7 +129,8 @@ RULE = Rule(
     name="not-installed",
     severity="warning",
     what="Reports a launch or parameter file that is named by the share folder of a package, is in the package's "
-    "source, and is not installed by its `setup.py` or `CMakeLists.txt` (ROS 2).",
+    "source, and is not installed by its `setup.py` or `CMakeLists.txt`, or in another folder than that (ROS 2). A "
+    "launch file in the folder `launch` that is not installed below the share folder at all is reported, too.",
     why="`ros2 launch` looks in the share folder of the installed package, where the file will not be.",
     example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
     "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",
