@@ -239,3 +239,26 @@ def test_launch_files_of_installed_packages_are_not_judged_by_their_manifests(wo
     assert str(included) in analysis.tree.files
     places = [f.location.file for f in analysis.findings if f.rule == "PKG004"]
     assert places == [str(root)], "robot's own package.xml does not name nav"
+
+
+def test_a_package_that_a_python_launch_file_finds_by_a_function(workspace: Path) -> None:
+    (workspace / "src/camera/launch").mkdir(parents=True)
+    (workspace / "src/camera/package.xml").write_text("<package><name>camera</name></package>")
+    root = workspace / "src/robot/launch/all.launch.py"
+    text = """
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.substitutions import PathJoinSubstitution
+
+def generate_launch_description():
+    path = PathJoinSubstitution([get_package_share_directory("camera"), "launch", "camera.launch.py"])
+    own = PathJoinSubstitution([get_package_share_directory("robot"), get_package_share_directory("arm")])
+    return LaunchDescription([IncludeLaunchDescription(path), IncludeLaunchDescription(own)])
+"""
+    root.write_text(text)
+    environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
+    findings = Workspace(environment, Sources()).static(str(root)).findings
+    (found,) = (finding for finding in findings if finding.rule == "PKG004")
+    assert "'camera'" in found.message
+    assert text[found.location.span.start : found.location.span.end] == "camera"

@@ -10,7 +10,7 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.shares import package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
-from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.model import LaunchFile, Substitution
 from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -57,11 +57,18 @@ def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
             if attribute.name == "pkg" and action.kind.lower() in _OF_A_PACKAGE and value.is_literal:
                 found.setdefault(value.text, value.span)
             for part in value.substitutions:
-                name = part.arguments.split()[-1:] if part.command in _FINDS else []
-                if name and "$" not in name[0]:
-                    start = part.arguments_span.start + part.arguments.rindex(name[0])
-                    found.setdefault(name[0].strip("'\""), Span(start, start + len(name[0])))
+                _found(part, found)
+    # What a function of Python gives, such as get_package_share_directory, is a plain text in the actions.
+    for part in launch_file.named or ():
+        _found(part, found)
     return found
+
+
+def _found(part: Substitution, found: dict[str, Span]) -> None:
+    name = part.arguments.split()[-1:] if part.command in _FINDS else []
+    if name and "$" not in name[0]:
+        start = part.arguments_span.start + part.arguments.rindex(name[0])
+        found.setdefault(name[0].strip("'\""), Span(start, start + len(name[0])))
 
 
 def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
