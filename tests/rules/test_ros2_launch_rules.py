@@ -133,6 +133,23 @@ def test_a_lifecycle_node_that_nobody_activates() -> None:
     """)
 
 
+def test_a_manager_of_components_has_no_lifecycle() -> None:
+    """`LifecycleNode` starts whatever is given to it."""
+    check("""
+        //- /bus.launch.xml
+        <launch>
+          <lifecycle_node pkg="p" exec="container" name="container" namespace=""/>
+          <lifecycle_node pkg="p" exec="plain" name="plain" namespace=""/>
+          <lifecycle_node pkg="p" exec="unknown" name="unknown" namespace=""/>
+                                        ^^^^^^^ info[LCH035] /unknown is a lifecycle node
+          <node pkg="p" exec="other" name="other"/>
+        </launch>
+        //- interfaces
+        {"/container": {"services": {"~/_container/load_node": "composition_interfaces/srv/LoadNode"}},
+         "/plain": {"services": {"/reset": "std_srvs/srv/Empty"}}}
+    """)
+
+
 def test_a_lifecycle_manager_that_has_another_name() -> None:
     check("""
         //- /map.launch.xml

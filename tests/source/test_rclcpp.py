@@ -572,6 +572,45 @@ def test_parameters_that_are_declared_from_overrides_have_their_type(desk: Desk,
     assert "list" in {use.access for use in found.params}
 
 
+def test_a_container_of_its_own_whose_constructor_stands_in_a_header(desk: Desk) -> None:
+    desk.write(
+        "include/p/container.hpp",
+        """
+        #include <rclcpp_components/component_manager.hpp>
+        namespace can {
+        class Container : public rclcpp_components::ComponentManager {
+        public:
+          Container(
+            std::weak_ptr<rclcpp::Executor> executor = std::weak_ptr<rclcpp::executors::MultiThreadedExecutor>(),
+            std::string node_name = "container", const rclcpp::NodeOptions & options = rclcpp::NodeOptions())
+          : rclcpp_components::ComponentManager(executor, node_name, options)
+          {
+            this->declare_parameter<std::string>("bus_config", "");
+          }
+        };
+        }
+        """,
+    )
+    found = desk.read(
+        """
+        #include "p/container.hpp"
+        int main(int argc, char ** argv) {
+          rclcpp::init(argc, argv);
+          auto executor = std::make_shared<rclcpp::executors::MultiThreadedExecutor>();
+          auto container = std::make_shared<can::Container>(executor);
+          executor->add_node(container);
+          executor->spin();
+        }
+        """
+    )
+    assert [use.name for use in found.params] == ["~bus_config"]
+    assert [end.name for end in found.endpoints] == [
+        "~/_container/load_node",
+        "~/_container/unload_node",
+        "~/_container/list_nodes",
+    ]
+
+
 def test_parameters_of_a_node_with_unknown_arguments_may_be_those_of_the_launch_file(tmp_path: Path) -> None:
     body = """
     class Own : public rclcpp::Node {

@@ -31,6 +31,7 @@ _KNOWN = frozenset(
 _MAX_TYPOS = 20
 """So many names are not all misspelt; to compare each with each node would take long."""
 _CHANGE = "lifecycle_msgs/srv/ChangeState"
+_LOAD = "composition_interfaces/srv/LoadNode"
 _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine", "function", "timer"})
 
 
@@ -62,7 +63,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 confidence="likely" if context.tree.complete else "possible",
                 related=(Related(f"{manager.name}", node_location(manager)), *include_chain(param.origin)),
             )
-    waiting = [node for node in nodes if _waits(node) and node.name not in managed and node.name not in meant]
+    settled = managed.keys() | meant | _without_lifecycle(context)
+    waiting = [node for node in nodes if _waits(node) and node.name not in settled]
     if not waiting or not listed or _others_may_act(context):
         return
     # A launch of such a node alone is for somebody who activates it by hand.
@@ -86,6 +88,18 @@ def _waits(node: LaunchNode) -> bool:
     if (autostart is not None and autostart.text.lower() not in ("false", "0")) or "autostart" in node.args:
         return False
     return not any(param.name in ("autostart_node", "autostart") and param.value for param in node.params)
+
+
+def _without_lifecycle(context: Context) -> set[str]:
+    """Nodes that are known not to have one, though a `LifecycleNode` of the launch file starts them: nobody can ask for
+    another state, or they are managers of components, and what has a lifecycle is another node of theirs."""
+    graph, found = context.graph, set()
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
+        types = {end.type for end in interface.endpoints}
+        known = interface.seen_through or interface.source == "source"
+        if (known and types and _CHANGE not in types) or _LOAD in types:
+            found.add(node.name)
+    return found
 
 
 def _others_may_act(context: Context) -> bool:

@@ -52,8 +52,10 @@ LIBRARIES = frozenset(
 )
 """The packages whose calls are known here."""
 
+_CONTAINER = "rclcpp_components::ComponentManager"
 _NODES: Mapping[str, bool] = {
     "rclcpp::Node": False,
+    _CONTAINER: False,
     "rclcpp_lifecycle::LifecycleNode": True,
     "nav2_util::LifecycleNode": True,
     "nav2::LifecycleNode": True,
@@ -73,6 +75,11 @@ _LIFECYCLE = (
     ("~/get_transition_graph", "lifecycle_msgs/srv/GetAvailableTransitions"),
 )
 """The services that every node with a lifecycle offers."""
+_LOADING = tuple(
+    (f"~/_container/{name}", f"composition_interfaces/srv/{type_}")
+    for name, type_ in (("load_node", "LoadNode"), ("unload_node", "UnloadNode"), ("list_nodes", "ListNodes"))
+)
+"""The services that every container of components offers."""
 _TF = "tf2_msgs/msg/TFMessage"
 _LISTENS: tuple[tuple[Role, str, str], ...] = (("subscriber", "/tf", _TF), ("subscriber", "/tf_static", _TF))
 _FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
@@ -295,7 +302,10 @@ class RclcppCalls:
         name = _qualified(type_)
         given = values(args)
         if name in _NODES:
-            return self._new_node(given, place, has_lifecycle=_NODES[name])
+            node = self._new_node(given, place, has_lifecycle=_NODES[name])
+            if name == _CONTAINER:
+                self._services(_LOADING, node, place)
+            return node
         if (qos := rclcpp_qos.make(name, given)) is not None:
             return qos
         if (message := _message(name)) is not None:
@@ -335,13 +345,18 @@ class RclcppCalls:
         node = replace(node, from_overrides=options.from_overrides)
         if not self._is_aside:
             self._make_node(given, options, node)
-        for service, kind in _LIFECYCLE if has_lifecycle and not self._is_aside else ():
-            self.found.end(
-                Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
-            )
+        if has_lifecycle:
+            self._services(_LIFECYCLE, node, place)
         if options.takes_all:
             self._any_parameter(place)
         return node
+
+    def _services(self, services: Sequence[tuple[str, str]], node: NodeObject, place: Place) -> None:
+        """The services that a node of the class has by itself."""
+        for service, kind in services if not self._is_aside else ():
+            self.found.end(
+                Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
+            )
 
     def _make_node(self, given: Sequence[Any], options: _Options, node: NodeObject) -> None:
         if node.full is not None:
