@@ -319,6 +319,27 @@ def test_parameters_of_the_launch_and_defaults_give_names(desk: Desk) -> None:
     assert desk.topics(body, inner=inner) == [*(f"/{name}_given" for name in "abcdef"), "/extra"]
 
 
+def test_a_default_has_the_type_of_the_template_argument(desk: Desk) -> None:
+    found = desk.read(
+        """
+        int main(int argc, char** argv) {
+          ros::init(argc, argv, "t");
+          ros::NodeHandle pnh("~");
+          std::string group = pnh.param<std::string>("group", {});
+          double speed = pnh.param<double>("speed", 1);
+          bool on = pnh.param<bool>("on", {});
+          int count = ros::param::param<int>("~count", {});
+          auto names = pnh.param<std::vector<std::string>>("names", {});
+          ros::spin();
+        }
+        """
+    )
+    assert found is not None
+    defaults = {use.name: use.default for use in found.params}
+    assert defaults == {"~group": "", "~speed": 1.0, "~on": False, "~count": 0, "~names": []}
+    assert [type(value) for value in defaults.values()] == [str, float, bool, int, list]
+
+
 def test_uses_of_parameters(desk: Desk) -> None:
     found = desk.read(
         """

@@ -549,6 +549,11 @@ def test_descriptors_of_parameters(desk: Desk) -> None:
     }
 
 
+def test_an_empty_default_has_the_type_of_the_template_argument(desk: Desk) -> None:
+    found = desk.main('node->declare_parameter<std::string>("a", {}); node->declare_parameter<double>("b", {});')
+    assert {use.name: use.default for use in found.params} == {"~a": "", "~b": 0.0}
+
+
 @pytest.mark.parametrize(
     ("option", "dynamic"),
     [("automatically_declare_parameters_from_overrides", True), ("allow_undeclared_parameters", False)],

@@ -30,6 +30,16 @@ def converted(value: Any, type_: CppType | None) -> Any:
     return int(value) if isinstance(value, float) and name in _WHOLE and abs(value) < _LARGEST else value
 
 
+def initialized(value: Any, type_: CppType | None) -> Any:
+    """What an argument of that type is, if `value` is given for it: `{}` is an empty text, or zero, or false."""
+    if value != [] or type_ is None:
+        return converted(value, type_)
+    name = type_.name.removeprefix("std::")
+    if name in ("string", "bool"):
+        return "" if name == "string" else False
+    return converted(0, type_) if name in _WHOLE or name in ("double", "float") else value
+
+
 def binary(operator: str, left: Any, right: Any) -> Any:
     """`left operator right`; `&&` and `||` are not among them."""
     if operator == "<<" and isinstance(left, Stream):

@@ -10,7 +10,7 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source import rclcpp_qos
-from preflight_analysis.source.cpp_operators import converted
+from preflight_analysis.source.cpp_operators import converted, initialized
 from preflight_analysis.source.cpp_text import ClassText, FileText
 from preflight_analysis.source.cpp_values import (
     Argument,
@@ -787,7 +787,7 @@ def _parameter(argument: Argument, type_: CppType | None) -> _Parameter:
         return _Parameter(value, not (whole and argument.reference is not None))
     if isinstance(value, list) and type_.args:
         return _Parameter([converted(each, type_.args[0]) for each in value])
-    return _Parameter(converted(value, type_))
+    return _Parameter(initialized(value, type_))
 
 
 def _is_options(value: Any) -> bool:

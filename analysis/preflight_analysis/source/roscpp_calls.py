@@ -9,6 +9,7 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.config_params import Config
+from preflight_analysis.source.cpp_operators import initialized
 from preflight_analysis.source.cpp_values import (
     Argument,
     CppType,
@@ -348,7 +349,7 @@ class RoscppCalls:
                 self._end("client", first, self._message(types), place)
                 return UNKNOWN
         if space == "ros::param" and leaf in _FREE_PARAMS:
-            return self._param_call(_PARAMS[leaf], Handle(""), leaf == "param", args, place, store)
+            return self._param_call(_PARAMS[leaf], Handle(""), leaf == "param", types, args, place, store)
         if space in ("ros::AdvertiseOptions", "ros::SubscribeOptions", "ros::AdvertiseServiceOptions"):
             return _Options(first, self._message(types))
         known = name in _FIXED or name in _AT_HANDLE or name in _ACTIONS or name == _HANDLE
@@ -426,7 +427,7 @@ class RoscppCalls:
             case "resolveName":
                 return self._resolved(topic)
             case _ if name in _PARAMS and name not in ("get", "has", "set", "search", "del", "getCached"):
-                return self._param_call(_PARAMS[name], handle, name == "param", args, place, store)
+                return self._param_call(_PARAMS[name], handle, name == "param", types, args, place, store)
         return Unmade(CppType("ros::Publisher")) if name == "advertise" else UNKNOWN
 
     def _of_made(self, owner: _Made, name: str, args: Sequence[Argument], place: Place) -> Any:
@@ -460,7 +461,14 @@ class RoscppCalls:
     # Parameters.
 
     def _param_call(
-        self, access: str, handle: Handle, has_default: bool, args: Sequence[Argument], place: Place, store: Store
+        self,
+        access: str,
+        handle: Handle,
+        has_default: bool,
+        types: Sequence[CppType],
+        args: Sequence[Argument],
+        place: Place,
+        store: Store,
     ) -> Any:
         name = handle.name(value_at(args, 0))
         if access == "search":
@@ -469,6 +477,7 @@ class RoscppCalls:
             return self._param(access, name, UNKNOWN, False, place)
         into = args[1] if len(args) > (2 if has_default else 1) else None
         default = value_at(args, len(args) - 1) if has_default and len(args) > 1 else UNKNOWN
+        default = initialized(default, types[0] if types else None)
         found = self._param("get", name, default, has_default, place)
         if into is None:
             return found
