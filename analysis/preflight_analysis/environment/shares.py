@@ -100,16 +100,19 @@ def _installed_by_cmake(package: Package) -> Iterator[tuple[str, str]]:
             yield os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name)), item.source
 
 
-def installed_at(package: Package, path: str) -> tuple[str, ...] | None:
-    """Where in the share folder of its package a file of the source gets to when it is installed; None where it may get
-    to other places too, as the build files do more than is understood."""
-    path = os.path.normpath(path)
+def installs_more(package: Package) -> bool:
+    """Whether the package may install files that are not known: its build files do more than is understood."""
     if package.build_type == "ament_python":
         build = python_build(package)
-        places = tuple(below for below, source in build.data.items() if source == path)
-        return places if build.complete and build.data else None
-    if package.build_type != "ament_cmake" or not cmake_build(package).complete:
-        return None
+        return not (build.complete and build.data)
+    return package.build_type != "ament_cmake" or not cmake_build(package).complete
+
+
+def installed_at(package: Package, path: str) -> tuple[str, ...]:
+    """Where in the share folder of its package a file of the source is installed, as far as is known."""
+    path = os.path.normpath(path)
+    if package.build_type == "ament_python":
+        return tuple(below for below, source in python_build(package).data.items() if source == path)
     found = []
     for where, source in _installed_by_cmake(package):
         if path == source:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.environment.model import Package
-from preflight_analysis.environment.shares import installed_at, installed_from, package_around
+from preflight_analysis.environment.shares import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -32,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         named.add(path)
         below, places = os.path.relpath(path, package.share), installed_at(package, path)
-        if places is None or below in places or installed_from(package, below) is not None:
+        if below in places or installed_from(package, below) is not None or installs_more(package):
             continue
         message = f"'{below}' is in the source of package '{package.name}', but its {_build_file(package)} "
         if places:
@@ -45,7 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if package is None or launch_file.root is None:
             continue
         below = os.path.relpath(path, package.share)
-        if below.startswith(_LAUNCH + os.sep) and installed_at(package, path) == ():
+        if below.startswith(_LAUNCH + os.sep) and not installed_at(package, path) and not installs_more(package):
             yield rule.finding(
                 f"'{below}' is not installed by the {_build_file(package)} of package '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",

@@ -10,7 +10,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
-from preflight_analysis.environment.shares import is_installed, package_around
+from preflight_analysis.environment.shares import installed_at, package_around
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
@@ -198,7 +198,7 @@ def _launch_files(folder: str, workspace: Workspace) -> list[str]:
 def _is_shared(workspace: Workspace, path: str) -> bool:
     """Whether a package installs the file beside its other files, and not as one of its modules or programs."""
     package = package_around(workspace.environment, path)
-    return package is not None and is_installed(package, path) is True
+    return package is not None and bool(installed_at(package, path))
 
 
 def _makes_launch_description(path: str, sources: Sources) -> bool:
