@@ -95,4 +95,4 @@ class RclDesk:
         """What the node does with these arguments."""
         graph = self.check(f"<node pkg='cpkg' exec='node' args='{args}' {attributes}>{inside}</node>").graph
         assert graph is not None
-        return graph.interfaces[0]
+        return graph.processes[0]

@@ -93,7 +93,7 @@ class Ros2Desk:
         """What one node does, with this in its tag."""
         graph = self.check(f"<node pkg='pkg' exec='{module}' {attributes}>{inside}</node>").graph
         assert graph is not None
-        return graph.interfaces[0]
+        return graph.processes[0]
 
 
 def ends(interface: Interface) -> dict[tuple[str, str], Endpoint]:

@@ -152,6 +152,8 @@ class LaunchNode(NamedTuple):
     """ROS 2: the parameters that it gets, each from the last source that has it. Those of ROS 1 are the tree's."""
     param_sources: tuple[ParamSource, ...] = ()
     """ROS 2: in the order in which they apply."""
+    within: str | None = None
+    """ROS 2, in a graph: the name of the launch file's node in whose process this one is made beside that."""
     deferred: bool = False
     """Whether it is not started at once, but after a timer or an event."""
 

@@ -7,11 +7,14 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.remaps import source_for
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.graph.actions import ActionEnd, actions_of, moves_actions
 from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
+from preflight_analysis.graph.processes import each_node
 from preflight_analysis.tracing.interface import Endpoint, Interface
 
 _OFFERS = ("publisher", "service", "action_server")
@@ -20,7 +23,11 @@ _SERVICE_ROLES = ("service", "client")
 
 
 def build_graph(
-    tree: LaunchTree, interfaces: Sequence[Interface], external_topics: Sequence[str] = (), distro: str | None = None
+    tree: LaunchTree,
+    interfaces: Sequence[Interface],
+    external_topics: Sequence[str] = (),
+    distro: str | None = None,
+    documents: Mapping[str, Document] | None = None,
 ) -> Graph:
     """Who talks to whom after the launch of `tree`, given what each of its nodes does.
 
@@ -28,11 +35,13 @@ def build_graph(
     Where a trace is missing or failed, what the launch file annotates is added to what was seen.
 
     `external_topics` are patterns of the topics that something outside of the launch offers or wants. `distro` is the
-    distribution of ROS, whose client libraries differ in what a remap moves.
+    distribution of ROS, whose client libraries differ in what a remap moves. `documents` are the texts of parameter
+    files, which may have something for other nodes of a process than the launch file's.
 
     Raises `ValueError` if the lengths differ.
     """
-    merged = tuple(annotated(interface, node.action) for node, interface in zip(tree.nodes, interfaces, strict=True))
+    processes = tuple(annotated(interface, node.action) for node, interface in zip(tree.nodes, interfaces, strict=True))
+    tree, merged = each_node(tree, processes, documents or {})
     topics: list[Connection] = []
     services: list[Connection] = []
     actions: list[Connection] = []
@@ -58,6 +67,7 @@ def build_graph(
     return Graph(
         tree,
         merged,
+        processes,
         _channels(topics, external_topics),
         _channels(_named(services)),
         _channels(actions),
@@ -70,9 +80,12 @@ def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap
     """Resolved source to the remap and its resolved target; of two for one name the later wins in ROS 1, the first one
     in ROS 2, as in the clients."""
     ordered = node.remaps if generation == 1 else reversed(node.remaps)
-    return {
-        names.resolve(remap.source, node.name): (remap, names.resolve(remap.target, node.name)) for remap in ordered
-    }
+    found = {}
+    for remap in ordered:
+        source = remap.source if generation == 1 else source_for(remap, node.name)
+        if source is not None:
+            found[names.resolve(source, node.name)] = remap, names.resolve(remap.target, node.name)
+    return found
 
 
 def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Remap, str]]) -> Connection:

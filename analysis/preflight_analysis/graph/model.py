@@ -52,10 +52,14 @@ class ParamRead:
 
 @dataclass(frozen=True)
 class Graph:
-    """`interfaces` has an entry for each node of the tree by its position in `tree.nodes` (names may clash)."""
+    """`interfaces` has an entry for each node of the tree by its position in `tree.nodes` (names may clash). In ROS 2
+    the tree has all nodes that a process was seen to make, each as if the launch file had it.
+    """
 
     tree: LaunchTree
     interfaces: tuple[Interface, ...]
+    processes: tuple[Interface, ...]
+    """What the nodes of the launch file do with all that is in their processes, in the order of the launch's tree."""
     topics: Mapping[str, Channel]
     services: Mapping[str, Channel]
     actions: Mapping[str, Channel]

@@ -58,7 +58,7 @@ def annotating(analysis: Analysis, file: str, offset: int) -> Iterator[Rewrite]:
     if not nodes:
         return
     node = nodes[0][1]
-    interfaces = analysis.graph.interfaces if analysis.graph is not None else None
+    interfaces = analysis.graph.processes if analysis.graph is not None else None
     if interfaces is not None:
         for index, each in nodes:
             known = interfaces[index]

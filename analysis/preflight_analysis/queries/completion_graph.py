@@ -142,7 +142,7 @@ def _interfaces(analysis: Analysis, graph: Graph, file: str, scope: Element) -> 
     package, executable = scope.get("pkg"), scope.get("exec") or scope.get("type") or scope.get("plugin")
     same = (package.value.text, executable.value.text) if package is not None and executable is not None else None
     others: list[tuple[LaunchNode, Interface]] = []
-    for node, interface in zip(analysis.tree.nodes, graph.interfaces, strict=True):
+    for node, interface in zip(analysis.tree.nodes, graph.processes, strict=True):
         if any(s.file == file and scope.span.start <= s.span.start < scope.span.end for s in node.origin):
             yield node, interface
         elif (node.package, node.executable) == same:

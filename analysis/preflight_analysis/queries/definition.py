@@ -64,8 +64,8 @@ def _targets_of_param(scene: Scene, offset: int) -> tuple[Target, ...]:
     """From the name of a ROS 2 node's parameter to where its source declares it."""
     found: dict[Target, None] = {}
     for analysis in scene.analyses:
-        interfaces = analysis.graph.interfaces if analysis.graph is not None else ()
-        for node, interface in zip(analysis.tree.nodes, interfaces, strict=False):
+        graph = analysis.graph
+        for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
             for param in node.params:
                 place = param.name_location
                 if place is None or place.file != scene.path or not place.span.contains(offset):

@@ -279,7 +279,7 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
     if len(node.origin) > 1:
         lines += ["", _chain(analysis, node.origin)]
     graph = analysis.graph
-    interface = graph.interfaces[index] if graph is not None else None
+    interface = graph.processes[index] if graph is not None else None
     lines += ["", _outcome(analysis, interface)]
     if interface is not None and graph is not None and interface.known:
         for title, channels, side in _SIDES:
@@ -287,7 +287,7 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
                 c
                 for channel in getattr(graph, channels).values()
                 for c in getattr(channel, side)
-                if c.node is node and not c.endpoint.builtin and c.action is None
+                if c.node.origin is node.origin and not c.endpoint.builtin and c.action is None
             ]
             if ends:
                 lines += ["", title, *(_connection(c, interface) for c in sorted(ends, key=lambda c: c.name))]

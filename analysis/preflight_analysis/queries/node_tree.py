@@ -62,7 +62,7 @@ def node_tree(analysis: Analysis, findings: Mapping[str, Sequence[Finding]]) -> 
     by_owner = _params(tree)
     marks = _Marks(findings)
     graph = analysis.graph
-    interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else [None] * len(tree.nodes)
+    interfaces: Sequence[Interface | None] = graph.processes if graph is not None else [None] * len(tree.nodes)
     top = _Namespace()
     for node, interface in zip(tree.nodes, interfaces, strict=True):
         space = top

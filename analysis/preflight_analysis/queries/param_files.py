@@ -41,10 +41,12 @@ def is_param_file(analysis: Analysis, path: str) -> bool:
 
 def readers(analysis: Analysis, path: str) -> tuple[Reader, ...]:
     """The nodes that get a parameter file, whether a section of it is for them or not."""
-    interfaces = analysis.graph.interfaces if analysis.graph is not None else (NOT_RUN,) * len(analysis.tree.nodes)
+    graph = analysis.graph
+    nodes = graph.tree.nodes if graph is not None else analysis.tree.nodes
+    interfaces = graph.interfaces if graph is not None else (NOT_RUN,) * len(nodes)
     return tuple(
         Reader(node, interface)
-        for node, interface in zip(analysis.tree.nodes, interfaces, strict=True)
+        for node, interface in zip(nodes, interfaces, strict=True)
         if any(source.path == path for source in node.param_sources)
     )
 

@@ -46,13 +46,18 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
         other = first.setdefault(node.name, node)
         if node.told and other is not node:
             yield rule.finding(
-                f"there is another node with the name '{node.name}': the code of this one calls it so, as it has no "
-                "'name' here",
+                f"there is another node with the name '{node.name}': {_why(node)}",
                 Location(node.location.file, node.action.kind_span),
                 severity="info" if node.name_inferred else "warning",
                 confidence="possible" if node.name_inferred or other.name_inferred else "likely",
                 related=(Related("the first one", node_location(other)), *include_chain(node.origin)),
             )
+
+
+def _why(node: LaunchNode) -> str:
+    if node.within is not None:
+        return f"the process of {node.within} makes it"
+    return "the code of this one calls it so, as it has no 'name' here"
 
 
 def _fixes(context: Context, problem: Problem, taken: set[str]) -> tuple[Fix, ...]:

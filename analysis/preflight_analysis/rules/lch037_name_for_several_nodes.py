@@ -11,7 +11,7 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
+    for node, interface in zip(context.tree.nodes, graph.processes, strict=True) if graph is not None else ():
         if not node.named or len(interface.nodes) < 2:
             continue
         renamed = [each for each in interface.nodes if each.renamed]

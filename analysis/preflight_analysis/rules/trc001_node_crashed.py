@@ -1,6 +1,5 @@
 """TRC001: a node crashed when it was run."""
 
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
@@ -11,16 +10,14 @@ from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, without_stamp
-
-_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Exit|Interrupt|Warning|Fault)\b")
+from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, telling_line
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     lost = _LostParams(context)
-    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         outcome = interface.outcome
         failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
         if not failed:
@@ -83,9 +80,7 @@ def _message(name: str, outcome: Outcome) -> str:
         message = f"{name} crashed when it was run: killed by {outcome.signal}"
     else:
         message = f"{name} crashed when it was run: exit code {outcome.exit_code}"
-    lines = [line for text in outcome.stderr_tail if (line := without_stamp(text))]
-    telling = next((line for line in reversed(lines) if _EXCEPTION.match(line)), lines[-1] if lines else "")
-    telling = telling[:REASON_COLUMNS]
+    telling = telling_line(outcome.stderr_tail)[:REASON_COLUMNS]
     return message if not telling or telling in message else f"{message}; {telling}"
 
 

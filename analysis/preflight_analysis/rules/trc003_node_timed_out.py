@@ -11,7 +11,7 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         if interface.outcome.status == "timed-out":
             because = f": {interface.outcome.reason}" if interface.outcome.reason else ""
             yield rule.finding(

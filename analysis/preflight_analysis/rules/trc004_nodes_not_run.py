@@ -19,7 +19,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     skipped: dict[tuple[str, str], list[LaunchNode]] = {}
-    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         # That there is nothing to run is a finding about the package or executable.
         if interface.outcome.status == "not-run" and not interface.declared and node.resolved.path is not None:
             reason = interface.outcome.reason or "no reason is known"

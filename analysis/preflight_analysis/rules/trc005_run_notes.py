@@ -11,7 +11,7 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         for note in interface.notes:
             yield rule.finding(f"{node.name}: {note}", node_location(node), related=include_chain(node.origin))
 

@@ -21,7 +21,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     tags: dict[tuple[str, Span], list[tuple[LaunchNode, Interface]]] = {}
-    for node, interface in zip(context.tree.nodes, context.graph.interfaces, strict=True):
+    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         if interface.outcome.status != "not-run" and read_annotation(node.action)[0] is not None:
             tags.setdefault((node.location.file, node.action.span), []).append((node, interface))
     for (file, _), seen in tags.items():

@@ -99,10 +99,11 @@ def _with_places(node: LaunchNode, interface: Interface, found: Interface | Sour
         endpoints.append(replace(end, source_file=file, source_line=line))
     params = []
     for use in interface.params:
-        said = declared.pop(use.name, None)
+        said = declared.get(use.name)
         params.append(use if said is None else _described(use, said))
     if any(use.access == "list" for use in interface.params):
-        params += [replace(use, inferred=True) for use in declared.values()]
+        seen = {use.name for use in interface.params}
+        params += [replace(use, inferred=True) for use in declared.values() if use.name not in seen]
     return replace(interface, endpoints=tuple(endpoints), params=tuple(params))
 
 

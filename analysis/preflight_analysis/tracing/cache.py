@@ -169,6 +169,8 @@ class TraceCache(Store):
             "args": list(request.args),
             "entry_point": request.entry_point,
             "named": request.named,
+            "renames": request.renames,
+            "each": request.each,
             "env": dict(recipe.stable),
             "cwd": recipe.cwd,
         }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -24,6 +24,9 @@ PENDING = "its run has not ended yet"
 REASON_COLUMNS = 200
 """How much of a line of a node's output stands in the reason of an outcome."""
 _STAMP = re.compile(r"\A\[ *[A-Z]+\] \[[\d., ]+\]: ")
+_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
+_THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
+_WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
 Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "none"]
 
 
@@ -52,6 +55,9 @@ class Endpoint:
     """Seen in a run of the same executable under another configuration, not in one of this node."""
     on_demand: bool = False
     """Made once somebody was at the other end of another topic of the node."""
+    node: str | None = None
+    """ROS 2, of a process that makes several nodes: the full name that the one had which made it. None for the node of
+    the launch file."""
 
     @property
     def assumed(self) -> bool:
@@ -102,6 +108,8 @@ class ParamUse:
     read_only: bool = False
     """ROS 2: nobody changes it once it is declared; the launch may still set it."""
     range: Range | None = None
+    node: str | None = None
+    """As of an endpoint."""
 
     @property
     def assumed(self) -> bool:
@@ -121,7 +129,9 @@ class Frame:
 @dataclass(frozen=True, slots=True)
 class MadeNode:
     """A node of ROS 2 that the process made: `given` is the name that its code gave it, `space` the namespace, "" for
-    none; `name` what it then had, and `renamed` whether that is the one that the launch gave to the process."""
+    none; `name` what it then had, and `renamed` whether that is the one that the launch gave to the process. `full` is
+    the full name in the run, where the process has several nodes: otherwise it is that of the launch file's node, and
+    changes with it."""
 
     name: str
     given: str
@@ -129,6 +139,12 @@ class MadeNode:
     renamed: bool = False
     inferred: bool = False
     """Read from the source code, not seen in a run."""
+    full: str = ""
+
+    @property
+    def hidden(self) -> bool:
+        """Whether a library made it for itself, as tf2's listener does: its ends are those of the node around it."""
+        return self.given.startswith("_") or self.name.startswith("_")
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +167,21 @@ class Outcome:
 def without_stamp(line: str) -> str:
     """A line of a node's output without what rosconsole writes before it, which is another time in each run."""
     return _STAMP.sub("", line.strip(), count=1)
+
+
+def telling_line(lines: Sequence[str]) -> str:
+    """What of a node's last lines tells why it ended: its last exception, of Python's or as C++ tells one that nobody
+    catches (`what():`), else the last line. Empty where it said nothing."""
+    for at in reversed(range(len(lines))):
+        if _EXCEPTION.match(lines[at]):
+            return lines[at]
+        what = _WHAT.match(lines[at])
+        if what is not None:
+            thrown = _THROWN.match(lines[at - 1]) if at else None
+            # rcl's complaints of names end by a colon, and the name stands on a line of its own.
+            more = f" {lines[at + 1].strip()}" if what[1].endswith(":") and at + 1 < len(lines) else ""
+            return (f"{thrown[2]}: " if thrown else "") + what[1] + more
+    return next((line for text in reversed(lines) if (line := without_stamp(text))), "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,11 +243,37 @@ class Interface:
     def own_name(self, namespace: str) -> str | None:
         """ROS 2: the full name of the node, where its own code gives it one, in a namespace of the launch file (`/` for
         none). None where it is not known, or where the process has several: which of them is meant nobody can tell."""
-        made = {(each.name, each.space) for each in self.nodes if not each.given.startswith("_")}
+        made = {(each.name, each.space) for each in self.nodes if not each.hidden}
         if len(made) != 1:
             return None
         ((name, space),) = made
         return names.canonicalize(f"/{space if namespace == '/' else namespace}/{name}")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """ROS 2: the full names of the nodes of the process, in the order in which they were made; empty where they are
+        not known to be several."""
+        found = dict.fromkeys(each.full for each in self.nodes if each.full and not each.hidden)
+        return tuple(found) if len(found) > 1 else ()
+
+    def apart(self, node: str) -> dict[str, Interface]:
+        """What each of several nodes of the process does, by its full name. First the one of the launch file, which has
+        what no other made; it is the first that was made where none is called `node`."""
+        if not self.names:
+            return {}
+        first = node if node in self.names else self.names[0]
+        others = [name for name in self.names if name != first]
+
+        def of(name: str) -> Interface:
+            return replace(
+                self,
+                endpoints=tuple(e for e in self.endpoints if (e.node if e.node in others else first) == name),
+                params=tuple(p for p in self.params if (p.node if p.node in others else first) == name),
+                nodes=tuple(each for each in self.nodes if (each.full if each.full in others else first) == name),
+                frames=self.frames if name == first else (),
+            )
+
+        return {name: of(name) for name in (first, *others)}
 
     @property
     def pending(self) -> bool:

@@ -25,7 +25,7 @@ from preflight_analysis.tracing.interface import (
     ParamUse,
     Range,
     Role,
-    without_stamp,
+    telling_line,
 )
 from preflight_analysis.tracing.recipe import Recipe, missing_interpreter
 from preflight_analysis.tracing.request import TraceRequest
@@ -46,6 +46,7 @@ _ROLES = ("publisher", "subscriber", "service", "client", "action_server", "acti
 _ACCESS = ("get", "has", "set", "delete", "search", "list")
 _NAME = re.compile(r"[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{1,300}\Z")
 """No control characters, of a terminal's either, and none that UTF-8 cannot say."""
+_FULL_NAME = re.compile(r"/[\w/]{1,300}\Z", re.ASCII)
 _FILE = re.compile(r"/[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{0,4095}\Z")
 _TYPE = re.compile(r"(\*|[A-Za-z]\w*/((msg|srv|action)/)?[A-Za-z]\w*)\Z")
 _MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
@@ -61,7 +62,6 @@ _ESCAPES = re.compile(r"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[@-
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 _UNSAYABLE = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff]")
 """What neither a terminal nor UTF-8 should be given."""
-_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
 _LIBRARY_PARAMS = re.compile(r"/(use_sim_time|tcp_keepalive|rosout_disable_topics_generation|enable_statistics"
                              r"|statistics_window_\w+)\Z")  # fmt: skip
 _ANSWERS = {
@@ -196,9 +196,12 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         if not gone or (e.role, names.resolve(e.name, request.node, remaps)) not in gone
     )
     params, param_dependencies = _params(found)
+    endpoints, params, nodes = _owned(endpoints, params, tuple(found.nodes))
     if request.generation == 2 and recipe.preload is not None:
-        params = _without_given(params, request)
+        params = _without_given(params, nodes, request)
     asked = set(found.asked)
+    if any(node.full for node in nodes):
+        asked.add("name")  # which the other nodes' names may be made of, and which of them is the launch file's
     told = sum(not endpoint.builtin for endpoint, _ in found.endpoints.values())
     unexplained = sum(not endpoint.builtin for endpoint in endpoints) > told or any(
         not d.given and d.access != "search" and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
@@ -219,7 +222,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         params,
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),
-        nodes=tuple(found.nodes),
+        nodes=nodes,
     )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
     lasting = not raw.killed and not raw.cancelled and not _was_held_up(outcome, found.end)
@@ -293,7 +296,8 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
             space = _text(record.get("space"), _NAME) or ""
             if name is None or given is None or len(found.nodes) >= MAX_NODES:
                 return False
-            found.nodes[MadeNode(name, given, space, record.get("renamed") is True)] = None
+            full = _text(record.get("full"), _FULL_NAME) or ""
+            found.nodes[MadeNode(name, given, space, record.get("renamed") is True, full=full)] = None
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":
@@ -338,6 +342,7 @@ def _told_endpoint(record: Mapping[str, Any], found: _Gathered) -> bool:
         builtin=record.get("builtin") is True,
         speculative=record.get("speculative") is True,
         on_demand=found.visited,
+        node=_text(record.get("node"), _FULL_NAME),
     )
     # One that it made before as well is sure.
     key = repr(replace(endpoint, speculative=False, on_demand=False))
@@ -386,6 +391,7 @@ def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:
         dynamic=record.get("dynamic") is True,
         read_only=record.get("read_only") is True,
         range=_range(record.get("range")),
+        node=_text(record.get("node"), _FULL_NAME),
     )
     found.waited = found.waited or (bool(found.fed) and repr(use) not in found.params)
     found.params.setdefault(repr(use), (use, _text(record.get("resolved"), _NAME)))
@@ -491,12 +497,30 @@ def _is_named(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: s
     return any(name.startswith(starts) for name in given)
 
 
-def _without_given(params: tuple[ParamUse, ...], request: TraceRequest) -> tuple[ParamUse, ...]:
+def _owned(
+    endpoints: tuple[Endpoint, ...], params: tuple[ParamUse, ...], nodes: tuple[MadeNode, ...]
+) -> tuple[tuple[Endpoint, ...], tuple[ParamUse, ...], tuple[MadeNode, ...]]:
+    """With the node that made each where the process has several, and without names where it has one."""
+    several = {node.full for node in nodes if node.full and not node.hidden}
+    if len(several) < 2:
+        several = set()
+    return (
+        tuple(end if end.node in several else replace(end, node=None) for end in endpoints),
+        tuple(use if use.node in several else replace(use, node=None) for use in params),
+        tuple(dict.fromkeys(node if several else replace(node, full="") for node in nodes)),
+    )
+
+
+def _without_given(
+    params: tuple[ParamUse, ...], nodes: tuple[MadeNode, ...], request: TraceRequest
+) -> tuple[ParamUse, ...]:
     """Parameters that a client library told as it declared them: a value that the launch file gives hides the default.
-    Where none was told, rcl knows nothing of them, and the node may take any."""
-    given = {name.removeprefix(f"{request.node}/") for name in request.params}
-    told = (replace(p, default=None, has_default=False) if p.name[1:] in given else p for p in params)
-    return tuple(told) or (ParamUse("/", "list"),)
+    Of a node of which none was told rcl knows nothing of them, and it may take any."""
+    given = request.given_to
+    told = tuple(replace(p, default=None, has_default=False) if p.name[1:] in given(p.node) else p for p in params)
+    owners = {use.node for use in params}
+    full = dict.fromkeys(node.full or None for node in nodes if not node.hidden) or {None: None}
+    return told + tuple(ParamUse("/", "list", node=name) for name in full if name not in owners)
 
 
 def _not_seen(outcome: Outcome) -> str | None:
@@ -607,18 +631,20 @@ def _signal(number: int) -> str:
 def _signal_reason(number: int, tail: tuple[str, ...]) -> str:
     if number == signal.SIGXCPU:
         return f"it used more than {RLIMITS['CPU']} s of processor time"
-    return f"it was killed by {_signal(number)}" + (f": {without_stamp(tail[-1])[:REASON_COLUMNS]}" if tail else "")
+    return f"it was killed by {_signal(number)}" + _told_by(tail)
 
 
 def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
-    exception = next((line for line in reversed(tail) if _EXCEPTION.match(line)), None)
     unknown = next(filter(None, map(_BY_ENV.match, tail)), None) if code == _NOT_LOADED else None
     if unknown is not None:
         said = f"the executable cannot be started: there is no '{unknown[1]}' on the PATH, which its first line names"
         return said + (_WINDOWS if unknown[2] else "")
-    if exception is None and tail and tail[-1].strip():
-        exception = without_stamp(tail[-1])
-    return f"it ended with exit code {code}" + (f": {exception[:REASON_COLUMNS]}" if exception else "")
+    return f"it ended with exit code {code}" + _told_by(tail)
+
+
+def _told_by(tail: tuple[str, ...]) -> str:
+    line = telling_line(tail)
+    return f": {line[:REASON_COLUMNS]}" if line else ""
 
 
 def _notes(found: _Gathered) -> tuple[str, ...]:

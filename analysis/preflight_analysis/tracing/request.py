@@ -34,24 +34,50 @@ class TraceRequest:
     named: bool = True
     """Whether the launch file names the node; its own code does otherwise."""
     sections: tuple[tuple[Section, ...], ...] = ()
-    """Of a node without a name: what its parameter files and values have for nodes of any name, source by source. What
-    of it is for the node is only known once a run has told its name."""
+    """What the node's parameter files and values have for nodes of any name, source by source. What of it is for a node
+    without a name in the launch file, or for others of the process, is only known once a run has told their names."""
+    renames: tuple[tuple[str, str], ...] = ()
+    """ROS 2: the remaps of the names and namespaces of nodes; all others are applied to what the run tells."""
+    each: tuple[tuple[str, Mapping[str, Any]], ...] = ()
+    """ROS 2: the parameters of each node of the process, by its full name, where those are not the same for all."""
     launch: str | None = field(default=None, compare=False)
     """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
 
     def under(self, name: str) -> TraceRequest | None:
         """The run with what the parameter files have for the full name that the node gave itself; None where that
         makes no difference. As rcl does it, keys count in the order in which they are met first."""
+        params = {f"{self.node}/{param}": value for param, value in self._for(name).items()}
+        if _is_same(params, self.params):
+            return None
+        return replace(self, params=params, sections=())
+
+    def under_each(self, names: tuple[str, ...]) -> TraceRequest | None:
+        """Likewise for the nodes of a process that makes several; None where all of them get the same."""
+        first = self.node if self.node in names else names[0]
+        each = {name: self._for(name) for name in (first, *names)}
+        params = {f"{self.node}/{param}": value for param, value in each[first].items()}
+        if _is_same(params, self.params) and all(_is_same(given, each[first]) for given in each.values()):
+            return None
+        return replace(self, params=params, sections=(), each=tuple(each.items()))
+
+    def given_to(self, node: str | None) -> Mapping[str, Any]:
+        """The parameters that a node of the process gets in the run, by their own names."""
+        own = f"{self.node}/"
+        given = {name.removeprefix(own): value for name, value in self.params.items() if name.startswith(own)}
+        return dict(self.each).get(node or "", given)
+
+    def _for(self, name: str) -> dict[str, Any]:
+        """What the sources have for the node of this full name."""
         below: dict[str, dict[str, Any]] = {}
         for sections in self.sections:
             for section in sections:
                 if section.params and section.fits(name):
                     below.setdefault(section.key, {}).update((param.name, param.value) for param in section.params)
-        given = {param: value for values in below.values() for param, value in values.items()}
-        params = {f"{self.node}/{param}": value for param, value in given.items()}
-        if repr(sorted(params.items())) == repr(sorted(self.params.items())):
-            return None
-        return replace(self, params=params, sections=())
+        return {param: value for values in below.values() for param, value in values.items()}
+
+
+def _is_same(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    return repr(sorted(one.items())) == repr(sorted(other.items()))
 
 
 def split_args(text: str) -> tuple[str, ...]:

@@ -1,5 +1,5 @@
 """What exactly is executed for a node of ROS 2: as `launch_ros` does it, `--ros-args` with name, namespace and a file
-of parameters, but without remaps.
+of parameters, but without remaps other than those of nodes' names.
 
 The console script of a Python package that is not built is a call of its function; all such packages of the workspace
 are on the module search path, as they would be once it is built and sourced.
@@ -57,10 +57,12 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
         argv += ["-r", f"__node:={base}"]
     if space:
         argv += ["-r", f"__ns:={space}"]
+    for source, target in request.renames:
+        argv += ["-r", f"{source}:={target}"]
     given = _parameters(request)
     files = {}
     if given:
-        files[PARAMETERS] = json.dumps({"/**": {"ros__parameters": given}}, ensure_ascii=False)
+        files[PARAMETERS] = json.dumps(given, ensure_ascii=False)
         argv += ["--params-file", PARAMETERS]
     env = recipes.inside(stable) | {
         "ROS_DOMAIN_ID": "0",
@@ -145,13 +147,11 @@ def _shares(environment: Environment) -> dict[str, str]:
 
 
 def _parameters(request: TraceRequest) -> dict[str, Any]:
-    """The node's own parameters; what a file cannot hold is left out."""
-    own = request.node + "/"
-    return {
-        name.removeprefix(own): value
-        for name, value in request.params.items()
-        if name.startswith(own) and _is_plain(value)
-    }
+    """The node's own parameters, for whatever name it has, or those of each node of the process; what a file cannot
+    hold is left out."""
+    each = request.each or (("/**", request.given_to(None)),)
+    plain = {node: {name: value for name, value in given.items() if _is_plain(value)} for node, given in each}
+    return {node: {"ros__parameters": given} for node, given in plain.items() if given}
 
 
 def _is_plain(value: Any) -> bool:

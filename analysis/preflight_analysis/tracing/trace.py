@@ -51,7 +51,7 @@ class Tracer:
     def lookup(self, request: TraceRequest) -> Interface | None:
         """A cached trace that is still valid; nothing is run."""
         found = self._kept(request)
-        again = _under_own_name(request, found) if found is not None else None
+        again = _under_own_names(request, found) if found is not None else None
         if found is None or again is None:
             return found
         then = self._kept(again)
@@ -74,9 +74,10 @@ class Tracer:
         run is the outcome's reason.
 
         A node that the launch file does not name is run once more when its name is known, where its parameter files
-        have something for that; whatever name it then has, there is no third time."""
+        have something for that, and so is a process of several nodes; whatever names they then have, there is no third
+        time."""
         found = self._trace(request, cancel, fresh=fresh)
-        again = _under_own_name(request, found)
+        again = _under_own_names(request, found)
         if again is None or cancel.is_set():
             return found
         return _still_named(self._trace(again, cancel, fresh=fresh), found)
@@ -154,9 +155,13 @@ class Tracer:
         return observed.interface
 
 
-def _under_own_name(request: TraceRequest, found: Interface) -> TraceRequest | None:
-    """The run with the parameters for the name that a first run told; None where it had them all."""
-    if request.named or not request.sections:
+def _under_own_names(request: TraceRequest, found: Interface) -> TraceRequest | None:
+    """The run with the parameters for the names that a first run told; None where it had them all."""
+    if not request.sections:
+        return None
+    if found.names:
+        return request.under_each(found.names)
+    if request.named:
         return None
     name = found.own_name(names.parent(request.node))
     return request.under(name) if name is not None else None

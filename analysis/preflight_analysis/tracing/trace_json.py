@@ -51,6 +51,7 @@ def _endpoint(endpoint: Endpoint) -> dict[str, Any]:
         "builtin": endpoint.builtin,
         "speculative": endpoint.speculative,
         "on_demand": endpoint.on_demand,
+        **({"node": endpoint.node} if endpoint.node is not None else {}),
         **_made_at(endpoint),
     }
 
@@ -67,6 +68,8 @@ def _param(use: ParamUse) -> dict[str, Any]:
         data["read_only"] = True
     if use.range is not None:
         data["range"] = [use.range.low, use.range.high, use.range.step]
+    if use.node is not None:
+        data["node"] = use.node
     return {**data, **_made_at(use)}
 
 

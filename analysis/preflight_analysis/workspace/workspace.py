@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.ros2.remaps import renames_nodes
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
@@ -275,7 +276,8 @@ class Workspace:
             generation=2,
             entry_point=node.resolved.entry_point,
             named=node.named,
-            sections=() if node.named else sections_for_any_name(node, documents),
+            sections=sections_for_any_name(node, documents),
+            renames=tuple((r.source, r.target) for r in node.remaps if renames_nodes(r)),
             launch=node.location.file,
         )
 
@@ -293,7 +295,7 @@ class Workspace:
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             whole = self._filled_in(of_source, interfaces, project)
-        graph = build_graph(analysis.tree, whole, project.external_topics, self.environment.distro)
+        graph = build_graph(analysis.tree, whole, project.external_topics, self.environment.distro, analysis.documents)
         document, problems = located_problems(project)
         context = replace(
             analysis.context,

@@ -61,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
     analysis = run_nodes(open_project(args), args)
     if analysis.graph is None:
         raise CannotDoError("there is no graph")
-    chosen = _chosen(analysis.tree.nodes, analysis.graph.interfaces, args)
+    chosen = _chosen(analysis.tree.nodes, analysis.graph.processes, args)
     if not chosen:
         say("there is nothing to capture: all nodes could be run, or somebody has described them (--all captures them)")
         return CLEAN

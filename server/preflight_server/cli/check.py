@@ -55,7 +55,7 @@ class _Launched:
     @classmethod
     def of(cls, root: Root, analysis: Analysis) -> _Launched:
         """That of an analysis with its graph."""
-        interfaces = analysis.graph.interfaces if analysis.graph else ()
+        interfaces = analysis.graph.processes if analysis.graph else ()
         return cls(
             root,
             analysis.tree.files,

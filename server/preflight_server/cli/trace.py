@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
             names = ", ".join(node.name for node in nodes) or "none"
             raise CannotDoError(f"the launch file has no node {only}; it has: {names}")
     analysis = run_nodes(project, args, only)
-    interfaces = analysis.graph.interfaces if analysis.graph else ()
+    interfaces = analysis.graph.processes if analysis.graph else ()
     shown = [(n, i) for n, i in zip(nodes, interfaces, strict=True) if only in (None, n.name)]
     if args.format == "json":
         print_json(trace_json(shown))
@@ -62,12 +62,18 @@ def _lines(node: LaunchNode, interface: Interface) -> Iterator[str]:
             made_up = "  (after a made-up answer)" if endpoint.speculative else ""
             made_up += "  (on demand)" if endpoint.on_demand else ""
             made_at = _at(endpoint.source_file, endpoint.source_line)
-            yield f"  {endpoint.role} {endpoint.name}  {endpoint.type or 'type not known'}{made_at}{made_up}"
+            what = f"{endpoint.role} {endpoint.name}  {endpoint.type or 'type not known'}"
+            yield f"  {what}{_of(endpoint.node)}{made_at}{made_up}"
     for use in interface.params:
         if not use.builtin:
             default = f"  default {use.default!r}" if use.has_default else ""
-            yield f"  {use.access} param {use.name}{default}{_at(use.source_file, use.source_line)}"
+            yield f"  {use.access} param {use.name}{default}{_of(use.node)}{_at(use.source_file, use.source_line)}"
     yield from (f"  note: {note}" for note in interface.notes)
+
+
+def _of(node: str | None) -> str:
+    """Which of several nodes of the process it is of."""
+    return f"  of {node}" if node is not None else ""
 
 
 def _at(file: str | None, line: int | None) -> str:

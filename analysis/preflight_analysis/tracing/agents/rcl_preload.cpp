@@ -278,7 +278,7 @@ void tell_endpoint(const char* role, const Handle* node, const std::string& name
   std::string full = expanded(node, name, service);
   last_new = now();
   Event event("endpoint");
-  event.add("role", std::string(role)).add("name", as_given(node, name, full));
+  event.add("role", std::string(role)).add("name", as_given(node, name, full)).add("node", full_name_of(node));
   if (!full.empty()) event.add("resolved", full);
   if (!type.empty()) event.add("type", type);
   event.raw("qos", told_qos(qos)).add("builtin", in_library || is_builtin(node, role, full));
@@ -378,12 +378,14 @@ void tell_declared(const void* message, const Support* support) {
   if (serialize == nullptr || allocator == nullptr) return;
   Serialized bytes;
   bytes.allocator = allocator();
-  if (serialize(message, support, &bytes) != kOk) return reset_error();
+  int result = serialize(message, support, &bytes);
+  reset_error();  // of type supports that it tried before it found the right one: the next error would complain of it
+  if (result != kOk) return;
   std::unique_ptr<unsigned char, void (*)(void*)> owned(bytes.buffer, free);
   Reader from(bytes);
   from.value<int32_t>();
   from.value<uint32_t>();
-  from.string();
+  std::string node = from.string();
   constexpr size_t kMostValue = 3000;
   for (uint32_t left = from.value<uint32_t>(); left > 0; --left) {
     std::string name = from.string();
@@ -392,6 +394,7 @@ void tell_declared(const void* message, const Support* support) {
     last_new = now();
     Event event("param");
     event.add("access", std::string("get")).add("name", "~" + name).add("optional", true).add("builtin", builtin);
+    if (!node.empty()) event.add("node", node);
     event.add("has_default", !value.json.empty() && !builtin);
     if (!value.json.empty() && value.json.size() <= kMostValue) event.raw("default", value.json);
     if (!value.type.empty()) event.add("type", value.type);
@@ -725,6 +728,7 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
         .add("name", node_name(self))
         .add("given", text(name))
         .add("space", text(space))
+        .add("full", full_name_of(self))
         .add("renamed", node_name(self) == given_by_launch)
         .send();
     Event("state").add("state", std::string("init")).send();

@@ -117,6 +117,10 @@ def _full(node: Any, name: str) -> str:
     return str(expand(name, node.get_name(), node.get_namespace()))
 
 
+def _full_name(node: Any) -> str:
+    return f"{str(node.get_namespace()).rstrip('/')}/{node.get_name()}"
+
+
 def _qos(profile: Any) -> dict[str, Any]:
     """The policies that are settled; what is left to the middleware is left out."""
     found: dict[str, Any] = {}
@@ -146,6 +150,7 @@ def _tell_endpoint(node: Any, role: str, name: Any, described: Any, profile: Any
         role=role,
         name=_given(node, str(name)),
         resolved=_full(node, str(name)),
+        node=_full_name(node),
         type=_type(described),
         qos=_qos(profile) if profile is not None else {},
         file=file,
@@ -255,6 +260,7 @@ def _tell_params(arguments: dict[str, Any]) -> None:
             has_default=has_default and not internal,
             optional=True,
             **_described(given, described[2] if len(described) > 2 else None, of_any_type=of_any_type),
+            node=_full_name(arguments["self"]),
             file=None if internal else file,
             line=None if internal else line,
             builtin=internal,
@@ -285,10 +291,11 @@ def _constructed(original: Callable[..., Any]) -> Callable[..., Any]:
             name=name,
             given=str(arguments.get("node_name")),
             space=str(arguments.get("namespace") or ""),
+            full=_full_name(node),
             renamed=name == os.environ.get(EXPECTED, "").rpartition("/")[2],
         )
         if any(arguments.get(option) for option in ("allow_undeclared_parameters", _OVERRIDES)):
-            channel.send("param", access="list", name="/", optional=True)
+            channel.send("param", access="list", name="/", optional=True, node=_full_name(node))
         channel.send("state", state="init")
 
     @_quiet
