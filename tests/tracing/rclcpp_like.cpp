@@ -193,7 +193,9 @@ class Node {
   // As topic_tools' relay: once somebody publishes the topic.
   void relay(const std::string &topic) {
     size_t publishers = 0;
-    check(rcl_count_publishers(&handle_, topic.c_str(), &publishers));
+    char *full = nullptr;
+    check(rcl_node_resolve_name(&handle_, topic.c_str(), rcl_get_default_allocator(), false, false, &full));
+    check(rcl_count_publishers(&handle_, full, &publishers));
     if (publishers == 0) return;
     subscribe(topic);
     publish(topic + "_relay", false);
@@ -277,7 +279,8 @@ int main(int argc, char **argv) {
       nodes.back().declare(name, descriptor, value);
     }
     if (what == "mandatory") nodes.back().declare_mandatory(name, 3);
-    if (what == "percent") {
+    if (what == "percent" || what == "refuse") {
+      if (what == "refuse") value.integer_value = 300;
       descriptor.integer_range.resize(1);
       descriptor.integer_range[0].to_value = 100;
       value.type = 2;

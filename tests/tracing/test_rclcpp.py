@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Range
 from rcl_desk import RclDesk
 from ros2_desk import ends, uses
 
@@ -74,7 +75,9 @@ def test_each_node_of_a_process_is_a_node_of_the_graph(kilted: RclDesk) -> None:
     reads = {read.name: read.node.name for read in graph.param_reads if not read.use.builtin}
     assert reads == {"/n/rate": "/n", "/n/costmap/costmap/resolution": "/n/costmap/costmap"}
     told = json.loads(command(kilted, "graph", "--format", "json").stdout)
-    assert [(node["name"], [p["name"] for p in node["publishers"] if "builtin" not in p]) for node in told["nodes"]] == [
+    assert [
+        (node["name"], [p["name"] for p in node["publishers"] if "builtin" not in p]) for node in told["nodes"]
+    ] == [
         ("/n", ["/chatter"]),
         ("/n/costmap/costmap", ["/n/costmap/map"]),
     ]
@@ -97,7 +100,9 @@ def test_a_name_of_the_launch_is_that_of_each_node_and_others_are_their_own(kilt
 
 
 def test_a_remap_counts_for_each_node_as_rcl_has_it(kilted: RclDesk) -> None:
-    graph = kilted.check(launched(kilted, CHILD, "<remap from='map' to='grid'/><remap from='/n/costmap/x' to='y'/>")).graph
+    graph = kilted.check(
+        launched(kilted, CHILD, "<remap from='map' to='grid'/><remap from='/n/costmap/x' to='y'/>")
+    ).graph
     assert graph is not None
     assert "/n/costmap/grid" in graph.topics
     assert "/n/costmap/map" not in graph.topics
@@ -130,6 +135,65 @@ def test_a_process_of_several_nodes_is_kept_until_what_one_of_them_gets_changes(
         assert kilted.trace(CHILD, inside).cached is cached
 
 
+# Parameters
+
+
+@pytest.mark.parametrize("how", ["", "intra", "silent"])
+def test_parameters_are_known_however_the_node_publishes_them(desk: RclDesk, how: str) -> None:
+    trace = desk.trace(f"{how} node=own double=rate@1.5 percent=level", "<param name='rate' value='2.5'/>")
+    assert (trace.outcome.status, trace.outcome.answers, trace.notes) == ("spinning", (), ())
+    assert {name: (use.type, use.default, use.range) for name, use in uses(trace).items()} == {
+        "~rate": ("double", None, None),  # what is seen is the value that it was given
+        "~level": ("integer", 0, Range(0, 100)),
+    }
+
+
+def test_parameters_of_a_node_that_publishes_none_before_its_end_are_known(kilted: RclDesk) -> None:
+    trace = kilted.trace("intra node=own double=rate@1.5 invalid=a")
+    assert (trace.outcome.status, set(uses(trace))) == ("crashed", {"~rate"})
+
+
+def test_a_value_out_of_range_is_told_of_a_node_that_goes_on(kilted: RclDesk) -> None:
+    launch = launched(kilted, "node=own percent=level", "<param name='level' value='50'/>")
+    assert kilted.check(launch).findings == ()
+
+
+@pytest.mark.parametrize(("topic", "reliability"), [("/num", "best_effort"), ("/overridable", "reliable")])
+def test_qos_is_overridden_under_the_remapped_name(desk: RclDesk, topic: str, reliability: str) -> None:
+    override = f"<param name='qos_overrides.{topic}.publisher.reliability' value='best_effort'/>"
+    trace = desk.trace("node=own overridable=overridable", f"<remap from='overridable' to='num'/>{override}")
+    assert ends(trace)["publisher", "overridable"].qos["reliability"] == reliability
+
+
+def test_a_trace_with_overridden_qos_is_kept_until_the_remap_changes(kilted: RclDesk) -> None:
+    kilted.cache = TraceCache(kilted.folder / "cache")
+    override = "<param name='qos_overrides./num.publisher.reliability' value='best_effort'/>"
+    for target, cached in (("num", False), ("num", True), ("other", False)):
+        trace = kilted.trace("node=own overridable=a", f"<remap from='a' to='{target}'/>{override}")
+        assert trace.cached is cached
+        assert (ends(trace)["publisher", "a"].qos["reliability"] == "best_effort") is (target == "num")
+
+
+# The graph
+
+
+def test_a_node_that_asks_who_is_there_is_not_fully_known(desk: RclDesk) -> None:
+    relay = desk.trace("node=own relay=in")
+    assert (relay.outcome.status, relay.looks, relay.complete, relay.seen_through) == ("spinning", True, False, False)
+    plain = desk.trace("node=own pub=out")
+    assert (plain.looks, plain.complete) == (False, True)
+
+
+def test_nothing_is_said_to_be_missing_at_a_node_that_asks_who_is_there(kilted: RclDesk) -> None:
+    others = launched(kilted, "node=own pub=in", "", "name='talker'") + launched(
+        kilted, "node=own sub=in_relay", "", "name='listener'"
+    )
+    with_relay = others + launched(kilted, "node=own relay=in", "<remap from='in_relay' to='x'/>", "name='relay'")
+    assert {(f.severity, f.confidence) for f in kilted.check(with_relay).findings} <= {("hint", "possible")}
+    assert found(kilted, "TOP004", with_relay) == []
+    assert {f.confidence for f in kilted.check(others).findings} == {"likely"}
+
+
 # How it ends
 
 
@@ -139,11 +203,49 @@ def test_an_error_that_rcl_had_on_our_way_is_not_the_nodes(desk: RclDesk) -> Non
     assert "overwritten" not in "".join(outcome.stderr_tail)
 
 
+@pytest.mark.parametrize(
+    ("args", "params", "rule", "message"),
+    [
+        ("double=speed@1.0", {"speed": "fast"}, "PRM014", "'speed' is a string, and /n declares it as a double"),
+        ("intra double=speed@1.0", {"speed": "2"}, "PRM014", "write 2.0"),
+        ("percent=level", {"level": "300"}, "PRM017", "'level' is 300, which /n refuses"),
+        ("mandatory=speed", {}, "PRM010", "/n declares parameter 'speed' without a default, and nothing sets it"),
+        ("mandatory=speed", {"speed": "fast"}, "PRM014", "'speed' is a string"),
+    ],
+)
+def test_a_constructor_that_throws_tells_of_the_parameter(
+    desk: RclDesk, args: str, params: dict[str, str], rule: str, message: str
+) -> None:
+    inside = "".join(f"<param name='{name}' value='{value}'/>" for name, value in params.items())
+    how, _, declares = args.rpartition(" ")
+    findings = desk.check(launched(desk, f"{how} node=own {declares}", inside)).findings
+    assert {(f.rule, f.severity) for f in findings} == {(rule, "error"), ("TRC001", "info")}
+    assert message in next(f.message for f in findings if f.rule == rule)
+    assert command(desk, "check").returncode == 1
+
+
+def test_a_mandatory_parameter_that_is_misspelt_is_told_where_it_stands(kilted: RclDesk) -> None:
+    findings = kilted.check(launched(kilted, "node=own mandatory=speed", "<param name='sped' value='1.0'/>")).findings
+    assert {(f.rule, f.severity) for f in findings} == {("PRM010", "error"), ("PRM013", "warning"), ("TRC001", "info")}
+    assert "did you mean 'speed'" in next(f.message for f in findings if f.rule == "PRM013")
+
+
+def test_of_a_value_that_the_node_refuses_by_its_default_only_the_crash_is_told(kilted: RclDesk) -> None:
+    given = "<param name='other' value='1'/>"
+    findings = kilted.check(launched(kilted, "node=own refuse=level", given)).findings
+    assert [(f.rule, f.severity) for f in findings] == [("TRC001", "warning")]
+
+
+def test_what_a_node_that_goes_on_declares_is_not_refused(kilted: RclDesk) -> None:
+    given = "<param name='speed' value='2.0'/><param name='level' value='100'/>"
+    given += "<param name='speed2' value='1.0'/>"
+    launch = launched(kilted, "node=own double=speed@1.0 mandatory=speed2 percent=level", given)
+    assert kilted.check(launch).findings == ()
+
+
 def test_a_crash_shows_what_was_thrown(desk: RclDesk) -> None:
     outcome = desk.trace("node=own invalid=a-b").outcome
     assert outcome.reason == (
         "it was killed by SIGABRT: InvalidTopicNameError: Invalid topic name: topic name must not contain characters "
         "other than alphanumerics, '_', '~', '{', or '}': 'a-b'"
     )
-
-

@@ -82,7 +82,7 @@ def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap
     ordered = node.remaps if generation == 1 else reversed(node.remaps)
     found = {}
     for remap in ordered:
-        source = remap.source if generation == 1 else source_for(remap, node.name)
+        source = remap.source if generation == 1 else source_for(remap.source, node.name)
         if source is not None:
             found[names.resolve(source, node.name)] = remap, names.resolve(remap.target, node.name)
     return found

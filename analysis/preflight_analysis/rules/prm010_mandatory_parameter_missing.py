@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.parameters import name_place, renamed
@@ -18,6 +18,9 @@ from preflight_analysis.rules.unread_params import unread_params
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
+    if graph is not None and graph.tree.generation == 2:
+        yield from _of_ros2(rule, graph)
+        return
     missing = context.once(missing_params)
     if graph is None or not missing:
         return
@@ -50,6 +53,23 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 node_location(node),
                 severity="hint",
                 confidence="possible",
+                related=include_chain(node.origin),
+            )
+
+
+def _of_ros2(rule: Rule, graph: Graph) -> Iterator[Finding]:
+    """Nodes that ended for a parameter that has to be set. Of a name that was meant for it PRM013 says more."""
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
+        given = {f"~{param.name}" for param in node.params}
+        for use in interface.params:
+            if use.refused is None or not use.mandatory or use.name in given:
+                continue
+            yield rule.finding(
+                f"{node.name} declares parameter '{use.name[1:]}' without a default, and nothing sets it: it stops "
+                f"({use.refused})",
+                node_location(node),
+                severity="error",
+                confidence="likely",
                 related=include_chain(node.origin),
             )
 
@@ -96,15 +116,16 @@ RULE = Rule(
     id="PRM010",
     name="mandatory-parameter-missing",
     severity="warning",
-    what="Reports a parameter that a node reads without giving a default and that the launch does not set. It is a "
-    "warning where the node ended because of it, shown at the parameter that was meant if one is set under a like name "
-    "or in a namespace around; otherwise a hint, as the node may cope. Where the node goes on, and a parameter that "
-    "nobody reads was meant, PRM001 says so.",
-    why="rospy raises a KeyError; in C++ the variable keeps whatever it had.",
+    what="Reports a parameter that a node reads without giving a default and that the launch does not set. In ROS 2 it "
+    "is an error where the node was run and ended because of it. In ROS 1 it is a warning where the node ended because "
+    "of it, shown at the parameter that was meant if one is set under a like name or in a namespace around; otherwise "
+    "a hint, as the node may cope. Where the node goes on, and a parameter that nobody reads was meant, PRM001 says "
+    "so.",
+    why="rospy raises a KeyError; in roscpp the variable keeps whatever it had. rclcpp raises an exception where the "
+    "parameter is declared with a type alone and has no value, and most nodes end by it.",
     example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'
     '<node pkg="p" type="talker" name="talker"/>',
     instead='<node pkg="p" type="talker" name="talker">\n  <param name="rate" value="10"/>\n</node>',
-    generations=(1,),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -37,11 +37,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for param in node.params:
             use = declared.get(param.name)
             wanted = _declared_type(use, interface) if use is not None else None
-            if use is None or wanted is None or (wanted != "string" and _TYPES.get(type(param.value)) == wanted):
-                continue  # most are as they should be, and only texts change on their way
+            if use is None or wanted is None or _is_as_declared(param, use, wanted):
+                continue
             place, files = name_place(param), {s.path for s in node.param_sources}
             passed = param.value if place.file in files or node.container else as_passed(param.value)
             message = _wrong(param, passed, wanted, node)
+            if message is None and use.refused is not None:
+                message = f"{node.name} stops when it declares '{param.name}': {use.refused}"
             if message is None or (place, wanted) in told:
                 continue  # what is written once for several nodes is wrong for each
             told.add((place, wanted))
@@ -55,6 +57,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     *include_chain(node.origin),
                 ),
             )
+
+
+def _is_as_declared(param: Param, use: ParamUse, wanted: str) -> bool:
+    """Most are as they should be, and only texts change on their way."""
+    return use.refused is None and wanted != "string" and _TYPES.get(type(param.value)) == wanted
 
 
 def _declared_type(use: ParamUse, interface: Interface) -> str | None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from textwrap import shorten
 
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import node_location
@@ -22,19 +24,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
         if not node.params:
             continue
-        ranges = {u.name.removeprefix("~"): u for u in interface.params if u.range is not None and not u.dynamic}
+        declared = {u.name.removeprefix("~"): u for u in interface.params if u.access == "get" and not u.dynamic}
         for param in node.params:
-            use = ranges.get(param.name)
-            if use is None or use.range is None or not _is_of_its_type(param.value, use):
-                continue
-            why = _outside(param.value, use.range)
+            use = declared.get(param.name)
+            why = _wrong(param, use, node) if use is not None else None
             at = name_place(param), why
-            if why is None or at in told:
+            if use is None or why is None or at in told:
                 continue
             told.add(at)
             yield rule.finding(
-                f"'{param.name}' is {param.value}, which is {why}: {node.name} declares it for {use.range}, and "
-                "stops when it declares it (InvalidParameterValueException)",
+                f"{why} (InvalidParameterValueException)",
                 name_place(param),
                 confidence="possible" if use.assumed else "likely",
                 severity="warning" if use.assumed else "error",
@@ -43,6 +42,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     *include_chain(node.origin),
                 ),
             )
+
+
+def _wrong(param: Param, use: ParamUse, node: LaunchNode) -> str | None:
+    """What is wrong with the value; None if nothing is."""
+    value = f"'{param.name}' is {shorten(str(param.value), 60, placeholder='...')}"
+    outside = _outside(param.value, use.range) if use.range and _is_of_its_type(param.value, use) else None
+    if outside is not None:
+        return f"{value}, which is {outside}: {node.name} declares it for {use.range}, and stops when it declares it"
+    if use.refused is None or use.type is not None or use.mandatory:
+        return None
+    return f"{value}, which {node.name} refuses: it stops when it declares it, {use.refused}"
 
 
 def _is_of_its_type(value: object, use: ParamUse) -> bool:

@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import CommandValue
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, telling_line
+from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, ParamUse, telling_line
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -26,6 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lacking = next(filter(None, (lost.why(r) for r in context.graph.param_reads if r.node is node)), None)
         # Of a parameter that is missing another rule says more, as a warning.
         told = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
+        told = told or any(_is_told(context.graph, node, use) for use in interface.params)
         ours = (
             lacking is not None
             or outcome.lacks is not None
@@ -69,6 +70,15 @@ class _LostParams:
         return None
 
 
+def _is_told(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
+    """Whether a node of ROS 2 ended for the parameter and another rule tells it: not where no value of the launch is at
+    fault."""
+    if use.refused is None or use.mandatory:
+        return use.refused is not None
+    in_process = (each for each in graph.tree.nodes if each.origin is node.origin)
+    return any(f"~{param.name}" == use.name for each in in_process for param in each.params)
+
+
 def _message(name: str, outcome: Outcome) -> str:
     if outcome.lacks:
         message = f"{name} needs {outcome.lacks}; it ended"
@@ -93,7 +103,7 @@ RULE = Rule(
     why="With the parameters and arguments of this launch file it would most likely end so on the robot too. Only "
     "what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
-    "where the node ended for a parameter that is missing, of which PRM010 or PRM001 warns, or asked for one whose "
+    "where the node ended for a parameter of which PRM001, PRM010, PRM014 or PRM017 tells, or asked for one whose "
     "value is an error of its own, or needs what only the sandbox lacks: a device, a network, a display, a browser's "
     "own sandbox, a folder to write to, another node's topic.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',

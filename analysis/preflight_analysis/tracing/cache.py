@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.remaps import overrides_qos
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.agents.params import ParamTree
 from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, MadeNode, Outcome, ParamUse, Range
@@ -27,7 +28,7 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import encode_params
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, digest_of, fingerprint, listing
 
-SCHEMA = "ros-preflight/trace-cache/3"
+SCHEMA = "ros-preflight/trace-cache/4"
 MAX_ENTRY_BYTES = 4 << 20
 MOST_OF_ONE_EXECUTABLE = 64
 """How many traces of an executable are looked at for a similar one, the last used."""
@@ -171,6 +172,7 @@ class TraceCache(Store):
             "named": request.named,
             "renames": request.renames,
             "each": request.each,
+            "qos": sorted([name, value] for name, value in request.given_to(None).items() if overrides_qos(name)),
             "env": dict(recipe.stable),
             "cwd": recipe.cwd,
         }
@@ -281,4 +283,5 @@ def _decode(data: Mapping[str, Any]) -> Interface:
         notes=tuple(data["notes"]),
         frames=tuple(Frame(**frame) for frame in data["frames"]),
         nodes=tuple(MadeNode(**node) for node in data["nodes"]),
+        looks=bool(data["looks"]),
     )

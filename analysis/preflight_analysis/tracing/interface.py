@@ -110,6 +110,8 @@ class ParamUse:
     range: Range | None = None
     node: str | None = None
     """As of an endpoint."""
+    refused: str | None = None
+    """ROS 2: what the node said of the value, or of there being none, when it ended for that."""
 
     @property
     def assumed(self) -> bool:
@@ -211,6 +213,9 @@ class Interface:
     nodes: tuple[MadeNode, ...] = ()
     """ROS 2: those that the process was seen to make, or that its source makes; what its libraries make in C++ alone is
     not among them. Empty where it is not known which."""
+    looks: bool = False
+    """ROS 2: whether it asked which nodes, topics or services there are. There were none, and it may do more, or
+    something else, where there are."""
     elsewhere: Elsewhere | None = None
     """Where what is `similar` was seen."""
 
@@ -229,14 +234,16 @@ class Interface:
     def complete(self) -> bool:
         """Whether it is all that the node does: it was seen to spin, and not only after a made-up answer, or the user
         or the package's author declares it, in an annotation, the settings or NoDL."""
-        spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers
+        spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers and not self.looks
         return self.declared or spins
 
     @property
     def seen_through(self) -> bool:
         """Whether nothing speaks for more ends than are known: it is complete, came to its event loop with the help of
-        made-up answers, or ended by itself without an error."""
+        made-up answers, or ended by itself without an error; and it did not ask who else is there."""
         outcome = self.outcome
+        if self.looks and not self.declared:
+            return False
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
         return self.complete or (self.known and done)
 

@@ -28,6 +28,7 @@ from preflight_analysis.tracing.interface import (
     telling_line,
 )
 from preflight_analysis.tracing.recipe import Recipe, missing_interpreter
+from preflight_analysis.tracing.refusals import refused_param
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, RawRun
 
@@ -156,6 +157,10 @@ class _Gathered:
     woven: bool = False
     visited: bool = False
     """Whether somebody was there for its topics."""
+    looked: bool = False
+    """Whether it asked which nodes, topics or services there are."""
+    declared: dict[tuple[str, str | None], str] = field(default_factory=dict)
+    """Parameters of ROS 2 by name and node, with their keys in `params`."""
     end: Mapping[str, Any] | None = None
     dropped: int = 0
 
@@ -199,6 +204,8 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     endpoints, params, nodes = _owned(endpoints, params, tuple(found.nodes))
     if request.generation == 2 and recipe.preload is not None:
         params = _without_given(params, nodes, request)
+    if request.generation == 2:
+        params = _with_refused(params, nodes, outcome)
     asked = set(found.asked)
     if any(node.full for node in nodes):
         asked.add("name")  # which the other nodes' names may be made of, and which of them is the launch file's
@@ -223,6 +230,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),
         nodes=nodes,
+        looks=found.looked,
     )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
     lasting = not raw.killed and not raw.cancelled and not _was_held_up(outcome, found.end)
@@ -298,6 +306,8 @@ def _told(record: Mapping[str, Any], found: _Gathered) -> bool:
                 return False
             full = _text(record.get("full"), _FULL_NAME) or ""
             found.nodes[MadeNode(name, given, space, record.get("renamed") is True, full=full)] = None
+        case "asked" if record.get("what") == "graph":
+            found.looked = True
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":
@@ -394,7 +404,15 @@ def _told_param(record: Mapping[str, Any], found: _Gathered) -> bool:
         node=_text(record.get("node"), _FULL_NAME),
     )
     found.waited = found.waited or (bool(found.fed) and repr(use) not in found.params)
-    found.params.setdefault(repr(use), (use, _text(record.get("resolved"), _NAME)))
+    resolved = _text(record.get("resolved"), _NAME)
+    key = found.declared.setdefault((use.name, use.node), repr(use)) if access == "get" else repr(use)
+    if record.get("described") is True and key in found.params:
+        # The default is what was told as it was declared: it may be another value by now.
+        known = found.params[key][0]
+        use = replace(use, default=known.default, has_default=known.has_default, type=known.type or use.type)
+        found.params[key] = use, resolved
+    else:
+        found.params.setdefault(repr(use), (use, resolved))
     return True
 
 
@@ -509,6 +527,20 @@ def _owned(
         tuple(use if use.node in several else replace(use, node=None) for use in params),
         tuple(dict.fromkeys(node if several else replace(node, full="") for node in nodes)),
     )
+
+
+def _with_refused(params: tuple[ParamUse, ...], nodes: tuple[MadeNode, ...], outcome: Outcome) -> tuple[ParamUse, ...]:
+    """With the parameter that the node ended for, which is one of the last that was made."""
+    refused = refused_param(outcome)
+    if refused is None:
+        return params
+    made = [node.full for node in nodes if not node.hidden]
+    refused = replace(refused, node=(made[-1] or None) if made else None)
+    known = next((p for p in params if (p.name, p.node, p.access) == (refused.name, refused.node, "get")), None)
+    if known is None:
+        return (*params, refused)
+    whole = replace(known, type=known.type or refused.type, mandatory=refused.mandatory, refused=refused.refused)
+    return tuple(whole if param is known else param for param in params)
 
 
 def _without_given(

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from preflight_analysis.evaluation.ros2.param_files import Section
+from preflight_analysis.evaluation.ros2.remaps import before_remaps, renames_nodes
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +23,7 @@ class TraceRequest:
     args: tuple[str, ...] = ()
     """The node's own arguments, split as a shell would."""
     remaps: tuple[tuple[str, str], ...] = ()
-    """`(from, to)` as roslaunch hands them to the node."""
+    """`(from, to)` as roslaunch or launch hands them to the node."""
     params: Mapping[str, Any] = field(default_factory=dict)
     env: tuple[tuple[str, str], ...] = ()
     """What the launch file sets for the node."""
@@ -36,12 +37,15 @@ class TraceRequest:
     sections: tuple[tuple[Section, ...], ...] = ()
     """What the node's parameter files and values have for nodes of any name, source by source. What of it is for a node
     without a name in the launch file, or for others of the process, is only known once a run has told their names."""
-    renames: tuple[tuple[str, str], ...] = ()
-    """ROS 2: the remaps of the names and namespaces of nodes; all others are applied to what the run tells."""
     each: tuple[tuple[str, Mapping[str, Any]], ...] = ()
     """ROS 2: the parameters of each node of the process, by its full name, where those are not the same for all."""
     launch: str | None = field(default=None, compare=False)
     """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
+
+    @property
+    def renames(self) -> tuple[tuple[str, str], ...]:
+        """ROS 2: the remaps of the names and namespaces of nodes; all others are applied to what the run tells."""
+        return tuple(remap for remap in self.remaps if self.generation == 2 and renames_nodes(remap[0]))
 
     def under(self, name: str) -> TraceRequest | None:
         """The run with what the parameter files have for the full name that the node gave itself; None where that
@@ -61,10 +65,11 @@ class TraceRequest:
         return replace(self, params=params, sections=(), each=tuple(each.items()))
 
     def given_to(self, node: str | None) -> Mapping[str, Any]:
-        """The parameters that a node of the process gets in the run, by their own names."""
+        """The parameters that a node of the process gets in the run, by the names that they have there."""
         own = f"{self.node}/"
         given = {name.removeprefix(own): value for name, value in self.params.items() if name.startswith(own)}
-        return dict(self.each).get(node or "", given)
+        given = dict(dict(self.each).get(node or "", given))
+        return before_remaps(given, self.remaps, node or self.node) if self.generation == 2 else given
 
     def _for(self, name: str) -> dict[str, Any]:
         """What the sources have for the node of this full name."""

@@ -149,8 +149,10 @@ def _shares(environment: Environment) -> dict[str, str]:
 def _parameters(request: TraceRequest) -> dict[str, Any]:
     """The node's own parameters, for whatever name it has, or those of each node of the process; what a file cannot
     hold is left out."""
-    each = request.each or (("/**", request.given_to(None)),)
-    plain = {node: {name: value for name, value in given.items() if _is_plain(value)} for node, given in each}
+    given_to = {node: request.given_to(node) for node, _ in request.each} or {"/**": request.given_to(None)}
+    plain = {
+        node: {name: value for name, value in given.items() if _is_plain(value)} for node, given in given_to.items()
+    }
     return {node: {"ros__parameters": given} for node, given in plain.items() if given}
 
 

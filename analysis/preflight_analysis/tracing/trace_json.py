@@ -38,6 +38,7 @@ def _node(node: LaunchNode, interface: Interface) -> dict[str, Any]:
         "endpoints": [_endpoint(endpoint) for endpoint in interface.endpoints],
         "params": [_param(use) for use in interface.params],
         "notes": list(interface.notes),
+        **({"looks": True} if interface.looks else {}),
     }
 
 

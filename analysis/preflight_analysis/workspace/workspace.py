@@ -20,7 +20,6 @@ from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
-from preflight_analysis.evaluation.ros2.remaps import renames_nodes
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
@@ -270,6 +269,7 @@ class Workspace:
             node.package,
             path,
             split_args(node.args),
+            tuple((remap.source, remap.target) for remap in node.remaps),
             params={f"{node.name}/{p.name}": p.value for p in node.params if not isinstance(p.value, CommandValue)},
             env=node.env,
             cwd=node.cwd,
@@ -277,7 +277,6 @@ class Workspace:
             entry_point=node.resolved.entry_point,
             named=node.named,
             sections=sections_for_any_name(node, documents),
-            renames=tuple((r.source, r.target) for r in node.remaps if renames_nodes(r)),
             launch=node.location.file,
         )
 

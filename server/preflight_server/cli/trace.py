@@ -68,6 +68,8 @@ def _lines(node: LaunchNode, interface: Interface) -> Iterator[str]:
         if not use.builtin:
             default = f"  default {use.default!r}" if use.has_default else ""
             yield f"  {use.access} param {use.name}{default}{_of(use.node)}{_at(use.source_file, use.source_line)}"
+    if interface.looks:
+        yield "  it asks which nodes, topics or services there are, and may do more where there are others"
     yield from (f"  note: {note}" for note in interface.notes)
 
 

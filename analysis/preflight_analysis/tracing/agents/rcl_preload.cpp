@@ -17,6 +17,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "preload.hpp"
@@ -357,6 +358,20 @@ Value value_of(Reader& from) {
   return {kTypes[type], whole || (type != 3 && type != 8) ? values[type] : ""};
 }
 
+// The next range of a descriptor, of `from_value`, `to_value` and `step`.
+template <typename Number>
+std::string json_of(Reader& from) {
+  std::string made;
+  for (int i = 0; i < 3; ++i) {
+    char text[400] = "null";  // what JSON has not
+    double number = static_cast<double>(from.value<Number>());
+    const char* format = std::is_same<Number, double>::value ? "%.17g" : "%.0f";
+    if (number - number == 0) snprintf(text, sizeof text, format, number);
+    made += (made.empty() ? "" : ",") + std::string(text);
+  }
+  return "[" + made + "]";
+}
+
 bool starts_with_any(const std::string& text, std::initializer_list<const char*> starts) {
   for (const char* start : starts) {
     if (starts_with(text, start)) return true;
@@ -371,32 +386,47 @@ std::map<const Handle*, const Support*>& event_publishers() {
 }
 std::atomic<bool> any_event_publisher{false};
 
+// The CDR of a message; without a buffer where it cannot be had.
+struct Owned {
+  Serialized bytes;
+  Owned(const void* message, const Support* support) {
+    auto* serialize = REAL_IF_ANY("rmw_serialize", int(const void*, const Support*, Serialized*));
+    auto* allocator = REAL_IF_ANY("rcutils_get_default_allocator", Allocator());
+    if (serialize == nullptr || allocator == nullptr || support == nullptr) return;
+    bytes.allocator = allocator();
+    int result = serialize(message, support, &bytes);
+    reset_error();  // of type supports that it tried before it found the right one: the next error would complain of it
+    if (result != kOk) bytes.length = 0;
+  }
+  ~Owned() { free(bytes.buffer); }
+  Owned(const Owned&) = delete;
+};
+
+constexpr size_t kMostValue = 3000;
+
+// What every way to learn of a parameter tells of it.
+Event param_event(const std::string& node, const std::string& name, const Value& value) {
+  bool builtin = name == "use_sim_time" || starts_with_any(name, {"qos_overrides.", "start_type_description_"});
+  last_new = now();
+  Event event("param");
+  event.add("access", std::string("get")).add("name", "~" + name).add("optional", true).add("builtin", builtin);
+  if (!node.empty()) event.add("node", node);
+  event.add("has_default", !value.json.empty() && !builtin);
+  if (!value.json.empty() && value.json.size() <= kMostValue) event.raw("default", value.json);
+  return event;
+}
+
 // What a message on /parameter_events says of parameters that are new.
 void tell_declared(const void* message, const Support* support) {
-  auto* serialize = REAL_IF_ANY("rmw_serialize", int(const void*, const Support*, Serialized*));
-  auto* allocator = REAL_IF_ANY("rcutils_get_default_allocator", Allocator());
-  if (serialize == nullptr || allocator == nullptr) return;
-  Serialized bytes;
-  bytes.allocator = allocator();
-  int result = serialize(message, support, &bytes);
-  reset_error();  // of type supports that it tried before it found the right one: the next error would complain of it
-  if (result != kOk) return;
-  std::unique_ptr<unsigned char, void (*)(void*)> owned(bytes.buffer, free);
-  Reader from(bytes);
+  Owned owned(message, support);
+  Reader from(owned.bytes);
   from.value<int32_t>();
   from.value<uint32_t>();
   std::string node = from.string();
-  constexpr size_t kMostValue = 3000;
   for (uint32_t left = from.value<uint32_t>(); left > 0; --left) {
     std::string name = from.string();
     Value value = value_of(from);
-    bool builtin = name == "use_sim_time" || starts_with_any(name, {"qos_overrides.", "start_type_description_"});
-    last_new = now();
-    Event event("param");
-    event.add("access", std::string("get")).add("name", "~" + name).add("optional", true).add("builtin", builtin);
-    if (!node.empty()) event.add("node", node);
-    event.add("has_default", !value.json.empty() && !builtin);
-    if (!value.json.empty() && value.json.size() <= kMostValue) event.raw("default", value.json);
+    Event event = param_event(node, name, value);
     if (!value.type.empty()) event.add("type", value.type);
     event.send();
   }
@@ -419,6 +449,21 @@ bool while_up(Step step) {
   return !ended;
 }
 
+std::set<const Handle*>& gone() {
+  static auto* all = new std::set<const Handle*>;
+  return *all;
+}
+
+// Likewise with a node, which may be taken down before the rest.
+template <typename Step>
+bool while_up(const Handle* node, Step step) {
+  bool there = false;
+  return while_up([&] {
+    there = gone().count(node) == 0;
+    if (there) step();
+  }) && there;
+}
+
 // Our own threads take no signals: those are the node's.
 template <typename Work>
 void in_background(Work work) {
@@ -439,12 +484,192 @@ void pause(double seconds) {
   nanosleep(&time, nullptr);
 }
 
+// A message, as its own type support makes it.
+class Message {
+ public:
+  explicit Message(const Members* members) : members_(members), memory_(members->size) {
+    reinterpret_cast<void (*)(void*, int)>(const_cast<void*>(members->tail()[1]))(memory_.data(), 0);
+  }
+  ~Message() { reinterpret_cast<void (*)(void*)>(const_cast<void*>(members_->tail()[2]))(memory_.data()); }
+  Message(const Message&) = delete;
+
+  void* get() { return memory_.data(); }
+
+  // Yes to each yes or no: a service that fails leads nowhere.
+  void agree() {
+    auto* member = static_cast<const Member*>(members_->tail()[0]);
+    bool flagged = members_->tail() != members_->rest;
+    for (uint32_t i = 0; i < members_->count; ++i, ++member) {
+      if (member->type == kBoolean && !member->flags[flagged]) memory_[member->offset] = 1;
+    }
+  }
+
+ private:
+  const Members* members_;
+  std::vector<unsigned char> memory_;
+};
+
+const ServiceMembers* members_of(const Support* support) {
+  for (const char* identifier : {kSupports[2], kSupports[3]}) {
+    // It has to be the language of the node's own: of the other one there is none.
+    const Support* special = found(support, identifier);
+    auto* members = special == nullptr ? nullptr : static_cast<const ServiceMembers*>(special->data);
+    constexpr size_t kMost = 1 << 20;
+    if (members != nullptr && members->request->size < kMost && members->response->size < kMost) return members;
+  }
+  return nullptr;
+}
+
+// What a node that is up says of its parameters. Its own services tell what it does not publish: those that were declared
+// without a value, what else is declared with them, and all of a node that publishes no parameter events.
+
+// rosidl's strings and lists in C.
+struct CString {
+  const char* data;
+  size_t size, capacity;
+};
+struct CList {
+  CString* data;
+  size_t size, capacity;
+};
+
+// The request of ListParameters, and in its first field those of DescribeParameters and GetParameters.
+struct AskParameters {
+  CList names{nullptr, 0, 0};
+  uint64_t depth = 0;
+};
+
+// A client of one of the services of parameters of a node, in its own process.
+class Asking {
+ public:
+  Asking(const Handle* node, const Support* service, const Support* response, const char* name)
+      : response_(response), members_(members_of(service)) {
+    auto* make = REAL_IF_ANY("rcl_client_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
+    auto* options = REAL_IF_ANY("rcl_client_get_default_options", Options());
+    if (make == nullptr || options == nullptr || members_ == nullptr || response == nullptr) return;
+    Options given = options();
+    made_ = make(&client_, node, service, (std::string("~/") + name).c_str(), &given) == kOk;
+  }
+
+  // Calls it, and reads what it answers; whether it did until then.
+  template <typename Read>
+  bool ask(const Handle* node, const AskParameters& request, double until, Read read) {
+    auto* available = REAL_IF_ANY("rcl_service_server_is_available", int(const Handle*, const Handle*, bool*));
+    auto* send = REAL_IF_ANY("rcl_send_request", int(const Handle*, const void*, int64_t*));
+    auto* take = REAL_IF_ANY("rcl_take_response", int(const Handle*, void*, void*));
+    if (!made_ || available == nullptr || send == nullptr || take == nullptr) return false;
+    bool there = false;
+    int64_t sequence = 0;
+    Message response(members_->response);
+    for (int result = kOk + 1; now() < until; pause(0.001)) {
+      alignas(16) unsigned char header[128] = {};
+      bool up = while_up(node, [&] {
+        if (!there && available(node, &client_, &there) == kOk && there) send(&client_, &request, &sequence);
+        if (there) result = take(&client_, header, response.get());
+        reset_error();
+      });
+      if (!up) return false;
+      if (result != kOk) continue;
+      Owned owned(response.get(), response_);
+      Reader from(owned.bytes);
+      read(from);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  const Support* response_;
+  const ServiceMembers* members_;
+  Handle client_;
+  bool made_ = false;
+};
+
+#define SUPPORT(kind, name) \
+  REAL_IF_ANY("rosidl_typesupport_c__get_" kind "_type_support_handle__rcl_interfaces__srv__" name, const Support*())
+#define ASKING(node, type, name) \
+  std::make_shared<Asking>(node, called(SUPPORT("service", type)), called(SUPPORT("message", type "_Response")), name)
+
+const Support* called(const Support* (*support)()) { return support == nullptr ? nullptr : support(); }
+
+struct Asked {
+  std::string node;
+  std::shared_ptr<Asking> list, describe, get;
+};
+
+void tell_parameters(const Handle* node, const Asked& asked) {
+  double until = now() + 1.5;
+  std::vector<std::string> names;
+  bool listed = asked.list->ask(node, {}, until, [&](Reader& from) {
+    for (uint32_t left = from.value<uint32_t>(); left > 0; --left) names.push_back(from.string());
+  });
+  std::vector<CString> strings;
+  for (const std::string& name : names) strings.push_back({name.c_str(), name.size(), name.size() + 1});
+  AskParameters request;
+  request.names = {strings.data(), strings.size(), strings.size()};
+  std::vector<Value> values;
+  if (!listed || names.empty()) return;
+  // One that was declared without a value has none, and rclcpp answers nothing at all then.
+  asked.get->ask(node, request, until, [&](Reader& from) {
+    for (uint32_t left = from.value<uint32_t>(); left > 0; --left) values.push_back(value_of(from));
+  });
+  values.resize(names.size());
+  asked.describe->ask(node, request, until, [&](Reader& from) {
+    uint32_t count = from.value<uint32_t>();
+    for (uint32_t i = 0; i < count && i < names.size(); ++i) {
+      std::string name = from.string();
+      uint8_t type = from.value<uint8_t>();
+      from.string();
+      from.string();
+      bool read_only = from.value<uint8_t>() != 0, dynamic = from.value<uint8_t>() != 0;
+      std::string doubles = from.list([&] { return json_of<double>(from); });
+      std::string integers = from.list([&] { return json_of<int64_t>(from); });
+      Event event = param_event(asked.node, name, values[i]);
+      event.add("described", true).add("read_only", read_only).add("dynamic", dynamic);
+      if (type > 0 && type < sizeof kTypes / sizeof *kTypes && !dynamic) event.add("type", std::string(kTypes[type]));
+      const std::string& range = type == 3 ? doubles : integers;
+      if ((type == 2 || type == 3) && range != "[]") event.raw("range", range.substr(1, range.size() - 2));
+      event.send();
+    }
+  });
+}
+
+// Nodes with services of parameters that were not asked yet.
+std::mutex unasked_mutex;
+std::set<const Handle*>& unasked() {
+  static auto* all = new std::set<const Handle*>;
+  return *all;
+}
+
 // The event loop
 
 std::atomic<int> busy{0};  // lifecycle nodes that are on their way, and calls that are going to be answered
 std::mutex turns_mutex;
 std::string held;  // the state that is to be told once they are through
 std::set<std::string> told_states;
+
+void no_longer_busy();
+
+// A node is up now, and answers.
+void ask_for_parameters() {
+  std::set<const Handle*> nodes;
+  {
+    std::lock_guard<std::mutex> locked(unasked_mutex);
+    nodes.swap(unasked());
+  }
+  for (const Handle* node : nodes) {
+    Asked asked{full_name_of(node), ASKING(node, "ListParameters", "list_parameters"),
+                ASKING(node, "DescribeParameters", "describe_parameters"), ASKING(node, "GetParameters", "get_parameters")};
+    ++busy;
+    in_background([node, asked] {
+      try {
+        tell_parameters(node, asked);
+      } catch (...) {  // what it answers is no message that we know
+      }
+      no_longer_busy();
+    });
+  }
+}
 
 void tell_state(const std::string& state, bool main) {
   Event("state").add("state", state).raw("threads", main ? "0" : "1").send();
@@ -457,6 +682,7 @@ void tell_turn(const WaitSet* waited_for, int64_t timeout) {
                    waited_for->services.count >
                0;
   if (!main && !works) return;  // rclcpp has a thread that looks for changes of the graph
+  if (works) ask_for_parameters();
   // Whoever waits without end in the main thread is there. Else it may be a wait before more is made.
   std::string state = main && (timeout < 0 || turns.fetch_add(1) > 0) ? "looped" : "idle";
   std::lock_guard<std::mutex> locked(turns_mutex);
@@ -586,42 +812,6 @@ std::map<const Handle*, Wanted>& clients() {
   return *all;
 }
 
-// A message, as its own type support makes it.
-class Message {
- public:
-  explicit Message(const Members* members) : members_(members), memory_(members->size) {
-    reinterpret_cast<void (*)(void*, int)>(const_cast<void*>(members->tail()[1]))(memory_.data(), 0);
-  }
-  ~Message() { reinterpret_cast<void (*)(void*)>(const_cast<void*>(members_->tail()[2]))(memory_.data()); }
-  Message(const Message&) = delete;
-
-  void* get() { return memory_.data(); }
-
-  // Yes to each yes or no: a service that fails leads nowhere.
-  void agree() {
-    auto* member = static_cast<const Member*>(members_->tail()[0]);
-    bool flagged = members_->tail() != members_->rest;
-    for (uint32_t i = 0; i < members_->count; ++i, ++member) {
-      if (member->type == kBoolean && !member->flags[flagged]) memory_[member->offset] = 1;
-    }
-  }
-
- private:
-  const Members* members_;
-  std::vector<unsigned char> memory_;
-};
-
-const ServiceMembers* members_of(const Support* support) {
-  for (const char* identifier : {kSupports[2], kSupports[3]}) {
-    // It has to be the language of the node's own: of the other one there is none.
-    const Support* special = found(support, identifier);
-    auto* members = special == nullptr ? nullptr : static_cast<const ServiceMembers*>(special->data);
-    constexpr size_t kMost = 1 << 20;
-    if (members != nullptr && members->request->size < kMost && members->response->size < kMost) return members;
-  }
-  return nullptr;
-}
-
 // Answers each call of a service of ours.
 void serve(std::shared_ptr<Handle> service, const ServiceMembers* members, const std::string& name) {
   auto* take = REAL_IF_ANY("rcl_take_request", int(const Handle*, void*, void*));
@@ -719,6 +909,10 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
     result = make(self, name, space, context, options);
   }
   quietly([&] {
+    {
+      std::lock_guard<std::mutex> locked(ours_mutex);
+      gone().erase(self);
+    }
     // The client library asks for the node's name all the time: that the node does so itself cannot be told apart.
     Event("asked").add("what", std::string("name")).send();
     if (result != kOk) return;
@@ -734,6 +928,18 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
     Event("state").add("state", std::string("init")).send();
   });
   return result;
+}
+
+HOOK int rcl_node_fini(Handle* self) {
+  quietly([&] {
+    {
+      std::lock_guard<std::mutex> locked(unasked_mutex);
+      unasked().erase(self);
+    }
+    std::lock_guard<std::mutex> locked(ours_mutex);
+    gone().insert(self);
+  });
+  return REAL("rcl_node_fini", int(Handle*))(self);
 }
 
 #define ENDPOINT(function, role, qos_of)                                                                    \
@@ -761,6 +967,10 @@ void made(const char* role, Handle* self, const Handle* node, const Support* sup
   bool service = role[0] == 'c' || strcmp(role, "service") == 0;
   if (service && depth > 1 && goal_service.empty()) goal_service = action_of(type_of(support));
   if (in_library && name == "~/change_state") change_state_node = node;
+  if (strcmp(role, "service") == 0 && expanded(node, name, true) == full_name_of(node) + "/list_parameters") {
+    std::lock_guard<std::mutex> locked(unasked_mutex);
+    unasked().insert(node);
+  }
   if (role[0] == 'p' && expanded(node, name, false) == "/parameter_events") {
     std::lock_guard<std::mutex> locked(events_mutex);
     event_publishers()[self] = support;
@@ -803,6 +1013,18 @@ HOOK int rcl_publish(const Handle* self, const void* message, void* allocation) 
     });
   }
   return REAL("rcl_publish", int(const Handle*, const void*, void*))(self, message, allocation);
+}
+
+// rclcpp publishes its parameter events for those alone that listen, where messages stay within the process.
+HOOK int rcl_publisher_get_subscription_count(const Handle* self, size_t* count) {
+  int result = REAL("rcl_publisher_get_subscription_count", int(const Handle*, size_t*))(self, count);
+  if (result == kOk && any_event_publisher && depth == 0) {
+    quietly([&] {
+      std::lock_guard<std::mutex> locked(events_mutex);
+      *count += event_publishers().count(self);
+    });
+  }
+  return result;
 }
 
 HOOK int rcl_client_fini(Handle* self, Handle* node) {
@@ -863,6 +1085,65 @@ HOOK int rcl_lifecycle_state_machine_init(Machine* self, Handle* node, const voi
   });
   return result;
 }
+
+// Who looks at the graph may do more, or something else, once others are there.
+
+#define LOOKS(function, types, ...)                                                        \
+  quietly([&] {                                                                            \
+    if (depth == 1) Event("asked").add("what", std::string("graph")).send();               \
+  });                                                                                      \
+  return REAL(#function, int types)(__VA_ARGS__);
+
+HOOK int rcl_get_topic_names_and_types(const Handle* node, Allocator* memory, bool raw, void* found) {
+  LOOKS(rcl_get_topic_names_and_types, (const Handle*, Allocator*, bool, void*), node, memory, raw, found)
+}
+
+HOOK int rcl_get_service_names_and_types(const Handle* node, Allocator* memory, void* found) {
+  LOOKS(rcl_get_service_names_and_types, (const Handle*, Allocator*, void*), node, memory, found)
+}
+
+HOOK int rcl_get_node_names(const Handle* node, Allocator memory, void* found, void* spaces) {
+  LOOKS(rcl_get_node_names, (const Handle*, Allocator, void*, void*), node, memory, found, spaces)
+}
+
+HOOK int rcl_get_node_names_with_enclaves(const Handle* node, Allocator memory, void* found, void* spaces,
+                                          void* enclaves) {
+  LOOKS(rcl_get_node_names_with_enclaves, (const Handle*, Allocator, void*, void*, void*), node, memory, found, spaces,
+        enclaves)
+}
+
+#define LOOKS_AT_TOPICS_OF(function)                                                                                  \
+  HOOK int function(const Handle* node, Allocator* memory, bool raw, const char* of, const char* space, void* found) { \
+    LOOKS(function, (const Handle*, Allocator*, bool, const char*, const char*, void*), node, memory, raw, of, space,  \
+          found)                                                                                                       \
+  }
+LOOKS_AT_TOPICS_OF(rcl_get_publisher_names_and_types_by_node)
+LOOKS_AT_TOPICS_OF(rcl_get_subscriber_names_and_types_by_node)
+
+#define LOOKS_AT_SERVICES_OF(function)                                                                      \
+  HOOK int function(const Handle* node, Allocator* memory, const char* of, const char* space, void* found) { \
+    LOOKS(function, (const Handle*, Allocator*, const char*, const char*, void*), node, memory, of, space, found) \
+  }
+LOOKS_AT_SERVICES_OF(rcl_get_service_names_and_types_by_node)
+LOOKS_AT_SERVICES_OF(rcl_get_client_names_and_types_by_node)
+
+#define COUNTS(function)                                                                    \
+  HOOK int function(const Handle* node, const char* name, size_t* count) {                  \
+    LOOKS(function, (const Handle*, const char*, size_t*), node, name, count)               \
+  }
+COUNTS(rcl_count_publishers)
+COUNTS(rcl_count_subscribers)
+COUNTS(rcl_count_clients)
+COUNTS(rcl_count_services)
+
+#define LOOKS_AT_ENDS(function)                                                                             \
+  HOOK int function(const Handle* node, Allocator* memory, const char* name, bool raw, void* found) {       \
+    LOOKS(function, (const Handle*, Allocator*, const char*, bool, void*), node, memory, name, raw, found)  \
+  }
+LOOKS_AT_ENDS(rcl_get_publishers_info_by_topic)
+LOOKS_AT_ENDS(rcl_get_subscriptions_info_by_topic)
+LOOKS_AT_ENDS(rcl_get_clients_info_by_service)
+LOOKS_AT_ENDS(rcl_get_servers_info_by_service)
 
 HOOK int rcl_service_server_is_available(const Handle* node, const Handle* client, bool* available) {
   auto* ask = REAL("rcl_service_server_is_available", int(const Handle*, const Handle*, bool*));

@@ -27,6 +27,28 @@ _MAX_DEFAULT = 4_000
 _FOREVER = 9_000_000_000
 """Seconds: the "infinite" durations of rmw are longer."""
 
+_LOOKS = (
+    "get_node_names",
+    "get_node_names_and_namespaces",
+    "get_node_names_and_namespaces_with_enclaves",
+    "get_fully_qualified_node_names",
+    "get_topic_names_and_types",
+    "get_service_names_and_types",
+    "get_publisher_names_and_types_by_node",
+    "get_subscriber_names_and_types_by_node",
+    "get_service_names_and_types_by_node",
+    "get_client_names_and_types_by_node",
+    "count_publishers",
+    "count_subscribers",
+    "count_clients",
+    "count_services",
+    "get_publishers_info_by_topic",
+    "get_subscriptions_info_by_topic",
+    "get_clients_info_by_service",
+    "get_servers_info_by_service",
+)
+"""Methods of a node that tell of others."""
+
 _nodes: list[Any] = []
 _OVERRIDES = "automatically_declare_parameters_from_overrides"
 _from_overrides: Any = weakref.WeakValueDictionary()
@@ -202,6 +224,17 @@ def _asks(original: Callable[..., Any]) -> Callable[..., Any]:
         return original(*args, **kwargs)
 
     return asked
+
+
+def _looks(original: Callable[..., Any]) -> Callable[..., Any]:
+    """The node looks which nodes, topics or services there are: what it does may depend on it."""
+
+    def looked(*args: Any, **kwargs: Any) -> Any:
+        if _top(sys._getframe(1)) not in _LIBRARIES:
+            channel.send("asked", what="graph")
+        return original(*args, **kwargs)
+
+    return looked
 
 
 # Parameters
@@ -579,6 +612,8 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
         for method in ("get_name", "get_namespace", "get_fully_qualified_name", "resolve_topic_name"):
             _wrap(node, method, _asks)
         _wrap(node, "resolve_service_name", _asks)
+        for method in _LOOKS:
+            _wrap(node, method, _looks)
         _wrap(node, "create_publisher", _creates("publisher", "msg_type", "topic", True))
         _wrap(node, "create_subscription", _creates("subscriber", "msg_type", "topic", True))
         _wrap(node, "create_service", _creates("service", "srv_type", "srv_name", False))
