@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.live.expected import expected_of
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Range
 from rcl_desk import RclDesk
@@ -121,6 +122,7 @@ def test_each_node_gets_what_the_parameter_file_has_for_it(kilted: RclDesk) -> N
     assert "did you mean 'resolution'" in finding.message
     assert found(kilted, "PRM011", launch) == []
     file.write_text("n/costmap/costmap:\n  ros__parameters:\n    resolution2: 0.5\n")
+    assert found(kilted, "PRM011", launched(kilted, mandatory, f"<param from='{file}'/>")) == []
     graph = kilted.check(launched(kilted, mandatory, f"<param from='{file}'/>")).graph
     assert graph is not None
     assert [interface.outcome.status for interface in graph.interfaces] == ["spinning", "spinning"]
@@ -249,3 +251,14 @@ def test_a_crash_shows_what_was_thrown(desk: RclDesk) -> None:
         "it was killed by SIGABRT: InvalidTopicNameError: Invalid topic name: topic name must not contain characters "
         "other than alphanumerics, '_', '~', '{', or '}': 'a-b'"
     )
+
+
+def test_watch_expects_each_node_with_its_own_ends(kilted: RclDesk) -> None:
+    analysis = kilted.check(launched(kilted, CHILD))
+    assert analysis.graph is not None
+    expected = expected_of(analysis.graph, analysis.documents)
+    assert {node.name: [end.name for end in node.ends] for node in expected.nodes} == {
+        "/n": ["/chatter"],
+        "/n/costmap/costmap": ["/n/costmap/map"],
+    }
+    assert all(node.certain and node.complete for node in expected.nodes)

@@ -446,7 +446,7 @@ def main():
 def test_a_name_for_a_process_with_several_nodes(tmp_path: Path, attributes: str, told: bool) -> None:
     analysis = Ros2Desk(tmp_path, both=TWO).check(f"<node pkg='pkg' exec='both' {attributes}/>")
     assert analysis.graph is not None
-    (interface,) = analysis.graph.interfaces
+    (interface,) = analysis.graph.processes
     assert [(node.given, node.name) for node in interface.nodes] == [
         ("front", "scanner" if told else "front"),
         ("rear", "scanner" if told else "rear"),
@@ -456,6 +456,46 @@ def test_a_name_for_a_process_with_several_nodes(tmp_path: Path, attributes: str
     assert [f.message.partition(":")[0] for f in found] == (
         ["this process has the nodes 'front' and 'rear', and 'name' is for each of them"] if told else []
     )
+
+
+APART = """
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+def main():
+    rclpy.init()
+    front, rear = Node('front'), Node('rear', namespace='/back')
+    front.declare_parameter('rate', 1.0)
+    rear.declare_parameter('rate', 2)
+    for node in (front, rear):
+        node.create_publisher(String, 'scan', 10)
+    executor = rclpy.executors.SingleThreadedExecutor()
+    executor.add_node(front)
+    executor.spin()
+"""
+
+
+def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, both=APART)
+    file = desk.write("p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n")
+    analysis = desk.check(f"<node pkg='pkg' exec='both'><remap from='scan' to='out'/><param from='{file}'/></node>")
+    assert analysis.graph is not None
+    assert [node.name for node in analysis.graph.tree.nodes] == ["/front", "/back/rear"]
+    offers = {name: [c.node.name for c in topic.offers] for name, topic in analysis.graph.topics.items()}
+    assert (offers["/out"], offers["/back/out"]) == (["/front"], ["/back/rear"])
+    said = {f.rule: f.message.partition(":")[0] for f in analysis.findings if f.rule.startswith("PRM")}
+    assert said == {
+        "PRM013": "/front declares no parameter 'rat'",
+        "PRM014": "'rate' is a double, and /back/rear declares it as an integer",
+    }
+
+
+def test_a_node_that_asks_who_is_there_is_not_fully_known(tmp_path: Path) -> None:
+    desk = Ros2Desk(tmp_path, asks=node_of("self.count_publishers('scan')"), plain=node_of("self.get_clock()"))
+    assert (desk.trace("asks").looks, desk.trace("asks").complete) == (True, False)
+    assert (desk.trace("plain").looks, desk.trace("plain").complete) == (False, True)
 
 
 def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:

@@ -30,7 +30,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for source in node.param_sources:
             if source.path is not None:
                 given.setdefault(source.path, []).append((node, source.origin[-1]))
-    names = {node.name for node in context.tree.nodes}
+    beside = _beside(context)
+    names = {node.name for node in context.tree.nodes}.union(*beside.values())
     for path, nodes in given.items():
         document = context.documents.get(path)
         if not isinstance(document, Document):
@@ -41,7 +42,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue  # launch may make any name of a substitution
         # Those that fit no node at all are the ones that may be misspelt.
         lost = [s for s in sections if not (s.pattern in names if s.exact else any(map(s.fits, names)))]
-        lacking = list(_without_own(file, nodes))
+        # Of a process the file is for whichever of its nodes it names.
+        alone = [each for each in nodes if not any(_named(file, name) for name in beside.get(each[0].name, ()))]
+        lacking = list(_without_own(file, alone))
         meant = {each.node.name: _meant(each.node.name, lost, shared=len(nodes) > 1) for each in lacking}
         for section in lost:
             ignoring = {each.node.name: each for each in lacking if meant[each.node.name] is section}
@@ -51,6 +54,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             # One file for several nodes, with nothing for this one: that is usual.
             if not each.reached and (len(nodes) == 1 or meant[each.node.name] is not None):
                 yield _about_file(rule, context, path, sections, each, meant[each.node.name])
+
+
+def _beside(context: Context) -> dict[str, list[str]]:
+    """The other nodes that the processes of nodes were seen to make."""
+    found: dict[str, list[str]] = {}
+    for node in context.graph.tree.nodes if context.graph is not None else ():
+        if node.within is not None:
+            found.setdefault(node.within, []).append(node.name)
+    return found
+
+
+def _named(file: ParamFile, node: str) -> bool:
+    """Whether a key of the file is for the node, and not for all."""
+    return not all(_is_for_all(section) for section in file.reaching(node))
 
 
 def _without_own(file: ParamFile, nodes: Iterable[tuple[LaunchNode, Location]]) -> Iterator[_Given]:

@@ -23,7 +23,7 @@ MAX_WRITTEN = 80
 
 def snapshot_of(analysis: Analysis, graph: Graph) -> Snapshot:
     """What is to be kept of an analysed launch file and of `graph`, that of its nodes."""
-    tree = analysis.tree
+    tree = graph.tree
     portable = Portable(analysis.environment, tree.generation)
     ends, reads = _by_node(graph)
     own, shared = _parameters(tree)

@@ -311,8 +311,8 @@ class Workspace:
         written, what its source declares can be proposed before it has run once."""
         if analysis.graph is None:
             interfaces = [not_run(node) for node in analysis.tree.nodes]
-        elif any(interface.pending for interface in analysis.graph.interfaces):
-            pairs = zip(analysis.tree.nodes, analysis.graph.interfaces, strict=True)
+        elif any(interface.pending for interface in analysis.graph.processes):
+            pairs = zip(analysis.tree.nodes, analysis.graph.processes, strict=True)
             interfaces = [not_run(node) if each.pending else each for node, each in pairs]
         else:
             return analysis
