@@ -479,12 +479,13 @@ def main():
 
 def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
     desk = Ros2Desk(tmp_path, both=APART)
-    file = desk.write("p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n")
-    analysis = desk.check(f"<node pkg='pkg' exec='both'><remap from='scan' to='out'/><param from='{file}'/></node>")
+    analysis = desk.check("<node pkg='pkg' exec='both'><remap from='scan' to='out'/></node>")
     assert analysis.graph is not None
     assert [node.name for node in analysis.graph.tree.nodes] == ["/front", "/back/rear"]
     offers = {name: [c.node.name for c in topic.offers] for name, topic in analysis.graph.topics.items()}
     assert (offers["/out"], offers["/back/out"]) == (["/front"], ["/back/rear"])
+    file = desk.write("p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n")
+    analysis = desk.check(f"<node pkg='pkg' exec='both'><param from='{file}'/></node>")
     said = {f.rule: f.message.partition(":")[0] for f in analysis.findings if f.rule.startswith("PRM")}
     assert said == {
         "PRM013": "/front declares no parameter 'rat'",
