@@ -489,6 +489,18 @@ def test_a_process_has_no_package() -> None:
     """)
 
 
+def test_substitutions_of_python() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+        <log message="$(FindPackage p)"/>
+                      ^^^^^^^^^^^^^^^^ error[LCH011] 'FindPackage' is not a substitution; did you mean 'find-pkg-share'?
+        <log message="$(PythonExpression 1)"/>
+                      ^^^^^^^^^^^^^^^^^^^^^ error[LCH011] 'PythonExpression' is not a substitution; did you mean 'eval'?
+        </launch>
+    """)
+
+
 def test_substitutions_of_ros1() -> None:
     check("""
         //- /robot.launch.yaml

@@ -192,6 +192,29 @@ def test_substitutions_and_actions_of_the_users_own(desk: PythonDesk) -> None:
     assert [n.name for n in tree.nodes] == ["/n", "/r7_left", "/r7_right"]
 
 
+@pytest.mark.parametrize("written", ["n: {ros__parameters: {rate: 5}}", "n: [1, 2", "[]"])
+def test_nothing_points_into_a_file_that_is_gone(desk: PythonDesk, written: str) -> None:
+    """What a run wrote into a temporary file belongs to the call that wrote it."""
+    own = f"""
+class Rewritten(Substitution):
+    def perform(self, context):
+        with open('/tmp/rewritten.yaml', 'w') as file:
+            file.write({written!r})
+        return file.name
+"""
+    path = _described(desk, "Node(package='p', executable='x', name='n', parameters=[Rewritten()])", before=own)
+    analysis = desk.launch(path)
+    (node,) = analysis.tree.nodes
+    assert bool(node.params) == ("rate" in written)
+    problems = [problem.origin for problem in analysis.tree.problems]
+    assert bool(problems) == (written == "n: [1, 2")
+    for origin in (*problems, *(param.origin for param in node.params)):
+        assert [place.file for place in origin] == [str(path)]
+        assert path.read_text()[origin[-1].span.start : origin[-1].span.end] == "Rewritten()"
+    places = [param.name_location for param in node.params] + [finding.location for finding in analysis.findings]
+    assert {place.file for place in places if place is not None} <= {str(path)}
+
+
 def test_includes_of_all_four_formats(desk: PythonDesk) -> None:
     desk.write("launch/b.launch.xml", '<launch><arg name="n"/><node pkg="p" exec="x" name="$(var n)_xml"/></launch>')
     desk.write(
@@ -427,6 +450,20 @@ def test_what_a_newer_launch_has(desk: PythonDesk) -> None:
     tree = desk.launch(path).tree
     assert [node.name for node in tree.nodes] == ["/loop0", "/loop1", "/a", "/b", "/n"]
     assert [source.path for source in tree.nodes[-1].param_sources] == [str(desk.package / "a" / "b")]
+
+
+def test_a_class_that_finds_no_package(desk: PythonDesk) -> None:
+    """launch_ros raises NotImplementedError when it is performed; a class made from it says where to look."""
+    before = (
+        "from launch_ros.substitutions import FindPackage\n"
+        "class Lib(FindPackage):\n    def find(self, name):\n        return '/lib_of_' + name\n"
+    )
+    path = _described(desk, "LogInfo(msg=[FindPackage('p'), '/x'])", before=before)
+    (finding,) = desk.launch(path).findings
+    expected = "FindPackage finds no folder by itself; use FindPackageShare or FindPackagePrefix"
+    assert (finding.rule, finding.message) == ("LCH011", expected)
+    path = _described(desk, "ExecuteProcess(cmd=['ls', Lib('p')])", before=before)
+    assert [node.args for node in desk.launch(path).tree.nodes] == ["/lib_of_p"]
 
 
 def test_a_file_for_launch_test_is_a_launch_file(desk: PythonDesk) -> None:

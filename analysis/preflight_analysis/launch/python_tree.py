@@ -26,7 +26,6 @@ _SUBSTITUTIONS = {
     "FindPackageShare": "find-pkg-share",
     "get_package_prefix": "find-pkg-prefix",
     "FindPackagePrefix": "find-pkg-prefix",
-    "FindPackage": "find-pkg-prefix",
     "LaunchConfiguration": "var",
     "EnvironmentVariable": "env",
 }

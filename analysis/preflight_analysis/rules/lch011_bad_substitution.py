@@ -8,8 +8,13 @@ from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
-_RENAMED = {"arg": "var", "find": "find-pkg-share", "optenv": "env", "env-default": "env"}
-"""What substitutions of ROS 1 are called in ROS 2."""
+_RENAMED = {
+    **{"arg": "var", "find": "find-pkg-share", "optenv": "env", "env-default": "env"},
+    **{"FindPackage": "find-pkg-share", "FindPackageShare": "find-pkg-share", "FindPackagePrefix": "find-pkg-prefix"},
+    **{"LaunchConfiguration": "var", "EnvironmentVariable": "env", "PythonExpression": "eval"},
+    **{"PathJoinSubstitution": "path-join", "ThisLaunchFileDir": "dirname", "ExecutableInPackage": "exec-in-pkg"},
+}
+"""What substitutions of ROS 1, and those of Python launch files, are called in XML and YAML of ROS 2."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -169,9 +169,10 @@ def file_source(
     file = read_param_file(text)
     if file.problem is not None:
         message, span = file.problem
-        at, fatal = (*origin, Location(path, span)), to.composable or substitute
+        at = origin if path in state.made else (*origin, Location(path, span))
+        fatal = to.composable or substitute
         state.problem("bad-yaml", at, fatal=fatal, message=message, path=path)
-    return _of_file(file, text, path, origin, to, substituted=substitute)
+    return _of_file(file, text, path, origin, to, substituted=substitute, gone=path in state.made)
 
 
 def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:
@@ -214,8 +215,10 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
     )
 
 
-def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources, *, substituted: bool) -> ParamSource:
-    """What of a file reaches a node."""
+def _of_file(
+    file: ParamFile, text: str, path: str, origin: Origin, to: Sources, *, substituted: bool, gone: bool = False
+) -> ParamSource:
+    """What of a file reaches a node. `gone`: a run of a launch file wrote it, so there is no place in it to show."""
     reaching = file.reaching(to.node, composable=to.composable)
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
@@ -227,7 +230,8 @@ def _of_file(file: ParamFile, text: str, path: str, origin: Origin, to: Sources,
             place = Location(path, Span(0, 0) if substituted else param.name_span)
             value = param.by_launch if to.composable else param.value
             by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
-            params.append(Param(param.name, value, (*origin, place), to.owner, place, by_launch=by_launch))
+            way, name_place = (origin, None) if gone else ((*origin, place), place)
+            params.append(Param(param.name, value, way, to.owner, name_place, by_launch=by_launch))
             keys.append(section.key)
     return ParamSource(path, tuple(params), origin, tuple(keys), substituted)
 

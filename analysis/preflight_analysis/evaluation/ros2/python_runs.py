@@ -301,7 +301,7 @@ def _raised(
         module = str(error.get("module", ""))
         state.problem("python-import", origin, fatal=False, module=module, message=message)
     else:
-        behind = [(file, line) for file, line in own if file.startswith("/")]
+        behind = [(file, line) for file, line in own if file.startswith("/") and file not in state.made]
         places = tuple(_frame(state, run, file, line) for file, line in behind)
         if name == "AssertionError" and not message and behind:
             message = _asserted(state, run, *behind[-1])

@@ -317,6 +317,10 @@ class Performer:
 
     # Those of Python launch files only
 
+    def _find_package(self, part: Substitution) -> str:
+        message = "FindPackage finds no folder by itself; use FindPackageShare or FindPackagePrefix"
+        raise _Failure("bad-substitution", text=part.text, message=message)
+
     def _written(self, part: Substitution) -> str:
         text = self._word(part, 0)
         span = part.span
@@ -350,6 +354,7 @@ class Performer:
 
 
 _PERFORM_PYTHON: dict[str, Callable[[Performer, Substitution], str]] = {
+    "find-pkg": Performer._find_package,
     "written": Performer._written,
     "config-equals": Performer._config_equals,
     "config-not-equals": Performer._config_equals,

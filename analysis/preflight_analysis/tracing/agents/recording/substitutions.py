@@ -443,6 +443,10 @@ class Written(Worded):
 
 
 class FindPackage(Worded):
+    """What finds a package in one way or another: classes made from it say where."""
+
+    command = "find-pkg"
+
     def __init__(self, package: Any) -> None:
         self._words(package)
 
@@ -451,7 +455,7 @@ class FindPackage(Worded):
         return self.words[0]
 
     def find(self, package_name: str) -> str:
-        return _share(package_name)
+        raise NotImplementedError
 
     def perform(self, context: LaunchContext) -> str:
         return self.find(self._text(context, 0))
@@ -459,6 +463,9 @@ class FindPackage(Worded):
 
 class FindPackageShare(FindPackage):
     command = "find-pkg-share"
+
+    def find(self, package_name: str) -> str:
+        return _share(package_name)
 
 
 class FindPackagePrefix(FindPackage):

@@ -14,7 +14,7 @@ from .actions import ExecuteProcess
 from .base import Action, Condition, LaunchDescription, Substitution, normalize_to_list_of_substitutions, overrides
 from .conditions import IfCondition, LaunchConfigurationEquals
 from .ros import ComposableNode, ParameterValue
-from .substitutions import TextSubstitution, Worded
+from .substitutions import FindPackage, TextSubstitution, Worded
 
 MAX_ACTIONS = 20_000
 MAX_DEPTH = 100
@@ -190,7 +190,8 @@ class Teller:
     def _part(self, sub: Any) -> Any:
         if type(sub) is TextSubstitution:
             return sub.text
-        if isinstance(sub, Worded) and not overrides(sub, "perform"):
+        own = overrides(sub, "perform") or (isinstance(sub, FindPackage) and overrides(sub, "find"))
+        if isinstance(sub, Worded) and not own:
             words = [[self._part(each) for each in word] for word in sub.words]
             return {"s": sub.command, "w": words, "n": type(sub).__name__, "p": sub.preflight_place}
         return _own(sub)
