@@ -224,6 +224,18 @@ def test_parameter_files_that_are_not_there() -> None:
     """)
 
 
+def test_a_parameter_file_whose_path_is_empty() -> None:
+    """It is the current folder."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="params_file" default=""/>
+          <node pkg="p" exec="a" name="a"><param from="$(var params_file)"/></node>
+                                                       ^^^^^^^^^^^^^^^^^^ error[PRM003] parameter file '' cannot be read: argument 'params_file' is empty
+        </launch>
+    """)  # noqa: E501
+
+
 def test_paths_packages_and_remaps_as_in_ros1() -> None:
     check("""
         //- /p/launch/robot.launch.yaml

@@ -254,9 +254,15 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
                 location, target = Location(performer.place.file, file.span), without_dots(path) or path
                 performer.state.uses.append(Use("file", location, result.text, target, Location(target, Span(0, 0))))
                 substitute = allows_substitutions(performer, child)
-                to.add(file_source(performer, path, at, to, substitute=substitute, must_exist=must_exist))
+                empty = _why_empty(file) if not result.text else None
+                to.add(file_source(performer, path, at, to, substitute=substitute, must_exist=must_exist, empty=empty))
         elif child.value("name") is not None:
             to.add(ParamSource(None, tuple(tag_params(performer, child, node)), origin))
+
+
+def _why_empty(path: Value) -> str:
+    arguments = [part.arguments for part in path.substitutions if part.command == "var"]
+    return f"argument '{arguments[0]}' is empty" if len(arguments) == 1 else "its path is empty"
 
 
 def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:

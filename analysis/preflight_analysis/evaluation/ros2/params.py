@@ -144,20 +144,29 @@ def pushed_source(performer: Performer, param: PushedParam, to: Sources) -> Para
 
 
 def file_source(
-    performer: Performer, path: str, origin: Origin, to: Sources, *, substitute: bool = False, must_exist: bool
+    performer: Performer,
+    path: str,
+    origin: Origin,
+    to: Sources,
+    *,
+    substitute: bool = False,
+    must_exist: bool,
+    empty: str | None = None,
 ) -> ParamSource | None:
     """What a parameter file gives to a node; None if it cannot be read, which is noted.
 
-    For `<node>` launch warns of a file that is not there and goes on, for a composable node it stops.
+    For `<node>` launch warns of a file that is not there and goes on, for a composable node it stops. `empty` is why
+    the path is an empty text, which is the current folder.
     """
     state = performer.state
     path = located(state.environment, path)
     path = without_dots(path) or path
     found = state.read_text(path)
     if isinstance(found, Unreadable):
-        kind = "param-file-not-found" if found.kind == "missing" else "param-file-unreadable"
-        fatal = must_exist or substitute
-        state.problem(kind, origin, fatal=fatal, path=path, tag="param", attribute="from", reason=found.reason)
+        kind = "param-file-not-found" if found.kind == "missing" and not empty else "param-file-unreadable"
+        fatal, reason = must_exist or substitute, empty or found.reason
+        written = "" if empty else path
+        state.problem(kind, origin, fatal=fatal, path=written, tag="param", attribute="from", reason=reason)
         return None
     text = found.text
     if substitute:
