@@ -4,9 +4,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
+SIDE_BY_SIDE := --numprocesses=auto --dist=worksteal
 BENCHMARKS := editing completion index trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test lint bench bench-quick corpus nodes fuzz wheel vsix test-editors images docs clean
+.PHONY: help setup apt demo test quick lint bench bench-quick corpus nodes fuzz wheel vsix test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -28,9 +29,12 @@ demo: setup ## trace two real nodes in the sandbox and show what is wrong with t
 	@echo; echo "What is wrong with the launch file:"
 	@$(BIN)/ros-preflight check $(DEMO)/launch/talker_listener.launch
 
-test: setup ## all tests but those in VS Code; Neovim is among them
+test: setup ## all tests but those in VS Code, side by side; Neovim is among them
 	tests/editors/install.sh neovim
-	$(BIN)/python -m pytest -m "not vscode"
+	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not vscode"
+
+quick: $(READY) ## the tests that need neither ROS nor an editor, in a minute
+	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not ros and not editor"
 
 lint: $(READY) ## ruff and mypy
 	$(BIN)/ruff check .

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import functools
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros2_desk import ROOT, ros2_prefix, scratch_folder
+from made_once import made_once
+from ros2_desk import ROOT, ros2_prefix
 
 _NEEDED = ("action_msgs", "unique_identifier_msgs", "builtin_interfaces", "service_msgs")
 _FACTS = """import sysconfig, numpy
@@ -22,12 +22,14 @@ class ActionPackage:
     libraries: Path
 
 
-@functools.cache
 def action_package(distribution: str = "kilted") -> ActionPackage:
     """Made by the first test that asks, in seconds."""
-    prefix = ros2_prefix(distribution)
+    folder = made_once(f"action-{distribution}", lambda folder: _make(folder, ros2_prefix(distribution)))
+    return ActionPackage(folder, folder / "lib")
+
+
+def _make(folder: Path, prefix: Path) -> None:
     python = prefix / "bin" / "python"
-    folder = scratch_folder()
     script = ROOT / "tests" / "tracing" / "generate_action.py"
     subprocess.run([python, script, folder], check=True, capture_output=True)
     asked = subprocess.run([python, "-c", _FACTS], check=True, capture_output=True, text=True)
@@ -54,4 +56,3 @@ def action_package(distribution: str = "kilted") -> ActionPackage:
     sources = [code / "action/_fib_s.c", code / "_fib_s.ep.rosidl_typesupport_c.c"]
     module = code / f"fib_s__rosidl_typesupport_c{suffix}"
     subprocess.run([*compiling, *sources, "-o", module, *linking], check=True)
-    return ActionPackage(folder, libraries)

@@ -1,9 +1,53 @@
 """What holds for all tests."""
 
+from __future__ import annotations
+
+import os
+import shutil
 import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, settings
+from made_once import VARIABLE, begin_run
+
+_QUICK = ("git", "bash", "script", Path(sys.executable).name, "ros-preflight")
+"""What a test may start that is marked neither `ros` nor `editor`: `make quick` runs it where nothing else is."""
+_started: list[str] = []
 
 
-def pytest_configure() -> None:
-    """A shell that starts the tests in the background lets them ignore interrupts, and with them each program that a
-    test starts and interrupts."""
+def _record(event: str, args: tuple[Any, ...]) -> None:
+    if event == "subprocess.Popen":
+        _started.append(os.fsdecode(args[0]))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # A shell that starts the tests in the background lets them ignore interrupts, and with them each program that a
+    # test starts and interrupts.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    sys.addaudithook(_record)
+    # The machine may be busy: how long an example takes says nothing.
+    settings.register_profile("busy", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+    settings.load_profile("busy")
+    if not hasattr(config, "workerinput"):
+        folder = begin_run()
+        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+    assert VARIABLE in os.environ
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """Tests wait for nodes and editors a third of the time."""
+    return max(1, len(os.sched_getaffinity(0)) * 3 // 2)
+
+
+@pytest.fixture(autouse=True)
+def marked_for_what_it_starts(request: pytest.FixtureRequest) -> Iterator[None]:
+    """A test that needs more than Python and git says so with its marker."""
+    _started.clear()
+    yield
+    if request.node.get_closest_marker("ros") is None and request.node.get_closest_marker("editor") is None:
+        strange = sorted({program for program in _started if Path(program).name not in _QUICK})
+        assert strange == [], "a test that starts these is to be marked with `ros` or `editor`"

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import functools
 import os
 import shutil
 import subprocess
 from pathlib import Path
 
 from action_package import action_package
+from made_once import made_once
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
-from ros2_desk import ROOT, checked, ros2_prefix, scratch_folder
+from ros2_desk import ROOT, checked, ros2_prefix
 
 SOURCES = ROOT / "tests" / "tracing"
 _LIBRARIES = (
@@ -30,11 +30,14 @@ _LIBRARIES = (
 )  # fmt: skip
 
 
-@functools.cache
 def rcl_node(distribution: str = "kilted", source: str = "rcl_node.c") -> Path:
     """The program, compiled by the first test that asks."""
+    name = f"{Path(source).stem}-{distribution}"
+    return made_once(name, lambda folder: _compile(folder / "node", distribution, source)) / "node"
+
+
+def _compile(made: Path, distribution: str, source: str) -> None:
     prefix = ros2_prefix(distribution)
-    made = scratch_folder() / "node"
     action = action_package(distribution)
     includes = [f"-I{folder}" for folder in (action.folder, *(prefix / "include").iterdir())]
     # The libraries of the wheels are not linked with all that they need.
@@ -49,7 +52,6 @@ def rcl_node(distribution: str = "kilted", source: str = "rcl_node.c") -> Path:
     subprocess.run(
         [compiler, "-w", *includes, str(SOURCES / source), "-o", str(made), *linking, *libraries], check=True
     )
-    return made
 
 
 class RclDesk:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import os
 import subprocess
-import tempfile
 import textwrap
 import threading
 from pathlib import Path
@@ -43,15 +42,6 @@ def ros2_prefix(distribution: str = "kilted") -> Path:
     """A virtual environment with rclpy, made by the first test that asks."""
     subprocess.run([ROOT / "tests" / "tracing" / "install_ros2.sh", distribution], check=True, timeout=600)
     return ROOT / "out" / f"ros2-{distribution}"
-
-
-_SCRATCH: list[tempfile.TemporaryDirectory[str]] = []
-
-
-def scratch_folder() -> Path:
-    """An empty folder that lasts as long as the tests."""
-    _SCRATCH.append(tempfile.TemporaryDirectory(prefix="preflight-tests-"))
-    return Path(_SCRATCH[-1].name)
 
 
 def node_of(constructor: str, *imports: str) -> str:

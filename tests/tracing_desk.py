@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from made_once import made_once
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
@@ -39,6 +40,12 @@ def working_backends() -> list[str]:
             if sandbox.probe().works:
                 found.append(backend.name)
     return found
+
+
+def known_backends() -> list[str]:
+    """The same, asked once for all processes of a test run: each has to collect the same tests."""
+    folder = made_once("backends", lambda folder: (folder / "names").write_text("\n".join(working_backends())))
+    return (folder / "names").read_text().split()
 
 
 def write_node(folder: Path, body: str, name: str = "node.py") -> Path:

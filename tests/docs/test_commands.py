@@ -20,6 +20,8 @@ from pathlib import Path
 import pytest
 from ros2_desk import ros2_prefix
 
+pytestmark = pytest.mark.ros
+
 ROOT = Path(__file__).parent.parent.parent
 PAGES = sorted(
     path.relative_to(ROOT)

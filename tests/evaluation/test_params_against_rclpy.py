@@ -5,9 +5,12 @@ import json
 import subprocess
 from pathlib import Path
 
+import pytest
 import yaml
 from preflight_check import analyse, read_fixture
 from ros2_desk import ros2_prefix
+
+pytestmark = pytest.mark.ros
 
 ASK = """
 import json, sys, rclpy

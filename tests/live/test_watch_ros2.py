@@ -13,6 +13,8 @@ import pytest
 from live_desk import LIMIT_SECONDS, Watching, preflight, private_domain
 from ros2_desk import Ros2Desk, node_of, ros2_prefix
 
+pytestmark = pytest.mark.ros
+
 TALKER = node_of(
     """
     self.create_publisher(String, 'chatter', 10)

@@ -7,8 +7,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from made_once import made_once
 from preflight_analysis.tracing import sandbox
-from tracing_desk import working_backends
+from tracing_desk import known_backends
 
 LIBRARIES = (
     "actionlib",
@@ -26,15 +27,17 @@ LIBRARIES = (
 
 
 @pytest.fixture(scope="session")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def package() -> Path:
     """A package with the nodes of `roscpp_node.cpp` and `roscpp_waits.cpp`."""
-    folder = tmp_path_factory.mktemp("packages") / "compiled"
+    return made_once("packages", lambda folder: _compile(folder / "compiled")) / "compiled"
+
+
+def _compile(folder: Path) -> None:
     folder.mkdir()
     (folder / "package.xml").write_text('<package format="2"><name>compiled</name></package>')
     for name, source in (("node", "roscpp_node.cpp"), ("waits", "roscpp_waits.cpp")):
         command = ["g++", "-w", str(Path(__file__).parent / source), "-o", str(folder / name)]
         subprocess.run([*command, *(f"-l{library}" for library in LIBRARIES)], check=True)
-    return folder
 
 
 @pytest.fixture(scope="session")
@@ -43,7 +46,7 @@ def node(package: Path) -> Path:
     return package / "node"
 
 
-@pytest.fixture(params=working_backends())
+@pytest.fixture(params=known_backends())
 def each_backend(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     """Has runs isolated by one of them."""
     name: str = request.param

@@ -25,7 +25,9 @@ from preflight_analysis.tracing import landlock, run, sandbox, seccomp
 from preflight_analysis.tracing.backend import AGENTS, View
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, processes_with, request, trace, working_backends, write_node
+from tracing_desk import environment, known_backends, own, processes_with, request, trace, working_backends, write_node
+
+pytestmark = pytest.mark.ros
 
 SECURITY = Path(__file__).parents[2] / "docs" / "security.md"
 CASES = re.compile(r"^\| `([a-z0-9-]+)` \| ([^|]*) \| ([^|]*) \| ([^|]*) \| ([^|]*) \|$", re.MULTILINE)
@@ -184,7 +186,7 @@ def documented() -> dict[str, dict[str, set[str]]]:
 
 
 NEWEST = landlock.version()
-WORKING = working_backends()
+WORKING = known_backends()
 OLDER = [("landlock", version) for version in (1, 3, 5) if version < NEWEST]
 """As if the kernel had an older Landlock: with less of it, the rest must keep the same."""
 
@@ -265,7 +267,6 @@ def test_every_attempt_ends_as_the_documentation_says(
     assert wrong == {}
 
 
-@pytest.mark.ros
 def test_the_run_has_its_master_whatever_the_host_listens_on(tmp_path: Path, each_backend: str) -> None:
     """The port of a real master may be taken, and several runs have theirs at once."""
     script = write_node(

@@ -19,6 +19,8 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, own, processes_with, request, trace, write_node
 
+pytestmark = pytest.mark.ros
+
 TRY = """
 import os, socket, sys
 def attempt(name, action):

@@ -25,6 +25,8 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, hammer_cache, own, request, write_node
 
+pytestmark = pytest.mark.ros
+
 NODE = """
 import os, rospy, settings
 from std_msgs.msg import String

@@ -13,6 +13,8 @@ from preflight_analysis.tracing.compiled import Copies
 from preflight_analysis.tracing.recipe import make, visible_paths
 from tracing_desk import SYSTEM_PYTHON, environment, request, write_node
 
+pytestmark = pytest.mark.ros
+
 VISIBLE = visible_paths(environment())
 
 

@@ -15,6 +15,8 @@ import pytest
 from preflight_analysis.tracing import cgroup, sandbox
 from tracing_desk import trace, write_node
 
+pytestmark = pytest.mark.ros
+
 FEW = 24
 MANY = 60
 

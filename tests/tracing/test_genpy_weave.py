@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from tracing_desk import trace, write_node
+
+pytestmark = pytest.mark.ros
 
 TELL = "import sys; print(*told, file=sys.stderr); sys.exit(3)"
 

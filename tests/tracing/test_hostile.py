@@ -15,6 +15,8 @@ from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, own, processes_with, request, trace, write_node
 
+pytestmark = pytest.mark.ros
+
 
 @pytest.mark.usefixtures("each_backend")
 def test_forked_children_that_ignore_sigterm_die_with_the_run(tmp_path: Path) -> None:

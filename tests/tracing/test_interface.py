@@ -8,6 +8,8 @@ import pytest
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from tracing_desk import ROS1_FIXTURES, own, trace, write_node
 
+pytestmark = pytest.mark.ros
+
 TUTORIALS = ROS1_FIXTURES / "tutorials" / "scripts"
 SERVICES = ROS1_FIXTURES / "services" / "scripts"
 

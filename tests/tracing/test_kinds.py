@@ -16,6 +16,8 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, own, trace, write_node
 
+pytestmark = pytest.mark.ros
+
 NAVIGATE = """
     import actionlib
     import rospy

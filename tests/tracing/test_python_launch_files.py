@@ -9,6 +9,8 @@ from preflight_analysis.tracing import launch_files, run
 from preflight_analysis.workspace.sources import Sources
 from python_launch_desk import PythonDesk, line_of
 
+pytestmark = pytest.mark.ros
+
 HEAD = """\
 from launch import LaunchDescription, Substitution
 from launch.actions import *

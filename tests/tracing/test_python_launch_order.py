@@ -11,6 +11,8 @@ from preflight_analysis.evaluation.ros2.evaluate import EXECUTED, MEANS_NOTHING
 from preflight_analysis.tracing.backend import AGENTS
 from python_launch_desk import PythonDesk
 
+pytestmark = pytest.mark.ros
+
 HEAD = """\
 from launch import LaunchDescription, LaunchDescriptionSource
 from launch.actions import *

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from python_launch_desk import PythonDesk
+
+pytestmark = pytest.mark.ros
 
 REFUSED = "refused"
 CASES: dict[str, object] = {

@@ -16,6 +16,8 @@ from preflight_analysis.tracing.preload import Library
 from rcl_desk import RclDesk
 from ros2_desk import ends, uses
 
+pytestmark = pytest.mark.ros
+
 ALL = {
     ("publisher", "chatter"): "std_msgs/msg/String",
     ("publisher", "~/state"): "std_msgs/msg/String",

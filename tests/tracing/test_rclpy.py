@@ -13,6 +13,8 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from ros2_desk import Ros2Desk, ends, node_of, ros2_prefix, uses
 
+pytestmark = pytest.mark.ros
+
 ALL_ENDS = node_of(
     """
     self.create_publisher(String, 'chatter', 10)

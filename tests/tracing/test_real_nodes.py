@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from real_nodes import LAUNCHES, PAGE, TUTORIALS, missing, rows_of
 
+pytestmark = pytest.mark.ros
+
 SAMPLE = ("robot_state", "topic_tools", "topics", "services_and_more")
 """Launch files whose nodes need little beyond what the other tests do."""
 
@@ -22,7 +24,6 @@ def scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("real_nodes")
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("launch", SAMPLE)
 def test_a_row_of_the_page_is_what_happens(launch: str, scratch: Path) -> None:
     if launch in LAUNCHES:

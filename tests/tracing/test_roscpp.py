@@ -19,6 +19,8 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, own, request, trace
 
+pytestmark = pytest.mark.ros
+
 ROSOUT = Path("/usr/lib/rosout/rosout")
 STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
 SET_BOOL_MD5 = "09fb03525b03e7ea1fd3992bafd87e16"
@@ -41,7 +43,6 @@ def endpoint(interface: Interface, role: str, name: str) -> Endpoint:
     return found
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("mode", ["spin", "multi", "async", "rate", "duration", "pause", "thread"])
 def test_a_node_is_run_until_it_spins(node: Path, mode: str) -> None:
     found = trace(node, args=(mode,))
@@ -49,26 +50,22 @@ def test_a_node_is_run_until_it_spins(node: Path, mode: str) -> None:
     assert own(found) == MADE | ({LATE} if mode in ("async", "pause", "thread") else set())
 
 
-@pytest.mark.ros
 @pytest.mark.usefixtures("each_backend")
 def test_a_node_is_seen_the_same_with_each_way_to_isolate(node: Path) -> None:
     found = trace(node)
     assert (found.outcome.status, found.notes, own(found)) == ("spinning", (), MADE)
 
 
-@pytest.mark.ros
 def test_names_are_as_given_whatever_the_remaps_and_namespace(node: Path) -> None:
     moved = trace(node, "/robot/arm/n", remaps=(("chatter", "/elsewhere"), ("~state", "status"), ("/absolute", "b")))
     assert own(moved) == MADE
 
 
-@pytest.mark.ros
 def test_a_remapped_namespace_of_a_handle_gives_the_final_name(node: Path) -> None:
     moved = trace(node, "/robot/n", remaps=(("arm", "/left"),))
     assert ("publisher", "/left/grip/closed", "std_msgs/String") in own(moved)
 
 
-@pytest.mark.ros
 def test_endpoints_have_md5_and_qos(node: Path) -> None:
     found = trace(node)
     chatter = endpoint(found, "publisher", "chatter")
@@ -83,7 +80,6 @@ def test_endpoints_have_md5_and_qos(node: Path) -> None:
     }
 
 
-@pytest.mark.ros
 def test_parameters_as_given_and_none_mandatory(node: Path) -> None:
     found = trace(node, "/ns/node", params={"/ns/node/rate": 5.0})
     assert {(p.access, p.name) for p in found.params if not p.builtin} == {
@@ -98,7 +94,6 @@ def test_parameters_as_given_and_none_mandatory(node: Path) -> None:
     assert not any(p.mandatory for p in found.params)
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize(
     ("mode", "service"), [("service", "switch"), ("milliseconds", "switch"), ("existence", "/switch")]
 )
@@ -110,14 +105,12 @@ def test_a_wait_for_a_service_is_answered_and_what_comes_then_marked(node: Path,
     assert [e.name for e in found.endpoints if e.speculative] == ["late"]
 
 
-@pytest.mark.ros
 def test_a_call_is_answered_after_its_wait_was(node: Path) -> None:
     found = trace(node, args=("call",))
     assert (found.outcome.status, own(found)) == ("spinning", MADE | {LATE})
     assert found.outcome.answers[1:] == ("it calls the service /switch, and was given an empty answer",)
 
 
-@pytest.mark.ros
 def test_a_wait_for_an_action_server_is_answered(node: Path) -> None:
     found = trace(node, "/ns/node", args=("action",))
     assert found.outcome.status == "spinning"
@@ -128,14 +121,12 @@ def test_a_wait_for_an_action_server_is_answered(node: Path) -> None:
     assert [e.name for e in found.endpoints if e.speculative] == ["late"]
 
 
-@pytest.mark.ros
 def test_a_service_that_comes_is_waited_for(node: Path) -> None:
     found = trace(node, args=("own_service",))
     assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
     assert not any(e.speculative for e in found.endpoints)
 
 
-@pytest.mark.ros
 def test_a_crash_is_the_nodes_own(node: Path) -> None:
     found = trace(node, args=("invalid",))
     assert (found.outcome.status, found.outcome.signal) == ("crashed", "SIGABRT")
@@ -144,7 +135,6 @@ def test_a_crash_is_the_nodes_own(node: Path) -> None:
     assert trace(node, args=("leave",)).outcome.exit_code == 3
 
 
-@pytest.mark.ros
 def test_traced_interfaces_equal_the_real_masters_view(package: Path, tmp_path: Path) -> None:
     launch_file = tmp_path / "compiled.launch"
     launch_file.write_text(
@@ -184,7 +174,6 @@ def test_traced_interfaces_equal_the_real_masters_view(package: Path, tmp_path: 
     assert master_view(requests, interfaces) == real["shown"]
 
 
-@pytest.mark.ros
 def test_the_cache_knows_the_trace_until_name_or_remaps_change(node: Path, tmp_path: Path) -> None:
     tracer = Tracer(environment(node.parent), TraceCache(tmp_path))
     os.utime(node, (0, 0))
@@ -229,7 +218,6 @@ def no_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(preload_compile, "COMPILERS", ("no-such-compiler",))
 
 
-@pytest.mark.ros
 def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, no_compiler: None) -> None:
     found = master_alone(Library(tmp_path))
     assert found.notes == (
@@ -238,7 +226,6 @@ def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, no_compiler
     )
 
 
-@pytest.mark.ros
 def test_what_does_not_compile_is_tried_once(tmp_path: Path) -> None:
     source = tmp_path / "odd.cpp"
     source.write_text("#error odd\n")

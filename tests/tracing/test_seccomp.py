@@ -12,6 +12,8 @@ import pytest
 from preflight_analysis.tracing import seccomp
 from tracing_desk import trace, write_node
 
+pytestmark = pytest.mark.ros
+
 ALLOW, KILL = 0x7FFF0000, 0x80000000
 X86, ARM, I386 = 0xC000003E, 0xC00000B7, 0x40000003
 

@@ -22,6 +22,8 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from tracing_desk import environment, write_node
 
+pytestmark = pytest.mark.ros
+
 NODE = """
 import sys, rospy
 from std_msgs.msg import String

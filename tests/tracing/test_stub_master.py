@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 from preflight_analysis.tracing.agents import stub_master, xml_rpc
 from preflight_analysis.tracing.agents.params import ParamTree
 
+pytestmark = pytest.mark.ros
+
 _TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("Cc", "Cs")))
 _PLAIN = st.one_of(
     st.none(),

@@ -12,6 +12,8 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import ROS1_FIXTURES, environment
 
+pytestmark = pytest.mark.ros
+
 TUTORIALS = [
     "talker_listener",
     "headers",
@@ -24,7 +26,6 @@ TUTORIALS = [
 ]
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("tutorial", TUTORIALS)
 def test_traced_interfaces_equal_the_real_masters_view(tutorial: str, tmp_path: Path) -> None:
     real = launched(ROS1_FIXTURES / "tutorials" / "launch" / f"{tutorial}.launch", tmp_path)

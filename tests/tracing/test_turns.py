@@ -16,6 +16,8 @@ from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.tracing.turns import turn
 from tracing_desk import environment, request, write_node
 
+pytestmark = pytest.mark.ros
+
 GENEROUS = 60.0
 
 
@@ -86,7 +88,6 @@ def test_where_nothing_can_be_written_there_are_no_turns(tmp_path: Path) -> None
     assert entered
 
 
-@pytest.mark.ros
 def test_two_tracers_of_one_cache_run_a_node_once(tmp_path: Path) -> None:
     body = "import rospy, time\nrospy.init_node('n')\ntime.sleep(0.5)\nrospy.spin()"
     script = write_node(tmp_path, body)

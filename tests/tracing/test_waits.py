@@ -9,6 +9,8 @@ import pytest
 from preflight_analysis.tracing.interface import Interface
 from tracing_desk import trace, write_node
 
+pytestmark = pytest.mark.ros
+
 HEAD = """
 import rospy, threading, time
 from std_msgs.msg import Bool, String

@@ -13,10 +13,11 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.ros
+
 REPOSITORY = Path(__file__).parent.parent.parent
 
 
-@pytest.mark.ros
 def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Path, tmp_path: Path) -> None:
     pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
     subprocess.run(

@@ -8,6 +8,8 @@ import pytest
 from preflight_analysis.tracing import windows
 from tracing_desk import own, trace, write_node
 
+pytestmark = pytest.mark.ros
+
 WINDOW = """
     import os, socket, sys
     if "DISPLAY" not in os.environ:

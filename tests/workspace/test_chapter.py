@@ -25,6 +25,8 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from ros2_desk import ros2_prefix
 
+pytestmark = pytest.mark.ros
+
 CHAPTER = Path(__file__).parents[2] / "fixtures" / "ros2" / "chapter"
 NODES = {
     "single_node/launch/single": {"/talker": {}},

@@ -1,0 +1,34 @@
+"""What is expensive and the same for all tests of a run: made by the first that asks, also of those side by side."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from filelock import FileLock
+
+VARIABLE = "ROS_PREFLIGHT_TEST_RUN"
+"""Names the folder of this run. The processes of pytest-xdist inherit it."""
+
+
+def begin_run() -> Path:
+    """Make the folder of a run and name it to all processes of it."""
+    folder = Path(tempfile.mkdtemp(prefix="preflight-tests-"))
+    os.environ[VARIABLE] = str(folder)
+    return folder
+
+
+def made_once(name: str, make: Callable[[Path], object]) -> Path:
+    """The folder of that name, in which `make` was called by one of all processes."""
+    folder = Path(os.environ.get(VARIABLE) or begin_run(), name)
+    ready = folder.with_name(f"{name}.ready")
+    with FileLock(folder.with_name(f"{name}.lock")):
+        if not ready.exists():
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            make(folder)
+            ready.touch()
+    return folder
