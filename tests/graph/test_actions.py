@@ -56,6 +56,7 @@ def test_a_node_can_be_client_and_server_of_one_action() -> None:
     assert [end.endpoint.role for end in actions_of([*client("go"), *mirrored])] == ["action_client", "action_server"]
 
 
+@pytest.mark.ros
 def test_the_md5_sum_is_that_of_the_actions_message() -> None:
     program = (
         "from actionlib.msg import *; from actionlib_msgs.msg import GoalID, GoalStatusArray\n"

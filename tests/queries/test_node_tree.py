@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.queries.node_tree import Item, node_tree
 from preflight_analysis.workspace.workspace import Analysis
@@ -118,6 +119,7 @@ def test_what_a_node_was_seen_to_do_is_said_where_it_is_not_all(tmp_path: Path) 
     assert node_tree(unknown.scene.analyses[0], {}).items[0].note != ""
 
 
+@pytest.mark.ros
 def test_a_line_of_python_that_includes_twice_has_the_nodes_of_each(tmp_path: Path) -> None:
     desk = PythonDesk(tmp_path)
     deep = desk.write("launch/deep.launch.xml", '<launch><node pkg="p" exec="t" name="deep"/></launch>')

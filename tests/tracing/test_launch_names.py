@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from python_launch_desk import PythonDesk
 
+pytestmark = pytest.mark.ros
+
 ROOT = Path(__file__).parent.parent.parent
 LISTS = ROOT / "fixtures" / "ros2" / "launch_names"
 Names = dict[str, dict[str, str | None]]

@@ -102,6 +102,7 @@ LIAR = """
 """
 
 
+@pytest.mark.ros
 def test_a_node_that_lies_about_its_address_holds_nothing_up(tmp_path: Path) -> None:
     found = trace(write_node(tmp_path, LIAR))
     assert found.outcome.status == "spinning"

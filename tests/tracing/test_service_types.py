@@ -66,6 +66,7 @@ def environment(*packages: Path) -> Environment:
     return detect_environment(None, {"ROS_DISTRO": "noetic", "PATH": "/usr/bin:/bin"}, [str(p) for p in packages])
 
 
+@pytest.mark.ros
 def test_sums_are_those_of_genmsg(tmp_path: Path) -> None:
     rng = random.Random(3)
     messages = {

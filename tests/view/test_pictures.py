@@ -69,6 +69,7 @@ def test_lines_have_round_corners_and_arrows() -> None:
     assert arrow == "M20 40L16.5 33L23.5 33z"
 
 
+@pytest.mark.ros
 @views
 def test_dot_is_what_graphviz_reads(view: GraphView) -> None:
     done = subprocess.run(
