@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import shutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-
-from filelock import FileLock
 
 VARIABLE = "ROS_PREFLIGHT_TEST_RUN"
 """Names the folder of this run. The processes of pytest-xdist inherit it."""
@@ -25,7 +24,8 @@ def made_once(name: str, make: Callable[[Path], object]) -> Path:
     """The folder of that name, in which `make` was called by one of all processes."""
     folder = Path(os.environ.get(VARIABLE) or begin_run(), name)
     ready = folder.with_name(f"{name}.ready")
-    with FileLock(folder.with_name(f"{name}.lock")):
+    with folder.with_name(f"{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
         if not ready.exists():
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
