@@ -64,6 +64,9 @@ class _Connection(http.client.HTTPConnection):
 class Transport(xmlrpc.client.Transport):
     """XML-RPC with an answer before `until`."""
 
+    accept_gzip_encoding = False
+    """A master compresses what is longer than 1400 bytes for whoever says that he takes it."""
+
     def __init__(self, until: float) -> None:
         super().__init__()
         self._until = until
