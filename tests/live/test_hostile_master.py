@@ -8,8 +8,9 @@ import socket
 import threading
 import time
 import xmlrpc.client
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 from preflight_analysis.live.model import CannotObserveError
@@ -121,3 +122,26 @@ def test_nodes_that_do_not_answer_cost_one_look(serve: Callable[[Answer], str]) 
     assert took < 20
     assert len(found.nodes) == 1000
     assert sum(node.dead is None for node in found.nodes.values()) > 900, "who was not asked may live"
+
+
+def test_a_large_system_is_seen() -> None:
+    """rosmaster compresses what is longer than 1,400 bytes, for clients that say that they take it."""
+    topics = [[f"/topic{index}", [f"/node{index}"]] for index in range(500)]
+
+    class Master(SimpleXMLRPCServer):
+        def _dispatch(self, method: str, params: Sequence[object]) -> list[object]:
+            answers = {"getSystemState": [topics, [], []], "getTopicTypes": []}
+            return [1, "", answers.get(method, self.uri)]
+
+        @property
+        def uri(self) -> str:
+            return f"http://127.0.0.1:{self.server_address[1]}/"
+
+    with Master(("127.0.0.1", 0), logRequests=False) as master:
+        threading.Thread(target=master.serve_forever, daemon=True).start()
+        observer = Ros1Observer(master.uri)
+        found = observer.observe()
+        observer.close()
+        master.shutdown()
+    assert len(found.nodes) == 500
+    assert len(found.ends) == 500

@@ -568,3 +568,21 @@ def main():
     found = desk.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
     assert set(ends(found)) == {("publisher", "/right")}
     assert found.outcome.status == "spinning"
+
+
+def test_a_parameter_that_a_callback_declares_later_is_possible(tmp_path: Path) -> None:
+    """The run ends when the node is quiet, which may be before a timer fires; one that nothing declares is told."""
+    constructor = 'self.declare_parameter("rate", 1.0)\nself.create_timer(60.0, self.more)'
+    later = node_of(constructor).replace(
+        "\n\n\ndef main", '\n\n    def more(self):\n        self.declare_parameter("gain", 2.0)\n\n\ndef main'
+    )
+    desk = Ros2Desk(tmp_path, later=later)
+
+    def told(name: str) -> list[tuple[str, str]]:
+        analysis = desk.check(f"<node pkg='pkg' exec='later' name='later'><param name='{name}' value='3.0'/></node>")
+        assert analysis.graph is not None
+        assert analysis.graph.processes[0].source == "trace"
+        return [(finding.rule, finding.severity) for finding in analysis.findings]
+
+    assert told("gain") == []
+    assert told("other") == [("PRM013", "warning")]

@@ -42,8 +42,10 @@ class Fallback:
         A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
         """
         lacking = [_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True)]
-        placeless = [not lacks and _placeless(tree, each) for lacks, each in zip(lacking, interfaces, strict=True)]
-        if not any(lacking) and not any(placeless):
+        nodes = tuple(zip(lacking, tree.nodes, interfaces, strict=True))
+        placeless = [not lacks and _placeless(tree, each) for lacks, _, each in nodes]
+        later = [not lacks and _may_declare_later(tree, node, each) for lacks, node, each in nodes]
+        if not any((*lacking, *placeless, *later)):
             return tuple(interfaces)
         values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
         values |= {f"{node.name}/{param.name}": param.value for node in tree.nodes for param in node.params}
@@ -52,7 +54,7 @@ class Fallback:
         digests: dict[str, str] = {}
         whole = list(interfaces)
         for at, node in enumerate(tree.nodes):
-            if lacking[at] or placeless[at]:
+            if lacking[at] or placeless[at] or later[at]:
                 found: Interface | SourceInterface | None = (
                     similar(node) if similar is not None and lacking[at] else None
                 )
@@ -61,8 +63,12 @@ class Fallback:
                     key = node.name, node.resolved.path
                     known = self._filled.get(key)
                     if known is None or known.found is not found or known.interface != interfaces[at]:
-                        more = _with_places if placeless[at] else _with_more
-                        known = _Filled(interfaces[at], found, more(node, interfaces[at], found))
+                        if lacking[at]:
+                            more = _with_more(node, interfaces[at], found)
+                        else:
+                            more = _with_places(interfaces[at], found) if placeless[at] else interfaces[at]
+                            more = _with_later(node, more, found) if later[at] else more
+                        known = _Filled(interfaces[at], found, more)
                         self._remember(key, known)
                     whole[at] = known.whole
         return tuple(whole)
@@ -88,7 +94,23 @@ def _placeless(tree: LaunchTree, interface: Interface) -> bool:
     return tree.generation == 2 and interface.source == "trace" and bool(seen) and not told
 
 
-def _with_places(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
+def _may_declare_later(tree: LaunchTree, node: LaunchNode, interface: Interface) -> bool:
+    """Whether a node of ROS 2 is given a parameter that its run did not declare: a callback may do so that the run did
+    not wait for, of a timer for instance."""
+    declared = {use.name.removeprefix("~") for use in interface.params}
+    told = tree.generation == 2 and interface.source == "trace" and bool(declared)
+    return told and any(param.name not in declared for param in node.params)
+
+
+def _with_later(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
+    """With what the node is given and only its source declares."""
+    seen = {use.name.removeprefix("~") for use in interface.params}
+    given = {param.name for param in node.params} - seen
+    uses = (replace(use, inferred=True) for use in found.params if use.name.removeprefix("~") in given)
+    return replace(interface, params=(*interface.params, *uses))
+
+
+def _with_places(interface: Interface, found: Interface | SourceInterface) -> Interface:
     """With the places in the source where what was seen is made. Parameters of a client library that does not tell them
     (its node "lists" them) are those of the source."""
     places = {(e.role, e.name): (e.source_file, e.source_line) for e in found.endpoints}
