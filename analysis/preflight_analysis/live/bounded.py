@@ -18,18 +18,24 @@ class _Received(io.RawIOBase):
     """What a connection receives, until the moment `until` on the monotonic clock and at most so many bytes."""
 
     def __init__(self, connection: socket.socket, until: float, most: int) -> None:
-        self._connection, self._until, self._left = connection, until, most
+        # A file of the connection's own keeps it open: http.client closes the connection before it reads the answer.
+        self._connection, self._file = connection, connection.makefile("rb", buffering=0)
+        self._until, self._left = until, most
 
     def readable(self) -> bool:
         return True
 
     def readinto(self, buffer: Any) -> int:
         self._connection.settimeout(remaining(self._until))
-        count = self._connection.recv_into(buffer)
+        count = self._file.readinto(buffer) or 0
         self._left -= count
         if self._left < 0:
             raise OSError("the answer is too large")
         return count
+
+    def close(self) -> None:
+        self._file.close()
+        super().close()
 
 
 class BoundedSocket:
