@@ -172,7 +172,11 @@ def test_where_it_is_installed(tmp_path: Path, rules: str, said: list[str]) -> N
         (folder / name).write_text(text)
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     findings = workspace.static(str(folder / "launch/bringup.launch.xml"), {}).findings
-    assert [finding.message for finding in findings if finding.rule == "PKG005"] == said
+    found = [finding for finding in findings if finding.rule == "PKG005"]
+    assert [finding.message for finding in found] == said
+    for edit in (fix.edits[0] for finding in found for fix in finding.fixes):
+        installed = f"install(DIRECTORY {'config' if 'config' in said[0] else 'launch'} DESTINATION {SHARE})\n\n"
+        assert edit.text == installed
 
 
 COMPONENTS = """cmake_minimum_required(VERSION 3.8)

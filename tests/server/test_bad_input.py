@@ -43,7 +43,7 @@ async def finding(editor: Editor, path: Path, text: str, rule: str) -> types.Dia
     ("text", "rule", "words"),
     [
         ("", "LCH003", "launch"),
-        (" \n\f\n", "LCH003", "launch"),
+        (" \n\f\n", "LCH001", ""),
         ("<", "LCH001", ""),
         ("<launch>", "LCH001", "launch"),
         ('<launch><node pkg="a" type="b" name="', "LCH001", ""),

@@ -423,7 +423,8 @@ def test_what_another_version_of_ours_told_is_not_kept(desk: PythonDesk, monkeyp
 
 
 def test_what_is_not_installed_and_what_is_no_container(desk: PythonDesk) -> None:
-    desk.write("setup.py", "from setuptools import setup\nsetup(name='p', data_files=[('share/p', ['package.xml'])])\n")
+    desk.write("setup.py", "from setuptools import setup\nsetup(name='p', data_files=[('share/p', ['package.xml']), "
+               "('share/p/launch', ['launch/a.launch.py'])])\n")  # fmt: skip
     desk.write("config/p.yaml", "n:\n  ros__parameters: {a: 1}\n")
     path = _described(
         desk,

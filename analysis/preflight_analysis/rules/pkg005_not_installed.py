@@ -114,14 +114,9 @@ def _in_cmake(found: Document, below: str, folder: str) -> Edit | None:
     end = _END.search(found.text)
     if end is None:
         return None
-    what = (
-        f"DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}"
-        if folder
-        else f"FILES {below} DESTINATION share/${{PROJECT_NAME}}"
-    )
-    return Edit(
-        Location(found.path, Span(end.start(), end.start())), f"install({what} DESTINATION share/${{PROJECT_NAME}})\n\n"
-    )
+    what = f"DIRECTORY {folder}" if folder else f"FILES {below}"
+    text = f"install({what} DESTINATION share/${{PROJECT_NAME}})\n\n"
+    return Edit(Location(found.path, Span(end.start(), end.start())), text)
 
 
 RULE = Rule(
