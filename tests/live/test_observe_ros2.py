@@ -11,6 +11,8 @@ from preflight_analysis.environment.detect import detect
 from preflight_analysis.live.model import CannotObserveError
 from preflight_analysis.live.observe_ros2 import Ros2Observer
 
+pytestmark = pytest.mark.ros
+
 OF_THE_USER = 'raise ImportError("the user\'s own")'
 
 

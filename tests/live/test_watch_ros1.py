@@ -89,7 +89,7 @@ def test_each_kind_of_difference_is_told_with_its_line(system: Ros1System, watch
         f"{file}:3: extra (info): /listener subscribes to /chater (std_msgs/String), which was not expected",
         f"{file}:4: missing: /gone is not running",
         "extra: /more runs and is not in the launch file",
-        "5 differences, 1 node as expected",
+        "5 differences, 0 nodes as expected",
     ]
 
     def looked(*options: str) -> Done:

@@ -21,3 +21,15 @@ def test_what_is_missing_and_has_not_lasted_yet_is_not_said_to_be_as_expected(
     assert "1 difference, 0 nodes as expected" in capsys.readouterr().out
     text.tell(State(replace(missing, nodes={"/a": "present"})))
     assert "no differences, 1 node as expected" in capsys.readouterr().out
+
+
+def test_a_node_that_turns_up_is_news(capsys: pytest.CaptureFixture[str]) -> None:
+    text = _Text()
+    for states, said in (
+        ({"/a": "unsure", "/b": "unsure"}, ""),
+        ({"/a": "present", "/b": "unsure"}, "no differences, 1 node as expected\n"),
+        ({"/a": "present", "/b": "present"}, "no differences, 2 nodes as expected\n"),
+        ({"/a": "present", "/b": "present"}, ""),
+    ):
+        text.tell(State(Comparison((), states, {}, {}, {})))  # type: ignore[arg-type]
+        assert capsys.readouterr().out[len("00:00:00 ") :] == said

@@ -50,7 +50,7 @@ class _Robot:
     def __init__(self, *looks: str) -> None:
         self._looks = iter(looks)
 
-    def observe(self) -> Observation:
+    def observe(self, within: float = 0.0) -> Observation:
         return Observation(1, {f"/{name}": LiveNode(f"/{name}") for name in next(self._looks)}, (), run="x")
 
     def close(self) -> None:

@@ -66,6 +66,7 @@ def test_an_entry_point_leads_to_its_function(tmp_path: Path) -> None:
     assert gone_to(tmp_path, text) == ["p/p/talker.py:9 def start():"]
 
 
+@pytest.mark.ros
 def test_an_entry_point_leads_to_its_function_from_python(tmp_path: Path) -> None:
     text = PYTHON.replace('"talker"', '"tal$0ker"', 1) + PACKAGE
     assert gone_to(tmp_path, text, runs=True) == ["p/p/talker.py:9 def start():"]
@@ -160,6 +161,7 @@ def generate_launch_description():
 """ + XML.partition("//- interfaces\n")[2]
 
 
+@pytest.mark.ros
 @pytest.mark.parametrize("name", ['"$0chatter"', '"$0/words"', '"$0heard"'])
 def test_remaps_in_python(tmp_path: Path, name: str) -> None:
     text = PYTHON.replace(name.replace("$0", ""), name, 1) + PACKAGE
@@ -173,6 +175,7 @@ def test_remaps_in_python(tmp_path: Path, name: str) -> None:
     ]
 
 
+@pytest.mark.ros
 def test_parameters_in_python(tmp_path: Path) -> None:
     text = PYTHON.replace('"rate": 5', '"$0rate": 5') + PACKAGE
     assert named_at(tmp_path, text, runs=True) == ["main.launch.py:10 rate", "p/p/talker.py:6 pass"]

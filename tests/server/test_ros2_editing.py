@@ -137,7 +137,7 @@ async def test_a_yaml_file(desk: Desk, package: Path) -> None:
         assert "`pkg`: The package of the node." in text_of(await editor.hover(inner, editor.at(inner, "pkg")))
         assert "argument `name` = `talker`" in text_of(await editor.hover(inner, editor.at(inner, "(var name", 6)))
         assert await targets(editor, inner, "(var name", 6) == ["inner.launch.yaml:3"]
-        assert await targets(editor, inner, "exec: talker", 7) == ["talker.py:1"]
+        assert await targets(editor, inner, "exec: talker", 7) == ["talker.py:14"]
         assert await targets(editor, inner, "pkg: robot", 6) == ["package.xml:1"]
         assert await targets(editor, inner, "/params", 3) == ["params.yaml:1"]
         assert [s.name for s in await editor.symbols(inner)] == ["name", "$(var name)"]

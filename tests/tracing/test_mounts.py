@@ -25,6 +25,8 @@ for place, kind in zip(places, ("proc", "proc", "sysfs")):
     subprocess.run(["mount", "-t", kind, kind, place], check=True)
 node = '''
 import json, os, sys
+
+pytestmark = pytest.mark.ros
 seen = {{}}
 for place in sys.argv[1:4]:
     try:

@@ -12,6 +12,8 @@ import os, pathlib
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch_ros.actions import Node
+
+pytestmark = pytest.mark.ros
 """
 DESCRIPTION = """
 def generate_launch_description():

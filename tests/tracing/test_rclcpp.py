@@ -15,6 +15,8 @@ from preflight_analysis.tracing.interface import Range
 from rcl_desk import RclDesk
 from ros2_desk import ends, uses
 
+pytestmark = pytest.mark.ros
+
 SOURCE = "rclcpp_like.cpp"
 CHILD = "node=own pub=chatter double=rate@1.5 child=costmap@/n/costmap pub=map double=resolution@0.1"
 

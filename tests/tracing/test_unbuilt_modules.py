@@ -63,6 +63,8 @@ NODE = """
 import rospy
 from std_msgs.msg import String
 from {} import TOPIC
+
+pytestmark = pytest.mark.ros
 rospy.init_node("n")
 rospy.Publisher(TOPIC, String, queue_size=1)
 rospy.spin()

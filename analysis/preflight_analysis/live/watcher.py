@@ -15,6 +15,9 @@ from preflight_analysis.live.model import State as Status
 from preflight_analysis.live.observe_ros1 import Ros1Observer
 from preflight_analysis.live.observe_ros2 import Ros2Observer
 
+LOOK_SECONDS = 3.0
+"""What a look may take at least: a system that answers is seen however little time there is to wait for it."""
+
 
 class Observer(Protocol):
     """Shows a running system."""

@@ -96,8 +96,9 @@ def _without_lifecycle(context: Context) -> set[str]:
     graph, found = context.graph, set()
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
         types = {end.type for end in interface.endpoints}
-        known = interface.seen_through or interface.source == "source"
-        if (known and types and _CHANGE not in types) or _LOAD in types:
+        # The source does not show what the base class of a lifecycle node offers.
+        seen = interface.seen_through and interface.source == "trace"
+        if (seen and types and _CHANGE not in types) or _LOAD in types:
             found.add(node.name)
     return found
 

@@ -16,7 +16,7 @@ from preflight_analysis.graph.annotations import annotation_edit, annotation_tex
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.live.capture import Captured, capture, settings_text
 from preflight_analysis.live.model import CannotObserveError, Observation
-from preflight_analysis.live.watcher import Observer, observer
+from preflight_analysis.live.watcher import LOOK_SECONDS, Observer, observer
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
@@ -105,7 +105,7 @@ def _captured(
     while True:
         error = None
         try:
-            seen = watched.observe(max(began + args.timeout - time.monotonic(), _POLL_SECONDS))
+            seen = watched.observe(max(began + args.timeout - time.monotonic(), LOOK_SECONDS))
         except CannotObserveError as cannot:
             seen, error = None, cannot
         now = time.monotonic()

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.live.model import Expected, Issue
 from preflight_analysis.live.report import event_json, line, summary
-from preflight_analysis.live.watcher import Attached, Event, Observer, State, Waiting, Watcher, observer
+from preflight_analysis.live.watcher import LOOK_SECONDS, Attached, Event, Observer, State, Waiting, Watcher, observer
 
 from preflight_server.cli import options
 from preflight_server.cli.errors import CLEAN, FAILED, FOUND, CannotDoError
@@ -70,7 +70,7 @@ def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> in
     give_up = time.monotonic() + args.timeout
     last: Event | None = None
     while True:
-        last = next(reversed(watcher.look(max(give_up - time.monotonic(), _POLL_SECONDS))), last)
+        last = next(reversed(watcher.look(max(give_up - time.monotonic(), LOOK_SECONDS))), last)
         if isinstance(last, State) and last.comparison.same:
             break
         if time.monotonic() >= give_up or (isinstance(last, Waiting) and last.final):
@@ -114,10 +114,10 @@ def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> 
 
 @dataclass
 class _Text:
-    """The events for people: each difference when it comes and when it goes."""
+    """The events for people: each difference when it comes and when it goes, and how many nodes are as expected."""
 
     shown: dict[Issue, None] = field(default_factory=dict)
-    same: bool | None = None
+    told: str | None = None
 
     def tell(self, event: Event) -> None:
         """Print what is new."""
@@ -125,16 +125,16 @@ class _Text:
         if isinstance(event, Waiting):
             print_text(f"{stamp} waiting: {event.reason}\n")
         elif isinstance(event, Attached):
-            self.shown, self.same = {}, None
+            self.shown, self.told = {}, None
             print_text(f"{stamp} {'attached to a new run of' if event.again else 'attached to'} {event.place}\n")
         else:
             found = event.comparison
-            if self.same is None and found.same and "missing" in found.nodes.values():
-                return  # what is missing has not lasted yet: this would be no news, and not true for long
+            if self.told is None and found.same and found.nodes and "present" not in found.nodes.values():
+                return  # what is not there has not lasted yet: this would be no news, and not true for long
             issues = dict.fromkeys(found.issues)
             lines = [f"{stamp} - {line(issue, os.getcwd())}\n" for issue in self.shown if issue not in issues]
             lines += [f"{stamp} + {line(issue, os.getcwd())}\n" for issue in issues if issue not in self.shown]
-            if found.same != self.same or lines:
+            if summary(found) != self.told or lines:
                 lines.append(f"{stamp} {summary(found)}\n")
-            self.shown, self.same = issues, found.same
+            self.shown, self.told = issues, summary(found)
             print_text("".join(lines))
