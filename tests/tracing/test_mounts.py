@@ -12,6 +12,8 @@ import pytest
 from preflight_analysis.tracing import mounts
 from tracing_desk import working_backends
 
+pytestmark = pytest.mark.ros
+
 PROGRAM = """
 import json, subprocess, sys
 from pathlib import Path
@@ -25,8 +27,6 @@ for place, kind in zip(places, ("proc", "proc", "sysfs")):
     subprocess.run(["mount", "-t", kind, kind, place], check=True)
 node = '''
 import json, os, sys
-
-pytestmark = pytest.mark.ros
 seen = {{}}
 for place in sys.argv[1:4]:
     try:

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 from python_launch_desk import MANIFEST, PythonDesk
 
+pytestmark = pytest.mark.ros
+
 HEAD = """\
 import os, pathlib
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch_ros.actions import Node
-
-pytestmark = pytest.mark.ros
 """
 DESCRIPTION = """
 def generate_launch_description():

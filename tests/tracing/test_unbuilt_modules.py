@@ -16,6 +16,8 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, own, request, write_node
 
+pytestmark = pytest.mark.ros
+
 SETUP = """
 from distutils.core import setup
 from catkin_pkg.python_setup import generate_distutils_setup
@@ -63,8 +65,6 @@ NODE = """
 import rospy
 from std_msgs.msg import String
 from {} import TOPIC
-
-pytestmark = pytest.mark.ros
 rospy.init_node("n")
 rospy.Publisher(TOPIC, String, queue_size=1)
 rospy.spin()
