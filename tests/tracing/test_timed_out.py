@@ -107,4 +107,5 @@ def test_what_others_do_with_the_processor_is_not_the_nodes_time(tmp_path: Path)
             other.wait()
     assert found.outcome.status == "spinning", found.outcome
     assert own(found) == {("publisher", "late", "std_msgs/String")}
-    assert found.outcome.seconds > 5
+    # It had to wait; for how long is the kernel's business, which shares between groups of processes.
+    assert found.outcome.seconds > 3

@@ -95,18 +95,19 @@ def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> 
     try:
         while True:
             for event in watcher.look():
+                # Before it is told: whoever reads it may interrupt at once.
+                if isinstance(event, Waiting):
+                    code = FAILED
+                elif isinstance(event, State):
+                    code = CLEAN if event.comparison.same else FOUND
                 if args.format == "json":
                     print_json(event_json(event), indent=None)
                 else:
                     text.tell(event)
                 sys.stdout.flush()
-                if isinstance(event, Waiting):
-                    code = FAILED
-                    if event.final:
-                        say(f"ros-preflight: {event.reason}")
-                        return code
-                elif isinstance(event, State):
-                    code = CLEAN if event.comparison.same else FOUND
+                if isinstance(event, Waiting) and event.final:
+                    say(f"ros-preflight: {event.reason}")
+                    return code
             time.sleep(_POLL_SECONDS)
     except KeyboardInterrupt:
         return code
