@@ -16,6 +16,7 @@ from pathlib import Path
 
 from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
@@ -146,11 +147,13 @@ def visible_paths(environment: Environment) -> list[str]:
 
 def _linked(manifest: str) -> Iterator[str]:
     """The folders that a package's files are links into, one after another, where it was installed with
-    `--symlink-install`: those of its manifest."""
+    `--symlink-install`: those of its manifest. A link to anything but a manifest shows nothing of where it leads."""
     for _ in range(_MAX_LINKS):
         try:
             manifest = os.path.join(os.path.dirname(manifest), os.readlink(manifest))
         except OSError:
+            return
+        if os.path.basename(manifest) != MANIFEST or not os.path.isfile(manifest):
             return
         yield os.path.dirname(manifest)
 
