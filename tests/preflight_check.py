@@ -32,10 +32,10 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.launch import evaluate_launch
-from preflight_analysis.evaluation.tree import Executable, LaunchTree
+from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit, Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph

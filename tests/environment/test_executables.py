@@ -5,7 +5,7 @@ from pathlib import Path
 from environment_workspace import file, package, script, space
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.executables import ExecutableIndex
-from preflight_analysis.evaluation.tree import Executable
+from preflight_analysis.environment.model import Executable
 
 
 def index(root: Path, *spaces: Path) -> ExecutableIndex:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
-from preflight_analysis.evaluation.tree import Executable
 from preflight_analysis.workspace.sources import Sources
 
 pytestmark = pytest.mark.ros

@@ -24,6 +24,20 @@ class Package:
 
 
 @dataclass(frozen=True, slots=True)
+class Executable:
+    """What `pkg` and `type` lead to. `path` is None when nothing was found; `candidates` are all that were."""
+
+    path: str | None
+    candidates: tuple[str, ...] = ()
+    package_path: str | None = None
+    """None when the package itself was not found."""
+    not_executable: tuple[str, ...] = ()
+    """Files of that name that may not be executed: what is missing is a `chmod +x`."""
+    entry_point: str | None = None
+    """`module:function` of a Python package that is run from its source; `path` is then the module's file."""
+
+
+@dataclass(frozen=True, slots=True)
 class Environment:
     """What launch files and nodes see. Immutable; a new one is detected when package folders or settings change.
 

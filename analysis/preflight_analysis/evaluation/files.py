@@ -7,7 +7,7 @@ from typing import Protocol
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.evaluation.tree import Executable
+from preflight_analysis.environment.model import Executable
 from preflight_analysis.launch.model import LaunchFile
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.launch.model import Action, ActionAttribute
 
@@ -81,20 +82,6 @@ class Remap(NamedTuple):
     inside_node: bool
     replaces: tuple[Remap, ...] = ()
     """Earlier or outer remaps of the same name that this one took the place of, for the same nodes."""
-
-
-@dataclass(frozen=True, slots=True)
-class Executable:
-    """What `pkg` and `type` lead to. `path` is None when nothing was found; `candidates` are all that were."""
-
-    path: str | None
-    candidates: tuple[str, ...] = ()
-    package_path: str | None = None
-    """None when the package itself was not found."""
-    not_executable: tuple[str, ...] = ()
-    """Files of that name that may not be executed: what is missing is a `chmod +x`."""
-    entry_point: str | None = None
-    """`module:function` of a Python package that is run from its source; `path` is then the module's file."""
 
 
 class ParamSource(NamedTuple):

@@ -14,7 +14,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.fingerprint import fingerprints
 from preflight_analysis.findings.report import Report, positions, relative
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.findings.rule_description import RuleDescription
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 FINGERPRINT = "rosPreflight/v1"
@@ -22,7 +22,7 @@ _BASE_ID = "SRCROOT"
 _LEVELS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "info": "note", "hint": "note"}
 
 
-def to_sarif(report: Report, rules: Sequence[Rule], base: str) -> dict[str, Any]:
+def to_sarif(report: Report, rules: Sequence[RuleDescription], base: str) -> dict[str, Any]:
     """A log with one run. Files below the folder `base` are relative to it; `rules` are all that there are, those with
     findings are described. Severity and confidence, of which SARIF knows less, are in the properties of each result."""
     spoke = {finding.rule for finding in report.findings}
@@ -43,7 +43,7 @@ def to_sarif(report: Report, rules: Sequence[Rule], base: str) -> dict[str, Any]
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
 
 
-def _rule(rule: Rule) -> dict[str, Any]:
+def _rule(rule: RuleDescription) -> dict[str, Any]:
     text = f"{rule.what}\n\n{rule.why}"
     example = f"Example:\n\n```\n{rule.example}\n```\n\nUse instead:\n\n```\n{rule.instead}\n```"
     return {

@@ -11,7 +11,7 @@ from typing import Any
 
 import yaml
 
-from preflight_analysis.evaluation.tree_json import json_value
+from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse, Role

@@ -4,7 +4,7 @@ import filecmp
 import os
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import Executable
+from preflight_analysis.environment.model import Executable
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain

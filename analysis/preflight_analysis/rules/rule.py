@@ -13,6 +13,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Confidence, End, Finding, Fix, Related, Severity
+from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.launch.model import LaunchFile
@@ -70,10 +71,9 @@ Check = Callable[["Rule", Context], Iterable[Finding]]
 
 
 @dataclass(frozen=True, slots=True)
-class Rule:
-    """A rule. `id` and `name` as in DESIGN: `TOP001`, `subscribed-not-published`. The texts are Markdown.
+class Rule(RuleDescription):
+    """A rule. A check may give a finding another severity than the usual one with `finding(..., severity=...)`.
 
-    `severity` is the usual one; a check may give a finding another with `finding(..., severity=...)`.
     `problems` are the kinds of `evaluation.problems.KINDS` that the rule reports; each kind has one rule.
     `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
     `generations`: those of ROS in whose launches it has something to say.
@@ -81,13 +81,6 @@ class Rule:
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
     """
 
-    id: str
-    name: str
-    severity: Severity
-    what: str
-    why: str
-    example: str
-    instead: str
     check: Check = field(repr=False)
     problems: tuple[str, ...] = ()
     needs_graph: bool = False

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
-from preflight_analysis.evaluation.tree_json import json_value
 from preflight_analysis.graph.model import Connection, Graph, ParamRead
 from preflight_analysis.snapshot.model import GROUPS, End, NodeSnapshot, Snapshot
 from preflight_analysis.snapshot.portable import Portable

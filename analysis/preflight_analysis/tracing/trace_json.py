@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.evaluation.tree_json import json_value
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 
 SCHEMA = "ros-preflight/trace/1"

@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin, Place
+from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.evaluation.tree_json import json_value
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.findings.report import positions
 from preflight_analysis.graph.model import Channel, Connection, Graph

@@ -16,11 +16,11 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import parse_arguments, parse_ros2_arguments
-from preflight_analysis.evaluation.tree_json import tree_json
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.settle import settled
 from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
 
 from preflight_server.cli.errors import CLEAN, CannotDoError

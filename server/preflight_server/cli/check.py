@@ -10,7 +10,7 @@ from pathlib import Path
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.detect import SETTINGS_FILE
-from preflight_analysis.evaluation.tree_json import dumps
+from preflight_analysis.evaluation.json_values import dumps
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding

@@ -7,12 +7,13 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchTree, Param
-from preflight_analysis.evaluation.tree_json import json_value, tree_json
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.report import place, printable
 from preflight_analysis.queries.node_tree import node_tree
 from preflight_analysis.view.tree_page import tree_page
+from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options

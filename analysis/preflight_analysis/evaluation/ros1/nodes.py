@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, plain_number, positive_number
@@ -13,7 +14,7 @@ from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_r
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.tags import clear_params, evaluate_env, evaluate_remap, namespace_of
-from preflight_analysis.evaluation.tree import Executable, LaunchNode, Unknown, Use
+from preflight_analysis.evaluation.tree import LaunchNode, Unknown, Use
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.schema_ros1 import TAGS
 

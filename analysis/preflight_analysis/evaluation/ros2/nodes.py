@@ -8,6 +8,7 @@ import shlex
 from collections.abc import Callable, Iterable
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.model import Executable
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.resolved import Resolved
@@ -22,7 +23,7 @@ from preflight_analysis.evaluation.ros2.params import (
 )
 from preflight_analysis.evaluation.ros2.python_params import dict_params
 from preflight_analysis.evaluation.ros2.substitute import Performer
-from preflight_analysis.evaluation.tree import Executable, LaunchNode, ParamSource, Remap, Unknown, Use
+from preflight_analysis.evaluation.tree import LaunchNode, ParamSource, Remap, Unknown, Use
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
 
 _NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
