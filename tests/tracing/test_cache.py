@@ -18,9 +18,9 @@ from typing import Any
 import pytest
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
+from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.preload import MOST_KEPT, Library
-from preflight_analysis.tracing.recipe import make
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from tracing_desk import environment, hammer_cache, own, request, write_node

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import compiled, run, sandbox
 from preflight_analysis.tracing.compiled import Copies
-from preflight_analysis.tracing.recipe import make, visible_paths
+from preflight_analysis.tracing.node_recipe import make
+from preflight_analysis.tracing.recipe import visible_paths
 from tracing_desk import SYSTEM_PYTHON, environment, request, write_node
 
 pytestmark = pytest.mark.ros

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing import node_recipe
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.observation import observe
 from preflight_analysis.tracing.run import RawRun
@@ -19,7 +19,7 @@ SPINNING = {"own": {"ev": "end", "status": "spinning"}}
 
 def seen(tmp_path: Path, told: dict[str, Any], end: dict[str, Any] = SPINNING) -> Interface:
     asked = request(write_node(tmp_path, ""))
-    recipe = recipes.make(environment(tmp_path), asked, None)
+    recipe = node_recipe.make(environment(tmp_path), asked, None)
     return observe(RawRun(records=[{"node": told}, end]), recipe, asked).interface
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.observation import observe
-from preflight_analysis.tracing.recipe import make
 from preflight_analysis.tracing.run import RawRun
 from tracing_desk import environment, own, request, trace, write_node
 

@@ -28,7 +28,7 @@ from preflight_analysis.environment.view import of_generation
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
-from preflight_analysis.tracing import compiled, launch_files, ros2_recipe, run, sandbox
+from preflight_analysis.tracing import compiled, launch_files, ros1_recipe, ros2_recipe, run, sandbox
 from preflight_analysis.tracing import expressions as evaluated
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.observation import paths, stderr_tail
@@ -178,7 +178,7 @@ class CommandRunner:
         python = self.environment.ros2_python if of_ros2 else self.environment.python
         if words[0] in ("python3", "python") and python is not None:
             executable = python  # as for `#!/usr/bin/env python3`
-        make = ros2_recipe.make_command if of_ros2 else recipes.make_command
+        make = ros2_recipe.make_command if of_ros2 else ros1_recipe.make_command
         recipe = make(self.environment, executable, words[1:], self.cwd)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
         beyond = recipes.command_paths(recipe, executable, named[1:], self._interpreter)

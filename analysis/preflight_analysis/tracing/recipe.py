@@ -1,8 +1,6 @@
 """What exactly is executed for a `TraceRequest` or a command: argv, environment, folder, and what must be visible.
 
-As roslaunch does it (roslaunch.node_args): arguments, then remaps as `from:=to`, then `__name:=`, `__log:=`; the
-namespace in `ROS_NAMESPACE`; the folder ROS_HOME unless `cwd="node"`. The command of a parameter has the environment
-and the folder of roslaunch itself.
+Here is what both generations of ROS have in common; `ros1_recipe` and `ros2_recipe` make the recipes.
 """
 
 from __future__ import annotations
@@ -14,13 +12,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.secrets import is_secret
-from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import sandbox
-from preflight_analysis.tracing.agents import hooks
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -59,52 +54,9 @@ class Recipe:
     """What is to be written inside, by its path there."""
 
 
-def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
-    """The recipe of a request. Reads the executable's first line; an unreadable one is left for exec to complain of.
-    `preload` is the library for the executable, if it is a program that one can be loaded into."""
-    if request.generation == 2:
-        from preflight_analysis.tracing import ros2_recipe  # noqa: PLC0415
-
-        return ros2_recipe.make(environment, request, preload)
-    stable = variables(environment, request.env)
-    interpreter, python = shebang_interpreter(environment.python, request.executable, stable["PATH"])
-    if python:
-        stable |= _unbuilt_modules(environment)
-    argv = [*interpreter, request.executable, *request.args]
-    remapped = python or preload is not None
-    if remapped:
-        argv += [f"{source}:={target}" for source, target in request.remaps]
-    # Of any other executable only the master's view is known, where names are remapped already. It gets no remaps, so
-    # that there too the names are those before remapping, and the graph can apply them.
-    base = request.node.rpartition("/")[2]
-    argv += [f"__name:={base}", f"__log:={LOG_FOLDER}/{base}.log"]
-    env = inside(stable)
-    namespace = names.parent(request.node).rstrip("/")
-    if namespace:
-        env["ROS_NAMESPACE"] = namespace
-    if preload is not None:
-        env["LD_PRELOAD"] = preloading(preload, stable)
-    return Recipe(tuple(argv), env, stable, folder(request), python, remapped, preload)
-
-
 def preloading(library: str, stable: Mapping[str, str]) -> str:
     """LD_PRELOAD with a library of ours before those of the user."""
     return ":".join(path for path in (library, stable.get("LD_PRELOAD", "")) if path)
-
-
-def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
-    """The recipe of a command of a parameter, whose program was found as `executable`."""
-    stable = variables(environment, ())
-    interpreter, python = shebang_interpreter(environment.python, executable, stable["PATH"])
-    if python:
-        stable |= _unbuilt_modules(environment)
-    return Recipe((*interpreter, executable, *args), inside(stable), stable, cwd, python)
-
-
-def _unbuilt_modules(environment: Environment) -> dict[str, str]:
-    """Where Python finds what a build of the workspace will make known, if it finds it nowhere else."""
-    folders = source_folders(environment)
-    return {hooks.SOURCES: os.pathsep.join(folders)} if folders else {}
 
 
 def inside(stable: Mapping[str, str]) -> dict[str, str]:

@@ -17,7 +17,7 @@ from typing import Any
 from preflight_analysis.environment.ament import INDEX, python_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing.agents import hooks
+from preflight_analysis.tracing.agents.variables import EXPECTED, SHARES
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -67,8 +67,8 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     env = recipes.inside(stable) | {
         "ROS_DOMAIN_ID": "0",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        hooks.EXPECTED: request.node,
-        hooks.SHARES: json.dumps(_shares(environment)),
+        EXPECTED: request.node,
+        SHARES: json.dumps(_shares(environment)),
     }
     if preload is not None:
         env["LD_PRELOAD"] = recipes.preloading(preload, stable)
@@ -82,7 +82,7 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
     it as to nodes: xacro's `$(find)` asks `ament_index_python` for them."""
     stable = variables(environment, ())
     interpreter, python = recipes.shebang_interpreter(environment.ros2_python, executable, stable["PATH"])
-    env = recipes.inside(stable) | {hooks.SHARES: json.dumps(_shares(environment))}
+    env = recipes.inside(stable) | {SHARES: json.dumps(_shares(environment))}
     return Recipe((*interpreter, executable, *args), env, stable, cwd, python)
 
 

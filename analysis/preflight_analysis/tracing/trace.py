@@ -16,7 +16,7 @@ from dataclasses import replace
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import compiled, limits, nodelets, preload, run, sandbox, windows
+from preflight_analysis.tracing import compiled, limits, node_recipe, nodelets, preload, run, sandbox, windows
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
@@ -63,7 +63,7 @@ class Tracer:
         alone = nodelets.standalone(request)
         try:
             planned = self._libraries[request.generation].planned() if _preloaded(alone) else _NO_PRELOAD
-            found = self.cache.load(recipes.make(self.environment, alone, planned.path), alone)
+            found = self.cache.load(node_recipe.make(self.environment, alone, planned.path), alone)
             return self._finished(found, request) if found is not None else None
         except Exception:
             _log.exception("looking up a trace of %s failed", request.node)
@@ -117,7 +117,7 @@ class Tracer:
         built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
         if request.generation == 2 and built.reason is not None:
             return _not_run(built.reason)
-        recipe = recipes.make(self.environment, request, built.path)
+        recipe = node_recipe.make(self.environment, request, built.path)
         visible = sorted({*self._visible, *recipes.request_paths(request, recipe)})
         python = self.environment.python if request.generation == 1 else self.environment.ros2_python
         interpreter = python or sys.executable

@@ -12,7 +12,8 @@ import select
 import time
 from typing import Optional
 
-from .supervisor import TICK, Run, drain, exit_code, host_is_gone, start
+from .process import exit_code, host_is_gone
+from .run import TICK, Run, drain, start
 
 PIECE = 36_000
 """Bytes; in base64 well below the host's limit for a line."""

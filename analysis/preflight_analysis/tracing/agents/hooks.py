@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any, Optional, Sequence
 
 from . import channel, genpy_weave
+from .variables import SOURCES
 
 WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer", genpy_weave.NAME)
 RCLPY = (
@@ -25,12 +26,6 @@ RCLPY = (
     "rclpy.wait_for_message",
     "ament_index_python.packages",
 )
-EXPECTED = "PREFLIGHT_NODE"
-"""The environment variable with the full name that the launch file gives a node of ROS 2."""
-SHARES = "PREFLIGHT_SHARES"
-"""The environment variable with the folders of packages that are there as source only, a JSON object."""
-SOURCES = "PREFLIGHT_SOURCES"
-"""The environment variable with the folders of Python modules of a workspace that may not be built."""
 _BATCH = 200
 _MAX_FILES = 5_000
 _MAX_WRITES = 20

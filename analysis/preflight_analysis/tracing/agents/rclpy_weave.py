@@ -18,7 +18,7 @@ from types import FrameType, ModuleType
 from typing import Any, Callable, Optional
 
 from . import answers, channel
-from .hooks import EXPECTED, SHARES
+from .variables import EXPECTED, SHARES
 
 _LIBRARIES = frozenset(("rclpy", "preflight_agents", "functools", "tf2_ros", "message_filters", "diagnostic_updater"))
 """Frames in these are not the node's own."""

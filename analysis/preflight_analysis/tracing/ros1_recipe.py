@@ -1,0 +1,58 @@
+"""What exactly is executed for a node of ROS 1, or for the command of a parameter.
+
+As roslaunch does it (roslaunch.node_args): arguments, then remaps as `from:=to`, then `__name:=`, `__log:=`; the
+namespace in `ROS_NAMESPACE`; the folder ROS_HOME unless `cwd="node"`. The command of a parameter has the environment
+and the folder of roslaunch itself.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+from preflight_analysis.environment.catkin_python import source_folders
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
+from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing.agents.variables import SOURCES
+from preflight_analysis.tracing.recipe import Recipe
+from preflight_analysis.tracing.request import TraceRequest
+
+
+def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
+    """The recipe of a request of generation 1. Reads the executable's first line; an unreadable one is left for exec
+    to complain of. `preload` is the library for the executable, if it is a program that one can be loaded into."""
+    stable = recipes.variables(environment, request.env)
+    interpreter, python = recipes.shebang_interpreter(environment.python, request.executable, stable["PATH"])
+    if python:
+        stable |= _unbuilt_modules(environment)
+    argv = [*interpreter, request.executable, *request.args]
+    remapped = python or preload is not None
+    if remapped:
+        argv += [f"{source}:={target}" for source, target in request.remaps]
+    # Of any other executable only the master's view is known, where names are remapped already. It gets no remaps, so
+    # that there too the names are those before remapping, and the graph can apply them.
+    base = request.node.rpartition("/")[2]
+    argv += [f"__name:={base}", f"__log:={recipes.LOG_FOLDER}/{base}.log"]
+    env = recipes.inside(stable)
+    namespace = names.parent(request.node).rstrip("/")
+    if namespace:
+        env["ROS_NAMESPACE"] = namespace
+    if preload is not None:
+        env["LD_PRELOAD"] = recipes.preloading(preload, stable)
+    return Recipe(tuple(argv), env, stable, recipes.folder(request), python, remapped, preload)
+
+
+def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
+    """The recipe of a command of a parameter, whose program was found as `executable`."""
+    stable = recipes.variables(environment, ())
+    interpreter, python = recipes.shebang_interpreter(environment.python, executable, stable["PATH"])
+    if python:
+        stable |= _unbuilt_modules(environment)
+    return Recipe((*interpreter, executable, *args), recipes.inside(stable), stable, cwd, python)
+
+
+def _unbuilt_modules(environment: Environment) -> dict[str, str]:
+    """Where Python finds what a build of the workspace will make known, if it finds it nowhere else."""
+    folders = source_folders(environment)
+    return {SOURCES: os.pathsep.join(folders)} if folders else {}
