@@ -36,10 +36,11 @@ test: setup ## all tests but those in VS Code, side by side; Neovim is among the
 quick: $(READY) ## the tests that need neither ROS nor an editor, in a minute
 	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not ros and not editor"
 
-lint: $(READY) ## ruff and mypy
+lint: $(READY) ## ruff, mypy and import-linter
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
 
 bench: setup ## editing and completion latency, a large workspace and the time of a trace, of a command and of a Python launch file, as ratios
 	@set -e; for each in $(BENCHMARKS); do echo "bench/$$each.py"; $(BIN)/python bench/$$each.py; done

@@ -7,7 +7,6 @@ import pathlib
 from typing import Any
 
 from .base import RECORDER
-from .substitutions import prefix_of
 
 
 class PackageNotFoundError(KeyError):
@@ -51,3 +50,9 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
 def get_resources(resource_type: str) -> dict[str, str]:
     return get_packages_with_prefixes() if resource_type == "packages" else {}
+
+
+def prefix_of(package: str, share: str) -> str:
+    """The install prefix of a share folder; a package that is only source has none, and counts as its own."""
+    end = os.path.join("share", package)
+    return share[: -len(end)].rstrip("/") if share.endswith("/" + end) else share

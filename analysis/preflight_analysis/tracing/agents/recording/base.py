@@ -107,6 +107,23 @@ class Substitution(Made):
         return type(self).__name__
 
 
+class TextSubstitution(Substitution):
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
+        self.__text = text
+
+    @property
+    def text(self) -> str:
+        return self.__text
+
+    def describe(self) -> str:
+        return f"'{self.text}'"
+
+    def perform(self, context: LaunchContext) -> str:
+        return self.text
+
+
 SomeSubstitutionsType_types_tuple = (str, Substitution, collections.abc.Iterable)
 
 
@@ -263,8 +280,6 @@ def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: 
 
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    from .substitutions import TextSubstitution  # noqa: PLC0415 - that module derives from ours
-
     def one(x: Any) -> Substitution:
         if isinstance(x, Substitution):
             return x

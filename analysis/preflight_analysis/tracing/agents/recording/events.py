@@ -6,6 +6,7 @@ import collections.abc
 from typing import Any
 
 from .base import Action, Event, LaunchDescriptionEntity, Made
+from .processes import ExecuteLocal, ExecuteProcess
 
 
 class BaseEventHandler(Made):
@@ -68,12 +69,6 @@ class OnActionEventBase(BaseEventHandler):
         self._does(on_event)
 
 
-def _processes() -> Any:
-    from . import actions  # noqa: PLC0415 - that module needs ours
-
-    return actions
-
-
 class OnExecutionComplete(OnActionEventBase):
     def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
         super().__init__(action_matcher=target_action, on_event=on_completion, **kwargs)
@@ -81,14 +76,12 @@ class OnExecutionComplete(OnActionEventBase):
 
 class OnProcessExit(OnActionEventBase):
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
-        wanted = _processes().ExecuteLocal
-        super().__init__(action_matcher=target_action, on_event=on_exit, target_action_cls=wanted, **kwargs)
+        super().__init__(action_matcher=target_action, on_event=on_exit, target_action_cls=ExecuteLocal, **kwargs)
 
 
 class OnProcessStart(OnActionEventBase):
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
-        wanted = _processes().ExecuteProcess
-        super().__init__(action_matcher=target_action, on_event=on_start, target_action_cls=wanted, **kwargs)
+        super().__init__(action_matcher=target_action, on_event=on_start, target_action_cls=ExecuteProcess, **kwargs)
 
 
 class OnProcessIO(OnActionEventBase):
@@ -104,7 +97,7 @@ class OnProcessIO(OnActionEventBase):
         super().__init__(
             action_matcher=target_action,
             on_event=on_stdout or on_stderr or on_stdin,
-            target_action_cls=_processes().ExecuteLocal,
+            target_action_cls=ExecuteLocal,
             **kwargs,
         )
 

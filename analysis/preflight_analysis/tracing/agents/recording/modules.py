@@ -13,7 +13,7 @@ import types
 import xml.etree.ElementTree
 from typing import Any, Optional
 
-from . import actions, ament, base, conditions, events, library, ros, substitutions, typed
+from . import actions, ament, base, conditions, events, library, processes, ros, substitutions, typed
 from .base import RECORDER
 
 
@@ -38,13 +38,18 @@ _SOURCES = _named(
     "PythonLaunchDescriptionSource",
     "LaunchDescriptionSource",
 )
-_ACTIONS = {k: v for k, v in _public(actions).items() if k not in _SOURCES and not k.endswith("Source")}
+_ACTIONS = {k: v for k, v in _public(actions, processes).items() if k not in _SOURCES and not k.endswith("Source")}
 _ACTIONS.pop("Executable")
 _ROS_SUBSTITUTIONS = _named(
     substitutions, "ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare", "Parameter"
 )
 _SUBSTITUTIONS = {
-    k: v for k, v in _public(substitutions).items() if k not in _ROS_SUBSTITUTIONS and k not in ("Worded", "Written")
+    "TextSubstitution": base.TextSubstitution,
+    **{
+        k: v
+        for k, v in _public(substitutions).items()
+        if k not in _ROS_SUBSTITUTIONS and k not in ("Worded", "Written")
+    },
 }
 _HANDLERS = {k: v for k, v in _public(events).items() if k.startswith("On")}
 _PROCESS = {k: v for k, v in _public(events).items() if "Process" in k and k not in _HANDLERS}
@@ -167,7 +172,7 @@ TABLE: dict[str, dict[str, Any]] = {
         **_public(conditions),
         **_named(conditions, "evaluate_condition_expression", "VALID_TRUE_EXPRESSIONS", "VALID_FALSE_EXPRESSIONS"),
     },
-    "launch.descriptions": {"Executable": actions.Executable},
+    "launch.descriptions": {"Executable": processes.Executable},
     "launch.event": {"Event": base.Event},
     "launch.event_handler": _named(events, "BaseEventHandler", "EventHandler"),
     "launch.event_handlers": {**_HANDLERS, "event_named": library.event_named},

@@ -7,17 +7,19 @@ from collections.abc import Iterable as AnyIterable
 from collections.abc import Mapping, Sequence
 from typing import Any, Iterable, Optional
 
-from .actions import ExecuteProcess, TimerAction
+from .actions import TimerAction
 from .base import (
     Action,
     LaunchContext,
     Made,
     Substitution,
+    TextSubstitution,
     ensure_argument_type,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from .substitutions import ExecutableInPackage, TextSubstitution
+from .processes import ExecuteProcess
+from .substitutions import ExecutableInPackage
 from .typed import extract_type, normalize_typed_substitution, perform_typed_substitution
 
 _SCALARS = (int, float, bool, str)

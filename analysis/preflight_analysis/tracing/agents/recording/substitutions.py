@@ -12,6 +12,7 @@ import shutil
 import subprocess
 from typing import Any, List, Optional
 
+from .ament import get_package_share_directory, prefix_of
 from .base import (
     RECORDER,
     LaunchContext,
@@ -36,23 +37,6 @@ def _truth(text: str) -> bool:
     if text.lower() in ("false", "0", "no", "off"):
         return False
     raise SubstitutionFailure(f"Failed to convert '{text}' to a boolean")
-
-
-class TextSubstitution(Substitution):
-    def __init__(self, *, text: str) -> None:
-        if not isinstance(text, str):
-            raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
-        self.__text = text
-
-    @property
-    def text(self) -> str:
-        return self.__text
-
-    def describe(self) -> str:
-        return f"'{self.text}'"
-
-    def perform(self, context: LaunchContext) -> str:
-        return self.text
 
 
 class Worded(Substitution):
@@ -465,14 +449,14 @@ class FindPackageShare(FindPackage):
     command = "find-pkg-share"
 
     def find(self, package_name: str) -> str:
-        return _share(package_name)
+        return get_package_share_directory(package_name)
 
 
 class FindPackagePrefix(FindPackage):
     command = "find-pkg-prefix"
 
     def find(self, package_name: str) -> str:
-        return prefix_of(package_name, _share(package_name))
+        return prefix_of(package_name, get_package_share_directory(package_name))
 
 
 class ExecutableInPackage(FindPackagePrefix):
@@ -518,15 +502,3 @@ def _as_text(value: Any) -> Any:
     if value is None:
         return ""
     return str(value).lower() if isinstance(value, bool) else str(value) if _plain(value) else value
-
-
-def _share(package: str) -> str:
-    from .ament import get_package_share_directory  # noqa: PLC0415 - a cycle
-
-    return get_package_share_directory(package)
-
-
-def prefix_of(package: str, share: str) -> str:
-    """The install prefix of a share folder; a package that is only source has none, and counts as its own."""
-    end = os.path.join("share", package)
-    return share[: -len(end)].rstrip("/") if share.endswith("/" + end) else share

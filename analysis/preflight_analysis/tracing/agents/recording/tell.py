@@ -10,11 +10,19 @@ from __future__ import annotations
 import contextlib
 from typing import Any, Iterable, Iterator, Optional
 
-from .actions import ExecuteProcess
-from .base import Action, Condition, LaunchDescription, Substitution, normalize_to_list_of_substitutions, overrides
+from .base import (
+    Action,
+    Condition,
+    LaunchDescription,
+    Substitution,
+    TextSubstitution,
+    normalize_to_list_of_substitutions,
+    overrides,
+)
 from .conditions import IfCondition, LaunchConfigurationEquals
+from .processes import ExecuteProcess
 from .ros import ComposableNode, ParameterValue
-from .substitutions import FindPackage, TextSubstitution, Worded
+from .substitutions import FindPackage, Worded
 
 MAX_ACTIONS = 20_000
 MAX_DEPTH = 100
