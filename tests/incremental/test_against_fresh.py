@@ -1,0 +1,145 @@
+"""Whatever happens to a database, its answers are those of one that has remembered nothing."""
+
+from __future__ import annotations
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from random import Random
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from preflight_analysis.incremental.database import Cancelled, Database, Input, query
+
+DISK: dict[str, str] = {}
+NAMES = "abcdefgh"
+
+
+def load(name: str) -> str:
+    return DISK.get(name, "")
+
+
+FILE = Input(load)
+
+
+@query
+def words(db: Database, name: str) -> tuple[str, ...]:
+    """Words of a file: a digit is itself, a letter what the file of that name has, `!` an error, `?` ends it."""
+    return tuple(FILE(db, name).split())
+
+
+@query
+def value(db: Database, name: str, depth: int) -> int:
+    result = 0
+    for word in words(db, name):
+        if word == "!":
+            raise ValueError(name)
+        if word == "?":
+            break
+        if word.isdigit():
+            result += int(word)
+        elif depth < 4:
+            result = (2 * result + value(db, word, depth + 1)) % 1000
+    return result
+
+
+@query(keep=2)
+def sign(db: Database, name: str) -> bool:
+    return value(db, name, 0) > 10
+
+
+@query
+def report(db: Database) -> tuple[object, ...]:
+    result: list[object] = []
+    for name in NAMES:
+        try:
+            result.append(sign(db, name) and value(db, name, 0) % 3)
+        except ValueError as error:
+            result.append(str(error))
+    return tuple(result)
+
+
+TEXTS = st.lists(st.sampled_from([*NAMES, "1", "5", "20", "!", "?"]), max_size=5).map(" ".join)
+STEPS = st.lists(
+    st.tuples(st.sampled_from(["open", "open", "close", "disk", "read", "read one"]), st.sampled_from(NAMES), TEXTS),
+    max_size=100,
+)
+
+
+def step(db: Database, what: str, name: str, text: str) -> None:
+    if what == "open":
+        with db.writing() as write:
+            write.set(FILE, text, name)
+    elif what == "close":
+        with db.writing() as write:
+            write.reload(FILE, name)
+    elif what == "disk":
+        DISK[name] = text
+        with db.writing() as write:
+            write.reload_all(FILE)
+    elif what == "read":
+        report(db)
+    else:
+        value_or_error(db, name)
+
+
+def value_or_error(db: Database, name: str) -> object:
+    try:
+        return value(db, name, 0)
+    except ValueError as error:
+        return str(error)
+
+
+def fresh(db: Database) -> Database:
+    """A database with the same inputs, and nothing else."""
+    again = Database()
+    with again.writing() as write:
+        for (kind, key), cell in db.cells.items():
+            if kind is FILE:
+                write.set(FILE, cell.value, *key)
+    return again
+
+
+@settings(max_examples=300, deadline=None)
+@given(STEPS)
+def test_after_any_steps(steps: list[tuple[str, str, str]]) -> None:
+    DISK.clear()
+    db = Database()
+    for what, name, text in steps:
+        step(db, what, name, text)
+        if what.startswith("read"):
+            again = fresh(db)
+            assert report(db) == report(again)
+            assert [value_or_error(db, name) for name in NAMES] == [value_or_error(again, name) for name in NAMES]
+    assert report(db) == report(fresh(db))
+
+
+def test_after_many_steps_in_threads() -> None:
+    """Readers in threads while there are writes: each sees one revision, and at the end all is as if made anew."""
+    DISK.clear()
+    random = Random(7)
+    db, ended = Database(), threading.Event()
+
+    def reader() -> int:
+        rounds = 0
+        while not ended.is_set():
+            try:
+                with db.reading():
+                    first = report(db)
+                    assert [value_or_error(db, name) for name in NAMES] == [value_or_error(db, n) for n in NAMES]
+                    assert report(db) == first
+                    rounds += 1
+            except Cancelled:
+                pass
+        return rounds
+
+    with ThreadPoolExecutor(3) as pool:
+        readers = [pool.submit(reader) for _ in range(3)]
+        for _ in range(1_500):
+            text = " ".join(random.choices([*NAMES, "1", "5", "20", "!"], k=random.randrange(5)))
+            step(db, random.choice(["open", "close", "disk"]), random.choice(NAMES), text)
+            if random.random() < 0.1:
+                assert report(db) == report(fresh(db))
+        ended.set()
+        rounds = [each.result(30) for each in readers]
+    assert all(rounds)
+    assert report(db) == report(fresh(db))

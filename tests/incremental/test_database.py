@@ -1,0 +1,330 @@
+"""What is made again after a change, and what is not."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from preflight_analysis.incremental.database import (
+    UNUSED_AFTER,
+    Cancelled,
+    CycleError,
+    Database,
+    Input,
+    Key,
+    Query,
+    query,
+)
+
+OUTSIDE: dict[str, str] = {}
+PATIENCE = 20.0
+
+
+@pytest.fixture(autouse=True)
+def outside() -> Iterator[None]:
+    OUTSIDE.clear()
+    OUTSIDE.update(a="1 2", b="3", c="")
+    yield
+
+
+def load(name: str) -> str:
+    return OUTSIDE.get(name, "")
+
+
+TEXT = Input(load)
+TYPED = Input(load, durable=False)
+
+
+@query
+def numbers(db: Database, name: str) -> tuple[int, ...]:
+    return tuple(map(int, TEXT(db, name).split()))
+
+
+@query
+def total(db: Database, *names: str) -> int:
+    return sum(sum(numbers(db, name)) for name in names)
+
+
+@query
+def described(db: Database, *names: str) -> str:
+    return f"{total(db, *names)} in all"
+
+
+@query
+def length(db: Database, name: str) -> int | None:
+    try:
+        return len(numbers(db, name))
+    except ValueError:
+        return None
+
+
+@query
+def chosen(db: Database, name: str) -> tuple[int, ...]:
+    return numbers(db, "a" if TYPED(db, name) else "b")
+
+
+@query(keep=1)
+def large(db: Database, name: str) -> list[str]:
+    return [TEXT(db, name)] * 1000
+
+
+@query
+def size(db: Database, name: str) -> int:
+    return len(large(db, name))
+
+
+@query
+def forever(db: Database, name: str) -> int:
+    return forever(db, name) + 1
+
+
+class Made:
+    """A database, and the queries that it made since it was last asked."""
+
+    def __init__(self) -> None:
+        self.made: list[tuple[str, Key]] = []
+        self.db = Database(lambda kind, key: self.made.append((kind.name, key)))
+
+    def names(self) -> list[str]:
+        names, self.made = [name for name, _ in self.made], []
+        return names
+
+
+def change(db: Database, name: str, text: str, kind: Input[Any, str] = TEXT) -> None:
+    with db.writing() as write:
+        write.set(kind, text, name)
+
+
+def test_what_did_not_change_is_not_made_again() -> None:
+    it = Made()
+    assert described(it.db, "a", "b") == "6 in all"
+    assert it.names() == ["described", "total", "numbers", "numbers"]
+    assert described(it.db, "a", "b") == "6 in all"
+    change(it.db, "c", "7")
+    assert described(it.db, "a", "b") == "6 in all"
+    assert it.names() == []
+    change(it.db, "b", "4")
+    assert described(it.db, "a", "b") == "7 in all"
+    assert it.names() == ["numbers", "total", "described"]
+
+
+def test_where_a_value_comes_out_equal_nothing_above_is_made_again() -> None:
+    it = Made()
+    first = numbers(it.db, "a")
+    assert described(it.db, "a", "b") == "6 in all"
+    it.names()
+    change(it.db, "a", "1  2 ")
+    assert described(it.db, "a", "b") == "6 in all"
+    assert it.names() == ["numbers"]
+    assert numbers(it.db, "a") is first
+    change(it.db, "a", "2 1")
+    assert described(it.db, "a", "b") == "6 in all"
+    assert it.names() == ["numbers", "total"]
+
+
+def test_only_what_was_read_last_time_counts() -> None:
+    it = Made()
+    assert chosen(it.db, "c") == (3,)
+    change(it.db, "a", "5")
+    assert chosen(it.db, "c") == (3,)
+    change(it.db, "c", "yes", TYPED)
+    assert chosen(it.db, "c") == (5,)
+    it.names()
+    change(it.db, "b", "9")
+    assert chosen(it.db, "c") == (5,)
+    assert it.names() == []
+
+
+def test_an_input_is_loaded_once_and_again_when_told() -> None:
+    db = Database()
+    assert numbers(db, "a") == (1, 2)
+    OUTSIDE["a"] = "7"
+    assert numbers(db, "a") == (1, 2)
+    with db.writing() as write:
+        write.reload(TEXT, "a")
+    assert numbers(db, "a") == (7,)
+    OUTSIDE["b"] = "8"
+    assert numbers(db, "b") == (8,)
+    OUTSIDE.update(a="0", b="0")
+    with db.writing() as write:
+        write.reload_all(TEXT)
+    assert numbers(db, "a") == numbers(db, "b") == (0,)
+
+
+def test_a_write_that_changes_nothing_is_no_revision() -> None:
+    db = Database()
+    numbers(db, "a")
+    before = db.revision
+    with db.writing() as write:
+        write.reload_all(TEXT)
+        write.set(TEXT, "1 2", "a", durable=True)
+        write.reload(TEXT, "never read")
+    assert db.revision == before
+
+
+def test_what_is_set_goes_back_to_what_is_outside() -> None:
+    db = Database()
+    change(db, "a", "10")
+    assert numbers(db, "a") == (10,)
+    change(db, "a", "11")
+    assert numbers(db, "a") == (11,)
+    with db.writing() as write:
+        write.reload(TEXT, "a")
+    assert numbers(db, "a") == (1, 2)
+
+
+def test_an_input_that_begins_to_change_often_is_looked_at_each_time() -> None:
+    db = Database()
+    assert described(db, "a") == "3 in all"
+    change(db, "a", "1 2")
+    assert described(db, "a") == "3 in all"
+    change(db, "a", "1 2 3")
+    assert described(db, "a") == "6 in all"
+
+
+def test_what_raises_raises_again_until_it_does_not() -> None:
+    db = Database()
+    change(db, "a", "x")
+    for _ in range(2):
+        with pytest.raises(ValueError, match="x"):
+            described(db, "a", "b")
+    assert length(db, "a") is None
+    change(db, "b", "5")
+    assert length(db, "a") is None
+    change(db, "a", "1 1 1")
+    assert length(db, "a") == 3
+    assert described(db, "a", "b") == "8 in all"
+
+
+def test_a_query_that_needs_itself_is_an_error() -> None:
+    with pytest.raises(CycleError, match="forever"):
+        forever(Database(), "a")
+
+
+def test_values_beyond_those_kept_are_made_again_but_not_what_they_led_to() -> None:
+    it = Made()
+    for name in "abc":
+        assert size(it.db, name) == 1000
+    it.names()
+    for number in range(UNUSED_AFTER):
+        change(it.db, "other", str(number))
+        assert [size(it.db, name) for name in "abc"] == [1000] * 3
+    assert it.names() == []
+    for name in "abc":
+        large(it.db, name)
+    assert 2 <= len(it.names()) <= 3
+    assert [size(it.db, name) for name in "abc"] == [1000] * 3
+    assert it.names() == []
+    change(it.db, "a", "new")
+    assert large(it.db, "a") == ["new"] * 1000
+
+
+def test_what_nobody_asks_for_any_more_is_forgotten() -> None:
+    db = Database()
+    for number in range(20 * UNUSED_AFTER):
+        change(db, "typed", str(number), TYPED)
+
+        @query
+        def by_text(db: Database, text: str) -> str:
+            return TYPED(db, "typed") + text
+
+        by_text(db, str(number))
+    assert len(db.cells) <= 3 * UNUSED_AFTER
+
+
+def test_a_query_cannot_write() -> None:
+    @query
+    def writes(db: Database) -> None:
+        with db.writing():
+            pass
+
+    with pytest.raises(RuntimeError, match="cannot change inputs"):
+        writes(Database())
+
+
+def test_a_write_makes_readers_leave_and_readers_see_one_revision() -> None:
+    db = Database()
+    inside, go_on = threading.Event(), threading.Event()
+    seen: list[object] = []
+
+    @query
+    def slow(db: Database, name: str) -> tuple[int, ...]:
+        inside.set()
+        assert go_on.wait(PATIENCE)
+        return numbers(db, name)
+
+    def read() -> None:
+        try:
+            slow(db, "a")
+        except Cancelled:
+            seen.append("cancelled")
+        seen.append(slow(db, "a"))
+
+    def write() -> None:
+        change(db, "a", "9")
+
+    reader, writer = threading.Thread(target=read), threading.Thread(target=write)
+    reader.start()
+    assert inside.wait(PATIENCE)
+    writer.start()
+    while not db.cancelled:
+        pass
+    assert TEXT.name == "load" and writer.is_alive()
+    go_on.set()
+    for each in (reader, writer):
+        each.join(PATIENCE)
+    assert seen == ["cancelled", (9,)]
+
+
+def test_threads_that_want_the_same_wait_for_the_one_that_makes_it() -> None:
+    it = Made()
+    began, go_on = threading.Event(), threading.Event()
+
+    @query
+    def slow(db: Database) -> int:
+        began.set()
+        assert go_on.wait(PATIENCE)
+        return total(db, "a", "b")
+
+    answers: list[int] = []
+    threads = [threading.Thread(target=lambda: answers.append(slow(it.db))) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    assert began.wait(PATIENCE)
+    go_on.set()
+    for thread in threads:
+        thread.join(PATIENCE)
+    assert answers == [6] * 4
+    assert it.names().count("slow") == 1
+
+
+def test_two_threads_that_need_what_the_other_makes_do_not_wait_for_ever() -> None:
+    db = Database()
+    both = threading.Barrier(2)
+    queries: dict[str, Query[[str], int]] = {}
+
+    def crossing(db: Database, other: str) -> int:
+        both.wait(PATIENCE) if not both.broken else None
+        both.abort()
+        return (queries[other](db, "") if other else 0) + 1
+
+    def make(name: str) -> None:
+        queries[name] = Query(crossing)
+
+    make("left"), make("right")
+    answers: list[int] = []
+
+    def ask(mine: str, other: str) -> None:
+        try:
+            answers.append(queries[mine](db, other))
+        except threading.BrokenBarrierError:
+            answers.append(queries[mine](db, other))
+
+    threads = [threading.Thread(target=ask, args=pair) for pair in (("left", "right"), ("right", "left"))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(PATIENCE)
+    assert answers == [2, 2]
