@@ -7,7 +7,7 @@ DEMO := fixtures/ros1/demo
 SIDE_BY_SIDE := --numprocesses=auto --dist=worksteal
 BENCHMARKS := editing completion index trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint bench bench-quick corpus nodes fuzz wheel vsix test-editors images docs clean
+.PHONY: help setup apt demo test quick lint bench bench-quick corpus nodes fuzz wheel vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -74,7 +74,13 @@ wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x8
 vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
 	rm -rf vscode-client/server
 	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir vscode-client/server .
+	cd vscode-client/server && { cat ../server-requirements.txt; sha256sum ros_preflight-*.whl | \
+	  sed -E 's/^([0-9a-f]+)  ros_preflight-([^-]+)-.*/ros-preflight==\2 --hash=sha256:\1/'; } > requirements.txt
 	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package
+
+lock: $(READY) ## what the extension installs the server with, newest versions, pinned with hashes in vscode-client/server-requirements.txt
+	$(BIN)/python -m pip install --quiet --group lock
+	$(BIN)/python .ci/lock
 
 test-editors: setup vsix ## the extension in the real VS Code, with screenshots in out/screenshots
 	tests/editors/install.sh vscode

@@ -47,16 +47,15 @@ install_neovim() {
   mv "$target.part" "$target"
 }
 
-# The wheels that the server needs, for the Python that the extension finds.
+# The wheels that the server needs, the very ones that the extension asks for, for the Python that it finds.
 install_wheels() {
-  local wheels="$root/out/tools/wheels" wanted
-  wanted=$(cat "$root/pyproject.toml" | sha256sum)
+  local wheels="$root/out/tools/wheels" wanted locked="$root/vscode-client/server-requirements.txt"
+  wanted=$(sha256sum <"$locked")
   [ -f "$wheels/.installed" ] && [ "$(cat "$wheels/.installed")" = "$wanted" ] && return
   echo "Fetching what the server needs"
   rm -rf "$wheels"
   mkdir -p "$wheels"
-  quietly "$python" -m pip wheel --wheel-dir "$wheels" "$root"
-  rm -f "$wheels"/ros_preflight-*
+  quietly "$python" -m pip download --require-hashes --only-binary :all: --dest "$wheels" --requirement "$locked"
   echo "$wanted" >"$wheels/.installed"
 }
 

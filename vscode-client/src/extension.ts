@@ -85,7 +85,7 @@ export function activate(context: ExtensionContext): void {
     }),
     command("stopWatching", () => server.withClient((client) => watch(client, tree.shown ?? "", false))),
     command("clearCache", () => server.withClient(clearCache)),
-    command("choosePython", () => choosePython(log)),
+    command("choosePython", choosePython),
     command("setServerPath", setServerPath),
     registerDoctor(server),
     followLaunchFiles(),

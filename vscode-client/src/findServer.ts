@@ -13,8 +13,6 @@ export interface Surroundings {
   /** The value of the PATH environment variable. */
   readonly searchPath: string | undefined;
   readonly home: string;
-  /** The Python interpreter selected in the editor, if there is one and the workspace is trusted. */
-  readonly interpreter: string | undefined;
   isExecutable(file: string): boolean;
 }
 
@@ -24,8 +22,10 @@ export class ServerNotFound extends Error {}
 const NAME = "ros-preflight";
 
 /**
- * Finds the `ros-preflight` command: the setting, else PATH, else beside the selected interpreter, else `~/.local/bin`;
- * undefined where it is nowhere.
+ * Finds the `ros-preflight` command: the setting, else PATH, else `~/.local/bin`; undefined where it is nowhere.
+ *
+ * Never beside the interpreter that is selected in the editor: a workspace's settings can select one of its own, and the
+ * server runs without a sandbox.
  *
  * A setting that leads nowhere is an error, not a reason to look elsewhere.
  *
@@ -38,7 +38,6 @@ export function findServer(setting: unknown, around: Surroundings): ServerComman
   }
   const candidates: [string | undefined, string][] = [
     [onPath(NAME, around), "PATH"],
-    [around.interpreter && path.join(path.dirname(around.interpreter), NAME), "the selected Python environment"],
     [path.join(around.home, ".local", "bin", NAME), "~/.local/bin"],
   ];
   for (const [program, foundIn] of candidates) {

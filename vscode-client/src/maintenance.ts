@@ -1,4 +1,4 @@
-import { commands, ConfigurationTarget, type LogOutputChannel, Position, type TextEditor, Uri, window, workspace } from "vscode";
+import { commands, ConfigurationTarget, Position, type TextEditor, Uri, window, workspace } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { pythons } from "./surroundings";
 
@@ -50,11 +50,11 @@ export async function clearCache(client: LanguageClient): Promise<void> {
 }
 
 /** Lets the user choose the interpreter that the extension's own environment is made with. */
-export async function choosePython(log: LogOutputChannel): Promise<void> {
+export async function choosePython(): Promise<void> {
   const browse = "Browse…";
-  const found = (await pythons(log)).map((label) => ({ label }));
+  const found = pythons().map((label) => ({ label }));
   const choice = await window.showQuickPick([...found, { label: browse }], {
-    title: "Python for the server's own environment (3.10 or newer)",
+    title: "Python for the server's own environment (3.10 to 3.14)",
   });
   if (choice !== undefined) {
     await set("server.python", choice.label === browse ? await browsed("Use This Python") : choice.label);

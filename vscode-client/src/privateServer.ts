@@ -10,8 +10,8 @@ export class InstallFailed extends Error {}
 export interface Installer {
   /** The folder that is this extension's alone. */
   readonly storage: string;
-  /** The wheel of the server that came with the extension. */
-  readonly wheel: string;
+  /** What came with the extension: the server and all that it needs, pinned with hashes; its wheel lies beside. */
+  readonly requirements: string;
   readonly environment: NodeJS.ProcessEnv;
   readonly line: (text: string) => void;
   /** Called with what is being done, for the progress. */
@@ -19,19 +19,25 @@ export interface Installer {
   readonly signal: AbortSignal;
 }
 
+/** The minor versions of Python 3 that the requirements have wheels for. */
 const OLDEST = 10;
+const NEWEST = 14;
 const MINUTES = 60_000;
 const VERSION = "import sys; print('%d.%d' % sys.version_info[:2])";
 const RECORD = "server.json";
 
-/** The command of the private environment if it holds the server of this very wheel. */
-export function installed(storage: string, wheel: string, isExecutable: (file: string) => boolean): string[] | undefined {
+/** The command of the private environment if it was made of these very requirements. */
+export function installed(
+  storage: string,
+  requirements: string,
+  isExecutable: (file: string) => boolean,
+): string[] | undefined {
   try {
-    const record = JSON.parse(readFileSync(path.join(storage, RECORD), "utf8")) as { folder?: unknown; wheel?: unknown };
-    if (typeof record.folder !== "string" || record.wheel !== digestOf(wheel)) {
+    const record = JSON.parse(readFileSync(path.join(storage, RECORD), "utf8")) as Record<string, unknown>;
+    if (typeof record["folder"] !== "string" || record["requirements"] !== digestOf(requirements)) {
       return undefined;
     }
-    const python = path.join(storage, record.folder, "bin", "python");
+    const python = path.join(storage, record["folder"], "bin", "python");
     return isExecutable(python) ? commandOf(python) : undefined;
   } catch {
     return undefined; // never installed, or cut off
@@ -39,7 +45,10 @@ export function installed(storage: string, wheel: string, isExecutable: (file: s
 }
 
 /**
- * Makes a virtual environment with one of these interpreters, the first that is new enough, and the server in it.
+ * Makes a virtual environment with one of these interpreters, the first that suits, and the server in it.
+ *
+ * pip takes the files whose hashes the requirements have, from whatever index it is configured for, and builds nothing:
+ * what a build runs no hash covers.
  *
  * The folder is a new one each time, and the record of which one counts is replaced at the end: another window may be
  * using the old one, or be installing too.
@@ -47,25 +56,26 @@ export function installed(storage: string, wheel: string, isExecutable: (file: s
  * @throws InstallFailed
  */
 export async function install(pythons: readonly string[], installer: Installer): Promise<string[]> {
-  const { storage, wheel, step } = installer;
+  const { storage, requirements, step } = installer;
   mkdirSync(storage, { recursive: true });
-  const digest = digestOf(wheel);
+  const digest = digestOf(requirements);
   const python = await chosen(pythons, installer);
   const folder = `server-${digest.slice(0, 8)}-${process.pid}-${Date.now()}`;
   const target = path.join(storage, folder);
   try {
     step("making a virtual environment");
-    venvWorked(await execute(installer, python, ["-m", "venv", target], 3), python);
+    venvWorked(await execute(installer, python, ["-I", "-m", "venv", target], 3), python);
     step("installing the server and what it needs");
     const inside = path.join(target, "bin", "python");
-    const pip = ["-I", "-m", "pip", "install", "--disable-pip-version-check", "--no-input", wheel];
-    pipWorked(await execute(installer, inside, pip, 15));
+    const pip = ["-I", "-m", "pip", "install", "--disable-pip-version-check", "--no-input"];
+    const pinned = ["--require-hashes", "--only-binary", ":all:", "--find-links", path.dirname(requirements)];
+    pipWorked(await execute(installer, inside, [...pip, ...pinned, "--requirement", requirements], 15));
   } catch (error) {
     rmSync(target, { recursive: true, force: true });
     throw error;
   }
   const record = path.join(storage, RECORD);
-  writeFileSync(`${record}.${process.pid}`, JSON.stringify({ folder, wheel: digest }));
+  writeFileSync(`${record}.${process.pid}`, JSON.stringify({ folder, requirements: digest }));
   renameSync(`${record}.${process.pid}`, record);
   for (const old of readdirSync(storage)) {
     if (old.startsWith("server-") && !old.startsWith(`server-${digest.slice(0, 8)}-`)) {
@@ -86,13 +96,13 @@ async function chosen(pythons: readonly string[], installer: Installer): Promise
     const { code, output } = await execute(installer, python, ["-I", "-c", VERSION], 1, false);
     const version = output.toString().trim();
     const [major, minor] = version.split(".").map(Number);
-    if (code === 0 && major === 3 && minor !== undefined && minor >= OLDEST) {
+    if (code === 0 && major === 3 && minor !== undefined && minor >= OLDEST && minor <= NEWEST) {
       return python;
     }
     looked.push(code === 0 ? `${python} is ${version}` : `${python} does not run`);
   }
   const found = looked.length > 0 ? ` (${looked.join(", ")})` : "";
-  throw new InstallFailed(`the server needs Python 3.${OLDEST} or newer, and none was found${found}.`);
+  throw new InstallFailed(`the server needs Python 3.${OLDEST} to 3.${NEWEST}, and none was found${found}.`);
 }
 
 function execute(installer: Installer, program: string, args: string[], minutes: number, logged = true): Promise<Ended> {

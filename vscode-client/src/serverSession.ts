@@ -1,4 +1,4 @@
-import { readdirSync } from "node:fs";
+import { existsSync } from "node:fs";
 import * as path from "node:path";
 import { commands, type ExtensionContext, type LogOutputChannel, ProgressLocation, window, workspace, type WorkspaceFolder } from "vscode";
 import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
@@ -168,7 +168,7 @@ export class ServerSession {
   private async server(): Promise<ServerCommand | undefined> {
     const settings = workspace.getConfiguration("rosPreflight");
     try {
-      const found = findServer(settings.get<unknown>("server.command"), await surroundings(this.log));
+      const found = findServer(settings.get<unknown>("server.command"), surroundings());
       return found ?? (await this.privateServer(settings.get<boolean>("server.install") !== false));
     } catch (error) {
       if (error instanceof ServerNotFound) {
@@ -189,18 +189,18 @@ export class ServerSession {
 
   private async privateServer(mayInstall: boolean): Promise<ServerCommand> {
     const storage = this.context.globalStorageUri.fsPath;
-    const wheel = bundledWheel(this.context.extensionPath);
-    const known = wheel === undefined ? undefined : installed(storage, wheel, isExecutable);
-    const nowhere = "the command ros-preflight was not found on PATH, in the selected Python environment or in ~/.local/bin";
-    if (known === undefined && (wheel === undefined || !mayInstall)) {
+    const requirements = bundledRequirements(this.context.extensionPath);
+    const known = requirements === undefined ? undefined : installed(storage, requirements, isExecutable);
+    const nowhere = "the command ros-preflight was not found on PATH or in ~/.local/bin";
+    if (known === undefined && (requirements === undefined || !mayInstall)) {
       throw new InstallFailed(`${nowhere}. ${HOW_TO_INSTALL}, or name it in the settings.`);
     }
-    const [program = "", ...args] = known ?? (await this.install(storage, wheel ?? ""));
+    const [program = "", ...args] = known ?? (await this.install(storage, requirements ?? ""));
     return { program, args: [...args, "lsp"], foundIn: "the extension's own virtual environment" };
   }
 
-  private async install(storage: string, wheel: string): Promise<string[]> {
-    const candidates = await pythons(this.log);
+  private async install(storage: string, requirements: string): Promise<string[]> {
+    const candidates = pythons();
     const abort = new AbortController();
     this.installing = abort;
     this.tell({ state: "installing", reason: "The server is being installed in an environment of its own." });
@@ -209,7 +209,7 @@ export class ServerSession {
       token.onCancellationRequested(() => abort.abort());
       return install(candidates, {
         storage,
-        wheel,
+        requirements,
         environment: process.env,
         line: (text) => this.log.info(text),
         step: (what) => progress.report({ message: what }),
@@ -301,15 +301,10 @@ export class ServerSession {
   }
 }
 
-/** The wheel of the server that `make vsix` put into the extension. */
-function bundledWheel(extension: string): string | undefined {
-  const folder = path.join(extension, "server");
-  try {
-    const wheel = readdirSync(folder).find((name) => name.endsWith(".whl"));
-    return wheel === undefined ? undefined : path.join(folder, wheel);
-  } catch {
-    return undefined;
-  }
+/** What the server is installed with, which `make vsix` put into the extension. */
+function bundledRequirements(extension: string): string | undefined {
+  const file = path.join(extension, "server", "requirements.txt");
+  return existsSync(file) ? file : undefined;
 }
 
 function openSettings(name: string): Thenable<unknown> {

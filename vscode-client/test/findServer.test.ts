@@ -6,7 +6,6 @@ function around(executables: string[], more: Partial<Surroundings> = {}): Surrou
   return {
     searchPath: "/usr/local/bin:/usr/bin",
     home: "/home/user",
-    interpreter: undefined,
     isExecutable: (file) => executables.includes(file),
     ...more,
   };
@@ -20,10 +19,9 @@ describe("findServer without a setting", () => {
     });
   }
 
-  it("takes PATH before the interpreter, and the interpreter before ~/.local/bin", () => {
-    const all = ["/usr/bin/ros-preflight", "/venv/bin/ros-preflight", "/home/user/.local/bin/ros-preflight"];
-    const interpreter = "/venv/bin/python3";
-    const found = [0, 1, 2].map((from) => findServer([], around(all.slice(from), { interpreter }))?.program);
+  it("takes PATH before ~/.local/bin", () => {
+    const all = ["/usr/bin/ros-preflight", "/home/user/.local/bin/ros-preflight"];
+    const found = [0, 1].map((from) => findServer([], around(all.slice(from)))?.program);
     assert.deepEqual(found, all);
   });
 

@@ -8,12 +8,12 @@ import { isExecutable } from "./files";
 
 const folder = mkdtempSync(path.join(tmpdir(), "private-"));
 const storage = path.join(folder, "storage");
-const wheel = path.join(folder, "ros_preflight-0.1.0-py3-none-any.whl");
+const requirements = path.join(folder, "requirements.txt");
 const calls = path.join(folder, "calls");
 after(() => rmSync(folder, { recursive: true }));
 beforeEach(() => {
   rmSync(storage, { recursive: true, force: true });
-  writeFileSync(wheel, "a wheel");
+  writeFileSync(requirements, "ros-preflight==0.1.0 --hash=sha256:00");
   writeFileSync(calls, "");
 });
 
@@ -26,7 +26,7 @@ function python(name: string, version: string, venv = "", pip = ""): string {
 echo "$@ PYTHONPATH=$PYTHONPATH" >>"${calls}"
 case "$*" in
   "-I -c "*) echo ${version} ;;
-  *venv*) ${venv || 'mkdir -p "$3/bin" && cp "$0" "$3/bin/python"'} ;;
+  *venv*) ${venv || 'mkdir -p "$4/bin" && cp "$0" "$4/bin/python"'} ;;
   *pip*) ${pip || "echo fetched"} ;;
 esac
 `,
@@ -38,7 +38,7 @@ esac
 function installer(more: Partial<Installer> = {}): Installer {
   const environment = { PATH: process.env["PATH"], PYTHONPATH: "/opt/ros/lib" };
   const signal = new AbortController().signal;
-  return { storage, wheel, environment, line: () => undefined, step: () => undefined, signal, ...more };
+  return { storage, requirements, environment, line: () => undefined, step: () => undefined, signal, ...more };
 }
 
 describe("the private environment", () => {
@@ -50,32 +50,39 @@ describe("the private environment", () => {
     assert.equal(steps.length, 2);
     const called = readFileSync(calls, "utf8").trim().split("\n");
     assert.ok(called.every((line) => line.endsWith("PYTHONPATH=")));
-    assert.match(called.at(-1) ?? "", /-m pip install .*ros_preflight-0\.1\.0-py3-none-any\.whl/);
-    assert.deepEqual(installed(storage, wheel, isExecutable), command);
+    assert.deepEqual(installed(storage, requirements, isExecutable), command);
   });
 
-  it("is made anew for another wheel, and the old one goes", async () => {
+  it("has only files whose hashes came with the extension, and nothing that is built", async () => {
+    await install([python("good", "3.11")], installer());
+    const pip = readFileSync(calls, "utf8").trim().split("\n").at(-1) ?? "";
+    assert.match(pip, /^-I -m pip install .*--require-hashes --only-binary :all: /);
+    assert.ok(pip.includes(` --find-links ${folder} --requirement ${requirements} `));
+  });
+
+  it("is made anew for other requirements, and the old one goes", async () => {
     const good = python("good", "3.13");
     await install([good], installer());
-    writeFileSync(wheel, "a newer wheel");
-    assert.equal(installed(storage, wheel, isExecutable), undefined);
+    writeFileSync(requirements, "ros-preflight==0.1.1 --hash=sha256:11");
+    assert.equal(installed(storage, requirements, isExecutable), undefined);
     await install([good], installer());
-    assert.notEqual(installed(storage, wheel, isExecutable), undefined);
+    assert.notEqual(installed(storage, requirements, isExecutable), undefined);
     assert.equal(readdirSync(storage).filter((name) => name.startsWith("server-")).length, 1);
   });
 
   it("is not there before it was made, nor when its record is broken", () => {
-    assert.equal(installed(storage, wheel, isExecutable), undefined);
+    assert.equal(installed(storage, requirements, isExecutable), undefined);
     mkdirSync(storage);
     writeFileSync(path.join(storage, "server.json"), "{");
-    assert.equal(installed(storage, wheel, isExecutable), undefined);
+    assert.equal(installed(storage, requirements, isExecutable), undefined);
   });
 });
 
 describe("what goes wrong is said", () => {
   const cases: [what: string, pythons: () => string[], message: RegExp][] = [
-    ["no Python", () => [], /needs Python 3\.10 or newer, and none was found\.$/],
+    ["no Python", () => [], /needs Python 3\.10 to 3\.14, and none was found\.$/],
     ["one that is too old", () => [python("old", "3.8")], /none was found \(.*old is 3\.8\)/],
+    ["one that is too new", () => [python("new", "3.15")], /none was found \(.*new is 3\.15\)/],
     ["no venv", () => [python("bare", "3.11", "echo 'ensurepip is not available'; exit 1")], /install the package python3-venv/],
     [
       "no network",
