@@ -10,8 +10,8 @@ from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
+from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main
 from preflight_analysis.source.cpp_text import FileText, parse
-from preflight_analysis.source.cpp_walk import walk_class, walk_main
 from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.rclcpp_calls import LIBRARIES as RCLCPP_LIBRARIES
@@ -54,7 +54,7 @@ class CppAnalysis:
                 calls.found.end(Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad"))
         elif (program := files.executable(package, executable)) is not None:
             calls.includes = program.includes
-            walk_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
+            interpret_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
             for loaded in calls.nodelets:
                 calls.loaded = loaded
                 self._nodelet(files, loaded.plugin, calls)
@@ -82,9 +82,9 @@ class CppAnalysis:
         if program is not None:
             calls.includes = program.includes
             if cls is not None:
-                walk_class(program, cls.removeprefix("::"), None, calls)
+                interpret_class(program, cls.removeprefix("::"), None, calls)
             else:
-                walk_main(program, (executable, *args), calls)
+                interpret_main(program, (executable, *args), calls)
         calls.finish()
         return calls.found
 
@@ -102,7 +102,7 @@ class CppAnalysis:
         if found is not None:
             program, cls = found
             calls.includes = program.includes
-            walk_class(program, cls, "onInit", calls)
+            interpret_class(program, cls, "onInit", calls)
 
     def _file(self, path: str, text: Callable[[str], tuple[str, str] | None]) -> FileText | None:
         found = text(path)

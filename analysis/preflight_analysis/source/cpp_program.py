@@ -22,7 +22,7 @@ from preflight_analysis.source.cpp_text import (
 from preflight_analysis.source.cpp_values import CppType, Scope
 
 _T = TypeVar("_T")
-_MAX_DEPTH = 12
+MAX_DEPTH = 12
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _MAX_ARGUMENTS = 16
 
@@ -83,7 +83,7 @@ class CppProgram:
 
     def type_of(self, node: Node | None, scope: Scope, depth: int = 0) -> CppType | None:
         """The type that is written at `node`; None for `auto` and what is no type."""
-        if node is None or depth > _MAX_DEPTH:
+        if node is None or depth > MAX_DEPTH:
             return None
         if node.type in ("type_descriptor", "dependent_type"):
             inner = node.child_by_field_name("type") or first_child(node)
@@ -158,7 +158,7 @@ def _inside(type_: CppType, rest: Path, args: tuple[CppType, ...]) -> CppType:
 
 def template_arguments(node: Node | None) -> list[Node]:
     """The arguments of the last template in a qualified name."""
-    for _ in range(_MAX_DEPTH):
+    for _ in range(MAX_DEPTH):
         if node is None:
             return []
         if node.type in ("template_type", "template_function", "template_method"):

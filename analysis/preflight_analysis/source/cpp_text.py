@@ -11,7 +11,7 @@ import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
 
 MAX_CHARACTERS = 1_000_000
-_MAX_DEPTH = 40
+MAX_DEPTH = 40
 _LANGUAGE = Language(tree_sitter_cpp.language())
 _parsing = threading.Lock()
 _MACROS = re.compile(
@@ -163,7 +163,7 @@ def declarators(node: Node) -> Iterator[tuple[Node, Node | None]]:
 
 def declared_name(declarator: Node | None) -> Node | None:
     """The name within `*&name[3]`."""
-    for _ in range(_MAX_DEPTH):
+    for _ in range(MAX_DEPTH):
         if declarator is None or declarator.type in (
             "identifier",
             "field_identifier",
@@ -186,7 +186,7 @@ def declared_name(declarator: Node | None) -> Node | None:
 
 def is_pointer(declarator: Node | None) -> bool:
     """Whether `declarator` declares a pointer."""
-    for _ in range(_MAX_DEPTH):
+    for _ in range(MAX_DEPTH):
         if declarator is None or declarator.type in ("identifier", "field_identifier"):
             return False
         if declarator.type in ("pointer_declarator", "abstract_pointer_declarator"):
@@ -197,7 +197,7 @@ def is_pointer(declarator: Node | None) -> bool:
 
 def function_declarator(declarator: Node | None) -> Node | None:
     """The `name(parameters)` within a declarator, None if it declares no function."""
-    for _ in range(_MAX_DEPTH):
+    for _ in range(MAX_DEPTH):
         if declarator is None:
             return None
         if declarator.type == "function_declarator":
@@ -227,7 +227,7 @@ def parameters_of(declarator: Node | None) -> tuple[Parameter, ...]:
 
 
 def _collect(node: Node, scope: Path, template: tuple[str, ...], file: FileText, depth: int) -> None:
-    if depth > _MAX_DEPTH:
+    if depth > MAX_DEPTH:
         return
     for child in node.named_children:
         _declaration(child, scope, template, file, depth)
@@ -317,7 +317,7 @@ def _template_names(parameters: Node | None) -> tuple[str, ...]:
 def _class(node: Node, scope: Path, template: tuple[str, ...], file: FileText, depth: int) -> None:
     body = node.child_by_field_name("body")
     names = path_of(node.child_by_field_name("name"))
-    if body is None or not names or depth > _MAX_DEPTH:
+    if body is None or not names or depth > MAX_DEPTH:
         return
     path = (*scope, *names)
     bases: list[Node] = []
