@@ -22,9 +22,9 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.source.config_params import ConfigParam, config_params
 from preflight_analysis.source.known_params import KnownParams, LaunchParams
+from preflight_analysis.source.python_interpreter import interpret
 from preflight_analysis.source.python_text import parse
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.python_walk import walk
 from preflight_analysis.source.rclpy_calls import RclpyCalls
 from preflight_analysis.source.rospy_calls import RospyCalls
 from preflight_analysis.tracing.interface import Endpoint, MadeNode, ParamUse
@@ -136,11 +136,11 @@ class SourceAnalysis:
             if node.resolved.entry_point is not None or self._generation(node) == 2:
                 entry = (node.resolved.entry_point or "").partition(":")[2] or None
                 rclpy = RclpyCalls(node.name, (file, *args), asked)
-                walk(file, tree, program.load, rclpy, entry)
+                interpret(file, tree, program.load, rclpy, entry)
                 found = rclpy.found
             else:
                 calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type, config)
-                walk(file, tree, program.load, calls)
+                interpret(file, tree, program.load, calls)
                 found = calls.found
         elif self._generation(node) == 2:
             found = self._cpp.read_ros2((node.name, node.package, node.executable), args, asked, text, node.plugin)
@@ -247,7 +247,7 @@ class _Program:
         return (path, tree) if tree is not None else None
 
     def load(self, name: str, level: int, importer: str) -> tuple[str, ast.Module] | None:
-        """The module that an import means, if it is of a package in source form. Implements `python_walk.Load`."""
+        """The module that an import means, if it is of a package in source form. Implements `python_modules.Load`."""
         for folder in self._folders(name, level, importer):
             base = os.path.join(folder, *name.split(".")) if name else folder
             for path in (f"{base}.py", os.path.join(base, "__init__.py")):

@@ -1,7 +1,7 @@
 """Goes through a C++ program in the order in which it would run, with the values that its text alone tells.
 
-As in `python_interpreter`: both ways of a condition are taken where it is not known, a loop once; callbacks come last, with
-arguments unknown. What is not of the program goes to `Calls`, which knows what ROS's libraries do.
+As in `python_interpreter`: both ways of a condition are taken where it is not known, a loop once; callbacks come last,
+with arguments unknown. What is not of the program goes to `Calls`, which knows what ROS's libraries do.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ _VALUE_FIELDS = (
 
 
 class RclpyCalls:
-    """Collects what the calls of one node make. Implements `python_walk.Calls`."""
+    """Collects what the calls of one node make. Implements `python_modules.Calls`."""
 
     def __init__(self, node: str, argv: Sequence[str], params: KnownParams) -> None:
         self._node = node

@@ -60,7 +60,7 @@ HasType = Callable[[str, str, str], bool]
 
 
 class RospyCalls:
-    """Collects what the calls of one node make. Implements `python_walk.Calls`."""
+    """Collects what the calls of one node make. Implements `python_modules.Calls`."""
 
     def __init__(
         self,
