@@ -5,8 +5,8 @@ makes new name spaces or mounts, what talks through sockets that a network name 
 refused fails as it would without the right to it (`EPERM`), or as on a kernel without it (`ENOSYS`), so that libraries
 take their other way. A call by another processor's numbers (32-bit programs on a 64-bit kernel) ends the process.
 
-Numbers are from the kernel's `arch/x86/entry/syscalls/syscall_64.tbl` and `scripts/syscall.tbl` (arm64), the form of
-the program from `linux/filter.h` and `linux/seccomp.h`.
+Numbers are from the kernel's `arch/x86/entry/syscalls/syscall_64.tbl` and `scripts/syscall.tbl` (arm64), the data
+that the program sees and its answers from `linux/seccomp.h`.
 """
 
 from __future__ import annotations
@@ -14,21 +14,15 @@ from __future__ import annotations
 import errno
 import functools
 import os
-import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+
+from preflight_analysis.tracing.bpf import Instruction, Line, any_bit, assemble, at_least, equal, give, jump, load, mask
 
 _ALLOW = 0x7FFF0000
 _KILL = 0x80000000
 _ERRNO = 0x00050000
 _ASK = 0x7FC00000
-
-_LOAD = 0x20  # BPF_LD | BPF_W | BPF_ABS
-_EQUAL = 0x15  # BPF_JMP | BPF_JEQ | BPF_K
-_AT_LEAST = 0x35  # BPF_JMP | BPF_JGE | BPF_K
-_ANY_BIT = 0x45  # BPF_JMP | BPF_JSET | BPF_K
-_RETURN = 0x06  # BPF_RET | BPF_K
-_AND = 0x54  # BPF_ALU | BPF_AND | BPF_K
 
 _NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16
 """Offsets in `struct seccomp_data`; of an argument the lower half comes first on both processors."""
@@ -124,7 +118,7 @@ class _Argument:
 
     numbers: tuple[int, int]
     index: int
-    test: int
+    test: Callable[[int, str], Instruction]
     values: Sequence[int]
     holds: int
     otherwise: int
@@ -132,11 +126,11 @@ class _Argument:
 
 _EPERM = _ERRNO | errno.EPERM
 _LOOKED_AT = (
-    _Argument((56, 220), 0, _ANY_BIT, (_NEW_NAMESPACES,), _EPERM, _ALLOW),  # clone
-    _Argument((272, 97), 0, _ANY_BIT, (_NEW_NAMESPACES | _CLONE_NEWTIME,), _EPERM, _ALLOW),  # unshare
-    _Argument((16, 29), 1, _EQUAL, (_TIOCSTI, _TIOCLINUX), _EPERM, _ALLOW),  # ioctl
-    _Argument((41, 198), 0, _EQUAL, _FAMILIES, _ALLOW, _ERRNO | errno.EAFNOSUPPORT),  # socket
-    _Argument((135, 92), 0, _EQUAL, _PERSONALITIES, _ALLOW, _EPERM),  # personality
+    _Argument((56, 220), 0, any_bit, (_NEW_NAMESPACES,), _EPERM, _ALLOW),  # clone
+    _Argument((272, 97), 0, any_bit, (_NEW_NAMESPACES | _CLONE_NEWTIME,), _EPERM, _ALLOW),  # unshare
+    _Argument((16, 29), 1, equal, (_TIOCSTI, _TIOCLINUX), _EPERM, _ALLOW),  # ioctl
+    _Argument((41, 198), 0, equal, _FAMILIES, _ALLOW, _ERRNO | errno.EAFNOSUPPORT),  # socket
+    _Argument((135, 92), 0, equal, _PERSONALITIES, _ALLOW, _EPERM),  # personality
 )
 
 # Where processes, IPC and network are the host's (no name spaces of their own), besides all of the above.
@@ -211,6 +205,7 @@ _F_SETOWN, _F_SETOWN_EX, _FIOSETOWN, _SIOCSPGRP = 8, 15, 0x8901, 0x8902
 """Whom the kernel signals when something can be read."""
 _STREAM, _RAW, _SEQPACKET, _TYPE = 1, 3, 5, 0xF
 _TCP = 6
+_AF_UNIX, _AF_NETLINK = 1, 16
 
 
 @functools.lru_cache(maxsize=4)
@@ -224,82 +219,103 @@ def program(machine: str, shared: bool = False) -> bytes | None:
     if machine not in _MACHINES:
         return None
     column, architecture = _MACHINES[machine]
-    code = [(_LOAD, 0, 0, _ARCHITECTURE), (_EQUAL, 1, 0, architecture), (_RETURN, 0, 0, _KILL)]
-    code.append((_LOAD, 0, 0, _NUMBER))
+    code: list[Line] = [load(_ARCHITECTURE), equal(architecture, then="ours"), give(_KILL), "ours", load(_NUMBER)]
     if machine == "x86_64":
-        code += [(_AT_LEAST, 0, 1, _X32), (_RETURN, 0, 0, _KILL)]
+        code += [at_least(_X32, otherwise="native"), give(_KILL), "native"]
     for calls, answer in ((_REFUSED, _EPERM), (_UNKNOWN, _ERRNO | errno.ENOSYS)):
         for numbers in calls.values():
-            number = numbers[column]
-            if number is not None:
-                code += [(_EQUAL, 0, 1, number), (_RETURN, 0, 0, answer)]
+            code += _answered(numbers[column], answer)
     if shared:
         code += _shared(column)
     for call in _LOOKED_AT:
-        count = len(call.values)
-        code += [(_EQUAL, 0, count + 3, call.numbers[column]), (_LOAD, 0, 0, _ARGUMENTS + 8 * call.index)]
-        code += [(call.test, count - at, 0, value) for at, value in enumerate(call.values)]
-        code += [(_RETURN, 0, 0, call.otherwise), (_RETURN, 0, 0, call.holds)]
-    code.append((_RETURN, 0, 0, _ALLOW))
-    return b"".join(struct.pack("=HBBI", *instruction) for instruction in code)
+        code += [
+            equal(call.numbers[column], otherwise="other call"),
+            load(_argument(call.index)),
+            *(call.test(value, "holds") for value in call.values),
+            give(call.otherwise),
+            "holds",
+            give(call.holds),
+            "other call",
+        ]
+    code.append(give(_ALLOW))
+    return assemble(code)
 
 
-def _shared(column: int) -> list[tuple[int, int, int, int]]:
+def _argument(index: int) -> int:
+    """Where the lower half of an argument is."""
+    return _ARGUMENTS + 8 * index
+
+
+def _answered(number: int | None, answer: int) -> list[Line]:
+    """One answer to a call, whatever its arguments are; nothing if the processor has no such call."""
+    return [] if number is None else [equal(number, otherwise="other call"), give(answer), "other call"]
+
+
+def _shared(column: int) -> list[Line]:
     """The part for processes in the host's name spaces; what it lets pass goes on to what follows."""
-    code: list[tuple[int, int, int, int]] = []
-    for number in (numbers[column] for numbers in _REFUSED_SHARED.values()):
-        if number is not None:
-            code += [(_EQUAL, 0, 1, number), (_RETURN, 0, 0, _EPERM)]
-    for numbers in _ASKED.values():
-        code += [(_EQUAL, 0, 1, numbers[column]), (_RETURN, 0, 0, _ASK)]
+    code: list[Line] = []
+    for refused in _REFUSED_SHARED.values():
+        code += _answered(refused[column], _EPERM)
+    for asked_about in _ASKED.values():
+        code += _answered(asked_about[column], _ASK)
     for numbers, at in _SENDS:
-        code += _refused_if(numbers[column], at, _ANY_BIT, (_MSG_FASTOPEN,), _ERRNO | errno.EOPNOTSUPP)
-    code += _refused_if((72, 25)[column], 1, _EQUAL, (_F_SETOWN, _F_SETOWN_EX), _EPERM)  # fcntl
-    code += _refused_if((16, 29)[column], 1, _EQUAL, (_FIOSETOWN, _SIOCSPGRP), _EPERM)  # ioctl
-    family, kind, protocol = (_ARGUMENTS + 8 * index for index in range(3))
-    refused = (_RETURN, 0, 0, _ERRNO | errno.EPROTONOSUPPORT)
+        code += _refused_if(numbers[column], at, any_bit, (_MSG_FASTOPEN,), _ERRNO | errno.EOPNOTSUPP)
+    code += _refused_if((72, 25)[column], 1, equal, (_F_SETOWN, _F_SETOWN_EX), _EPERM)  # fcntl
+    code += _refused_if((16, 29)[column], 1, equal, (_FIOSETOWN, _SIOCSPGRP), _EPERM)  # ioctl
+    family, kind, protocol = (_argument(index) for index in range(3))
+    refuse = give(_ERRNO | errno.EPROTONOSUPPORT)
     # Streams; messages in order between Unix sockets; netlink. No datagrams: those need no connection to be refused.
-    block = [
-        (_LOAD, 0, 0, kind),
-        (_AND, 0, 0, _TYPE),
-        (_EQUAL, 7, 0, _STREAM),
-        (_EQUAL, 3, 0, _SEQPACKET),
-        (_EQUAL, 0, 4, _RAW),
-        (_LOAD, 0, 0, family),
-        (_EQUAL, 3, 2, 16),
-        (_LOAD, 0, 0, family),
-        (_EQUAL, 1, 0, 1),
-        refused,
-        (_LOAD, 0, 0, protocol),
-        (_EQUAL, 2, 0, 0),
-        (_EQUAL, 1, 0, _TCP),
-        refused,
-        (_LOAD, 0, 0, _NUMBER),
+    code += [
+        equal(_SOCKET[column], otherwise="other call"),
+        load(kind),
+        mask(_TYPE),
+        equal(_STREAM, then="protocol"),
+        equal(_SEQPACKET, then="in order"),
+        equal(_RAW, otherwise="refused"),
+        load(family),
+        equal(_AF_NETLINK, then="protocol", otherwise="refused"),
+        "in order",
+        load(family),
+        equal(_AF_UNIX, then="protocol"),
+        "refused",
+        refuse,
+        "protocol",
+        load(protocol),
+        equal(0, then="passes"),
+        equal(_TCP, then="passes"),
+        refuse,
+        "passes",
+        load(_NUMBER),
+        "other call",
     ]
-    code += [(_EQUAL, 0, len(block), _SOCKET[column]), *block]
-    block = [
-        (_LOAD, 0, 0, kind),
-        (_AND, 0, 0, _TYPE),
-        (_EQUAL, 2, 0, _STREAM),
-        (_EQUAL, 1, 0, _SEQPACKET),
-        refused,
-        (_LOAD, 0, 0, _NUMBER),
+    code += [
+        equal(_SOCKETPAIR[column], otherwise="other call"),
+        load(kind),
+        mask(_TYPE),
+        equal(_STREAM, then="passes"),
+        equal(_SEQPACKET, then="passes"),
+        refuse,
+        "passes",
+        load(_NUMBER),
+        "other call",
     ]
-    return [*code, (_EQUAL, 0, len(block), _SOCKETPAIR[column]), *block]
+    return code
 
 
 def _refused_if(
-    number: int, index: int, test: int, values: Sequence[int], answer: int
-) -> list[tuple[int, int, int, int]]:
+    number: int, index: int, test: Callable[[int, str], Instruction], values: Sequence[int], answer: int
+) -> list[Line]:
     """Refuse a call if one of the tests of an argument holds, else go on."""
-    count = len(values)
     return [
-        (_EQUAL, 0, count + 4, number),
-        (_LOAD, 0, 0, _ARGUMENTS + 8 * index),
-        *((test, count - at, 0, value) for at, value in enumerate(values)),
-        (_EQUAL, 1, 1, 0),  # none holds
-        (_RETURN, 0, 0, answer),
-        (_LOAD, 0, 0, _NUMBER),
+        equal(number, otherwise="other call"),
+        load(_argument(index)),
+        *(test(value, "holds") for value in values),
+        jump("passes"),
+        "holds",
+        give(answer),
+        "passes",
+        load(_NUMBER),
+        "other call",
     ]
 
 
