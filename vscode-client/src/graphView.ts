@@ -15,30 +15,12 @@ import {
 import type { LanguageClient } from "vscode-languageclient/node";
 import { graphPage, utf16Column } from "./graphPage";
 import type { Live } from "./live";
+import { keptUri, type PageMessage, pageMessage, type Place } from "./pageMessages";
+import { type Graph, ShownPlaces } from "./shownPlaces";
 
 const VIEW_TYPE = "rosPreflight.graph";
 
-interface Place {
-  readonly file: string;
-  readonly line: number;
-  readonly column: number;
-}
-
-/** What of the server's answer is looked at here; the page knows the rest. */
-interface Graph {
-  readonly title: string;
-  readonly nodes: readonly { readonly places: readonly Place[] }[];
-  readonly edges: readonly { readonly places: readonly Place[] }[];
-}
-
 type Answer = { readonly digest: string; readonly graph: Graph | null } | null;
-
-/** What the page sends. */
-type Message =
-  | { readonly type: "ready"; readonly builtin: boolean }
-  | { readonly type: "builtin"; readonly shown: boolean }
-  | { readonly type: "save"; readonly svg: string }
-  | ({ readonly type: "open" } & Place);
 
 /** The picture of who talks to whom, beside the launch file that was last looked at, and always up to date. */
 export class GraphView implements Disposable {
@@ -48,8 +30,7 @@ export class GraphView implements Disposable {
   private builtin = false;
   private isReady = false;
   private known: string | null = null;
-  /** The files that the shown graph leads to, and no others are opened for the page. */
-  private files: ReadonlySet<string> = new Set();
+  private places = new ShownPlaces();
   private live: Partial<Live> = {};
   private asking = false;
   private again = false;
@@ -66,8 +47,8 @@ export class GraphView implements Disposable {
         }
       }),
       window.registerWebviewPanelSerializer(VIEW_TYPE, {
-        deserializeWebviewPanel: async (panel, state: { uri?: string } | undefined) => {
-          this.uri ??= state?.uri;
+        deserializeWebviewPanel: async (panel, state: unknown) => {
+          this.uri ??= keptUri(state);
           this.adopt(panel);
         },
       }),
@@ -135,7 +116,10 @@ export class GraphView implements Disposable {
     this.panel = panel;
     this.isReady = false;
     panel.webview.options = { enableScripts: true, localResourceRoots: [] };
-    panel.webview.onDidReceiveMessage((message: Message) => this.received(message));
+    panel.webview.onDidReceiveMessage((data: unknown) => {
+      const message = pageMessage(data);
+      return message && this.received(message);
+    });
     panel.onDidChangeViewState(() => this.refresh());
     panel.onDidDispose(() => {
       if (this.panel === panel) {
@@ -184,13 +168,12 @@ export class GraphView implements Disposable {
       return;
     }
     this.known = answer.digest;
-    const places = [...answer.graph.nodes, ...answer.graph.edges].flatMap((each) => each.places);
-    this.files = new Set(places.map((place) => place.file));
+    this.places = new ShownPlaces(answer.graph);
     this.panel.title = `Graph: ${answer.graph.title.split("/").at(-1) ?? answer.graph.title}`;
     void this.panel.webview.postMessage({ type: "graph", graph: answer.graph, uri: this.uri });
   }
 
-  private async received(message: Message): Promise<void> {
+  private async received(message: PageMessage): Promise<void> {
     switch (message.type) {
       case "ready":
         this.isReady = true;
@@ -207,12 +190,28 @@ export class GraphView implements Disposable {
         await save(message.svg);
         break;
       case "open":
-        if (this.files.has(message.file)) {
-          await open(message);
+        if (this.places.has(message)) {
+          await this.open(message);
         }
         break;
     }
   }
+
+  private async open(place: Place): Promise<void> {
+    const folders = workspace.workspaceFolders?.map((folder) => folder.uri.fsPath) ?? [];
+    const belongs = this.places.belongs(place.file, folders);
+    if (belongs === "nowhere") {
+      void window.showWarningMessage(`ROS Preflight: ${place.file} cannot be shown: there is no such file.`);
+    } else if (belongs === "workspace" || (await isWanted(place.file))) {
+      await open(place);
+    }
+  }
+}
+
+/** Whether the user opens a file that is not the workspace's. */
+async function isWanted(file: string): Promise<boolean> {
+  const yes = "Open";
+  return (await window.showWarningMessage(`ROS Preflight: ${file} is not a file of the workspace.`, yes)) === yes;
 }
 
 async function open(place: Place): Promise<void> {

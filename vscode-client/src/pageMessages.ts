@@ -1,0 +1,52 @@
+/** A place in a file, line and column counted from 1, the column in code points. */
+export interface Place {
+  readonly file: string;
+  readonly line: number;
+  readonly column: number;
+}
+
+/** What the page of the graph sends. */
+export type PageMessage =
+  | { readonly type: "ready"; readonly builtin: boolean }
+  | { readonly type: "builtin"; readonly shown: boolean }
+  | { readonly type: "save"; readonly svg: string }
+  | ({ readonly type: "open" } & Place);
+
+const LONGEST_PATH = 4096;
+const LARGEST_PICTURE = 64 * 1024 * 1024;
+const PICTURE = /^<\?xml version="1\.0" encoding="utf-8"\?>\n<svg [^]*<\/svg>\n$/;
+
+/** The message of the page, with what its kind has and no more; undefined for anything that the page does not send. */
+export function pageMessage(data: unknown): PageMessage | undefined {
+  const { type, builtin, shown, svg, file, line, column } = fields(data);
+  switch (type) {
+    case "ready":
+      return typeof builtin === "boolean" ? { type, builtin } : undefined;
+    case "builtin":
+      return typeof shown === "boolean" ? { type, shown } : undefined;
+    case "save":
+      return typeof svg === "string" && svg.length <= LARGEST_PICTURE && PICTURE.test(svg) ? { type, svg } : undefined;
+    case "open":
+      return isPath(file) && isPosition(line) && isPosition(column) ? { type, file, line, column } : undefined;
+    default:
+      return undefined;
+  }
+}
+
+/** The launch file that a page of an earlier session was of, which the page itself has kept. */
+export function keptUri(state: unknown): string | undefined {
+  const { uri } = fields(state);
+  return typeof uri === "string" && uri.startsWith("file:///") && uri.length <= 3 * LONGEST_PATH ? uri : undefined;
+}
+
+function fields(data: unknown): Readonly<Record<string, unknown>> {
+  return typeof data === "object" && data !== null ? { ...data } : {};
+}
+
+function isPath(value: unknown): value is string {
+  return typeof value === "string" && value.startsWith("/") && value.length <= LONGEST_PATH && !value.includes("\0");
+}
+
+function isPosition(value: unknown): value is number {
+  return Number.isSafeInteger(value) && Number(value) >= 1;
+}
