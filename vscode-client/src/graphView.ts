@@ -15,6 +15,7 @@ import {
 import type { LanguageClient } from "vscode-languageclient/node";
 import { graphPage, utf16Column } from "./graphPage";
 import type { Live } from "./live";
+import { notice } from "./messages";
 import { keptUri, type PageMessage, pageMessage, type Place } from "./pageMessages";
 import { type Graph, ShownPlaces } from "./shownPlaces";
 
@@ -82,7 +83,7 @@ export class GraphView implements Disposable {
       this.uri = document.uri.toString();
     }
     if (this.uri === undefined) {
-      void window.showInformationMessage("ROS Preflight: open a launch file to see its graph.");
+      void window.showInformationMessage(notice("open a launch file to see its graph."));
       return;
     }
     if (this.panel === undefined) {
@@ -201,7 +202,7 @@ export class GraphView implements Disposable {
     const folders = workspace.workspaceFolders?.map((folder) => folder.uri.fsPath) ?? [];
     const belongs = this.places.belongs(place.file, folders);
     if (belongs === "nowhere") {
-      void window.showWarningMessage(`ROS Preflight: ${place.file} cannot be shown: there is no such file.`);
+      void window.showWarningMessage(notice(`${place.file} cannot be shown: there is no such file.`));
     } else if (belongs === "workspace" || (await isWanted(place.file))) {
       await open(place);
     }
@@ -211,7 +212,7 @@ export class GraphView implements Disposable {
 /** Whether the user opens a file that is not the workspace's. */
 async function isWanted(file: string): Promise<boolean> {
   const yes = "Open";
-  return (await window.showWarningMessage(`ROS Preflight: ${file} is not a file of the workspace.`, yes)) === yes;
+  return (await window.showWarningMessage(notice(`${file} is not a file of the workspace.`), yes)) === yes;
 }
 
 async function open(place: Place): Promise<void> {
@@ -221,7 +222,7 @@ async function open(place: Place): Promise<void> {
     const at = new Position(line, utf16Column(document.lineAt(line).text, place.column));
     await window.showTextDocument(document, { viewColumn: ViewColumn.One, selection: new Range(at, at) });
   } catch (error) {
-    void window.showWarningMessage(`ROS Preflight: ${place.file} cannot be shown: ${String(error)}`);
+    void window.showWarningMessage(notice(`${place.file} cannot be shown: ${String(error)}`));
   }
 }
 

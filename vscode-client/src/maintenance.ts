@@ -1,5 +1,6 @@
 import { commands, ConfigurationTarget, Position, type TextEditor, Uri, window, workspace } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
+import { notice } from "./messages";
 import { pythons } from "./surroundings";
 
 /** The answer to `rosPreflight/trace`; `message` says why nothing is run. */
@@ -26,7 +27,7 @@ export async function trace(client: LanguageClient, { uri, node, position }: Whi
   const where = position === undefined ? {} : { position: client.code2ProtocolConverter.asPosition(position) };
   const answer = await client.sendRequest<Traced>("rosPreflight/trace", { uri, ...(node === undefined ? {} : { node }), ...where });
   if (answer.message !== null) {
-    void window.showWarningMessage(`ROS Preflight: ${answer.message}`);
+    void window.showWarningMessage(notice(answer.message));
   }
 }
 
@@ -34,7 +35,7 @@ export async function trace(client: LanguageClient, { uri, node, position }: Whi
 export async function watch(client: LanguageClient, uri: string, on: boolean): Promise<void> {
   const answer = await client.sendRequest<{ message: string | null }>("rosPreflight/watch", { uri, watch: on });
   if (answer.message !== null) {
-    void window.showWarningMessage(`ROS Preflight: ${answer.message}`);
+    void window.showWarningMessage(notice(answer.message));
   } else if (on) {
     await commands.executeCommand("rosPreflight.nodes.focus");
   }
@@ -45,7 +46,7 @@ export async function clearCache(client: LanguageClient): Promise<void> {
   const { entries, bytes } = await client.sendRequest<{ entries: number; bytes: number }>("rosPreflight/clearCache", {});
   const size = bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
   void window.showInformationMessage(
-    `ROS Preflight: ${entries} kept result${entries === 1 ? "" : "s"} of runs (${size}) ${entries === 1 ? "was" : "were"} removed; nodes are run anew.`,
+    notice(`${entries} kept result${entries === 1 ? "" : "s"} of runs (${size}) ${entries === 1 ? "was" : "were"} removed; nodes are run anew.`),
   );
 }
 

@@ -1,5 +1,6 @@
 import { commands, Uri, window, workspace } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
+import { notice, plain } from "./messages";
 import { type Choice, choices, hint, parseArguments, prefilled, type Roots, type Selected } from "./roots";
 
 type Positioned = Parameters<LanguageClient["protocol2CodeConverter"]["asPosition"]>[0];
@@ -30,7 +31,7 @@ export async function selectRoot(client: LanguageClient, uri: string): Promise<v
   const found = await client.sendRequest<Roots>("rosPreflight/roots", { uri });
   const shownPath = (of: string) => workspace.asRelativePath(Uri.parse(of));
   const choice = await window.showQuickPick<Choice>(choices(found, uri, shownPath), {
-    title: `Show ${shownPath(uri)} as launched by`,
+    title: plain(`Show ${shownPath(uri)} as launched by`),
   });
   if (choice === undefined) {
     return;
@@ -45,19 +46,19 @@ export async function selectRoot(client: LanguageClient, uri: string): Promise<v
     root: root === undefined ? null : { uri: root.uri, args },
   });
   if (selected.message !== null) {
-    void window.showWarningMessage(`ROS Preflight: ${selected.message}`);
+    void window.showWarningMessage(notice(selected.message));
   }
 }
 
 async function askArguments(label: string, value: string, more: string): Promise<Record<string, string> | undefined> {
   const typed = await window.showInputBox({
-    title: `Arguments of ${label}`,
-    prompt: more === "" ? "name:=value ..." : `name:=value ...; defaults: ${more}`,
+    title: plain(`Arguments of ${label}`),
+    prompt: more === "" ? "name:=value ..." : plain(`name:=value ...; defaults: ${more}`),
     value,
     valueSelection: [value.length, value.length],
     validateInput: (text) => {
       const parsed = parseArguments(text);
-      return typeof parsed === "string" ? parsed : undefined;
+      return typeof parsed === "string" ? plain(parsed) : undefined;
     },
   });
   const parsed = typed === undefined ? undefined : parseArguments(typed);

@@ -5,6 +5,7 @@ import { type LanguageClient, NotificationType, State } from "vscode-languagecli
 import { createClient, workspaceTrust } from "./client";
 import { findServer, type ServerCommand, ServerNotFound } from "./findServer";
 import type { Live } from "./live";
+import { notice } from "./messages";
 import { install, installed, InstallFailed } from "./privateServer";
 import { RestartPolicy } from "./restartPolicy";
 import type { Life, ServerStatus } from "./serverStatus";
@@ -254,7 +255,7 @@ export class ServerSession {
         this.saidThatItDied = true;
         const show = "Show Log";
         void window
-          .showWarningMessage("ROS Preflight: the server stopped unexpectedly and is started again.", show)
+          .showWarningMessage(notice("the server stopped unexpectedly and is started again."), show)
           .then((choice) => (choice === show ? this.log.show() : undefined));
       }
       void this.enqueue(() => this.replaceClient());
@@ -296,7 +297,7 @@ export class ServerSession {
     const offered: Action[] = [["Restart Server", () => this.restart()], ...actions];
     const labels = offered.map(([label]) => label);
     void window
-      .showErrorMessage(`ROS Preflight: ${reason}`, ...labels)
+      .showErrorMessage(notice(reason), ...labels)
       .then((choice) => offered.find(([label]) => label === choice)?.[1]());
   }
 }
