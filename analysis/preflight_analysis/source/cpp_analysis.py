@@ -14,7 +14,7 @@ from preflight_analysis.source.cpp_interpreter import interpret_class, interpret
 from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
-from preflight_analysis.source.rclcpp_calls import LIBRARIES as RCLCPP_LIBRARIES
+from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
 from preflight_analysis.source.roscpp_calls import LIBRARIES, RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
