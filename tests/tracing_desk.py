@@ -28,7 +28,9 @@ def environment(*package_path: Path, variables: dict[str, str] | None = None) ->
     """Debian's ROS 1 with these folders on the package path."""
     paths = tuple(str(p) for p in package_path) or (str(ROS1_FIXTURES),)
     given = {"PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": os.pathsep.join(paths), "ROS_DISTRO": "noetic"}
-    return Environment(1, "noetic", given | (variables or {}), paths, {}, {}, (), ("/usr",), SYSTEM_PYTHON)
+    return Environment(
+        1, "noetic", given | (variables or {}), paths, {}, {}, (), ("/usr",), SYSTEM_PYTHON, named_folders=paths
+    )
 
 
 def working_backends() -> list[str]:

@@ -6,10 +6,11 @@ import json
 import os
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.model import Package
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.tracing.cache import TraceCache
@@ -61,10 +62,7 @@ class Desk:
         os.utime(self.script, (1, 1))
         self.cache = TraceCache(folder / "cache")
         found = {"pkg": Package("pkg", str(self.package), str(self.package / "package.xml"))}
-        base = environment(self.package)
-        self.environment = Environment(
-            1, "noetic", base.variables, base.package_path, found, {}, (), ("/usr",), base.python, str(folder)
-        )
+        self.environment = replace(environment(self.package), packages=found, workspace=str(folder))
         self.tracer = Tracer(self.environment, self.cache)
         self.runs = 0
 

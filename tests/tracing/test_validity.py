@@ -8,10 +8,11 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.model import Package
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer, on_host
 from preflight_analysis.workspace.sources import Sources
@@ -109,7 +110,7 @@ class Desk:
         self.write("a.launch", launch.lstrip())
         base = environment(self.package, variables=self.variables)
         found = {"pkg": Package("pkg", str(self.package), str(self.package / "package.xml"))}
-        known = Environment(1, "noetic", base.variables, base.package_path, found, {}, (), ("/usr",), base.python)
+        known = replace(base, packages=found)
         workspace = Workspace(known, Sources(), str(self.package))
         tracer = Tracer(known, self.cache)
         static = workspace.static(str(self.package / "a.launch"))

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, OF_ROS1, Found, crawl, find_packages
+from preflight_analysis.environment.reach import named_folders, workspace_folders
 from preflight_analysis.environment.view import by_generation, is_installed_ros1
 
 BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated", "devel_isolated", "install_isolated"})
@@ -24,6 +25,8 @@ SETTINGS_FILE = ".ros-preflight.yaml"
 
 _ROS1_DISTROS = ("kinetic", "lunar", "melodic", "noetic")
 _PYTHON_LIBRARY = re.compile(r"^(.*)/lib/python(3(?:\.\d+)?|2\.7)/(?:dist|site)-packages/?$")
+_OF_WORKSPACES = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH")
+"""The variables that name folders of workspaces that are sourced."""
 _DEBIAN_MARKS = ("rospy", "roslib", "roslaunch", "roscpp", "std_msgs", "genmsg")
 
 
@@ -95,6 +98,7 @@ def detect_environment(
     colcon = _colcon_workspace(workspace) if workspace else None
     listed = [*_split(variables.get("ROS_ROOT")), *_split(variables.get("ROS_PACKAGE_PATH"))]
 
+    given_prefixes = tuple(prefixes)
     if package_path is not None:
         path = _unique(package_path)
     else:
@@ -122,6 +126,16 @@ def detect_environment(
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     ros2_python = rclpy_interpreter(given, prefixes, root)
+    folders = workspace_folders(workspace, (catkin, colcon), BUILT)
+    sourced = [e for name in _OF_WORKSPACES for e in _split(variables.get(name)) if os.path.isabs(e)]
+    underlays = (folder for entry in dict.fromkeys((*sourced, *given_prefixes)) for folder in _workspaces_around(entry))
+    named = named_folders(
+        variables,
+        [*(package_path or ()), *given_prefixes, *(os.path.join(root, *place) for place in (("opt", "ros"), ("usr",)))],
+        (python.interpreter if python else None, ros2_python),
+        folders,
+        underlays,
+    )
     problems = [
         *_path_problems(listed if package_path is None else package_path),
         *found.problems,
@@ -145,6 +159,8 @@ def detect_environment(
         ament_prefixes=tuple(prefixes),
         ros2_python=ros2_python,
         own_variables=dict(variables),
+        workspace_folders=folders,
+        named_folders=named,
     )
 
 
@@ -214,6 +230,15 @@ def _colcon_workspace(folder: str) -> str | None:
         if any(os.path.exists(os.path.join(candidate, mark)) for mark in marks):
             return candidate
     return None
+
+
+def _workspaces_around(folder: str) -> Iterator[str | None]:
+    """The workspaces that a folder may belong to that is sourced: links in it lead to their sources and builds."""
+    yield _catkin_workspace(folder)
+    yield _colcon_workspace(folder)
+    for built in (folder.rstrip("/"), os.path.dirname(folder.rstrip("/"))):
+        if os.path.basename(built) in BUILT:
+            yield os.path.dirname(built)
 
 
 def _has_sources(folder: str) -> bool:

@@ -69,3 +69,7 @@ class Environment:
     own_variables: Mapping[str, str] = field(default_factory=dict)
     """The variables as the user has them, without what is only found in the workspace: what a program outside of the
     sandbox starts from."""
+    workspace_folders: tuple[str, ...] = ()
+    """The folders of the workspace, whose links are not to be believed; as they are written and as they really are."""
+    named_folders: tuple[str, ...] = ()
+    """Folders and files that the user named, likewise: by variables, package path and interpreters. See `reach.py`."""

@@ -131,6 +131,7 @@ def environment_at(environment: Environment, repository: str, folder: str) -> En
         package_path=tuple(path),
         variables=variables,
         workspace=moved(workspace) if workspace and _is_below(workspace, repository) else workspace,
+        workspace_folders=(*environment.workspace_folders, folder, os.path.realpath(folder)),
     )
 
 

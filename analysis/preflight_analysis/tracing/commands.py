@@ -181,13 +181,13 @@ class CommandRunner:
         make = ros2_recipe.make_command if of_ros2 else ros1_recipe.make_command
         recipe = make(self.environment, executable, words[1:], self.cwd)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
-        beyond = recipes.command_paths(recipe, executable, named[1:], self._interpreter)
+        beyond = recipes.command_paths(self.environment, recipe, executable, named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
     def _asked(self, recipe: recipes.Recipe, *files: str) -> _Job:
         """The run of something else than a command, for which our own code asks the user's interpreter."""
         named = tuple(path for path in (recipe.argv[0], *files) if os.path.isfile(path))
-        beyond = recipes.command_paths(recipe, recipe.argv[0], named[1:], self._interpreter)
+        beyond = recipes.command_paths(self.environment, recipe, recipe.argv[0], named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
     def _run(self, line: str, job: _Job, cancel: threading.Event) -> CommandResult:
@@ -285,7 +285,8 @@ def _signal(number: int) -> str:
 def _sandbox_to_blame(result: CommandResult, job: _Job, ended: _Ended) -> CommandResult | None:
     """A failure that would most likely not be one outside: of what the sandbox keeps from a command."""
     said = "\n".join(result.stderr_tail)
-    met = (*job.named, *ended.files, *_PATH.findall(said))
+    needed = recipes.out_of_reach(job.recipe, job.named[0], job.visible)
+    met = (*([needed] if needed else []), *job.named, *ended.files, *_PATH.findall(said))
     hidden = [p for p in met if not sandbox.shown(p, job.visible) and os.path.exists(p)]
     written = [p for p in ended.wrote if sandbox.shown(p, job.visible) and not p.startswith(("/dev/", "/proc/"))]
     if hidden:

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from preflight_analysis.environment import reach
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.secrets import is_secret
@@ -78,23 +79,21 @@ def inside(stable: Mapping[str, str]) -> dict[str, str]:
 
 
 def visible_paths(environment: Environment) -> list[str]:
-    """What nodes of this environment need to see below the masked folders."""
+    """What nodes of this environment need to see below the masked folders, as far as it may be shown."""
     paths = [*environment.package_path, *environment.devel_spaces, *environment.system_prefixes]
     for package in environment.packages.values():
         paths += [package.share, *_linked(package.manifest)]
-    for variable in (
-        "PYTHONPATH",
-        "LD_LIBRARY_PATH",
-        "GAZEBO_MODEL_PATH",
-        "GAZEBO_RESOURCE_PATH",
-        "GAZEBO_PLUGIN_PATH",
-    ):
+    for variable in _SEARCH_PATHS:
         paths += environment.variables.get(variable, "").split(os.pathsep)
     paths += environment.ament_prefixes
     for python in (environment.python, environment.ros2_python):
-        paths += interpreter_paths(python) if python else ()
-    paths += [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
-    return sandbox.needs_binding(paths)
+        paths += reach.interpreter_paths(python) if python else ()
+    own = [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
+    return sandbox.needs_binding([*_allowed(environment, paths), *own])
+
+
+def _allowed(environment: Environment, paths: Iterable[str]) -> list[str]:
+    return [path for path in dict.fromkeys(paths) if os.path.isabs(path) and reach.may_be_shown(environment, path)]
 
 
 def _linked(manifest: str) -> Iterator[str]:
@@ -110,27 +109,47 @@ def _linked(manifest: str) -> Iterator[str]:
         yield os.path.dirname(manifest)
 
 
-def request_paths(request: TraceRequest, recipe: Recipe) -> list[str]:
-    """What this node needs to see besides."""
-    return sandbox.needs_binding([*_program_paths(request.executable), recipe.preload or ""])
+def request_paths(environment: Environment, request: TraceRequest, recipe: Recipe) -> list[str]:
+    """What this node needs to see besides, as far as it may be shown."""
+    return sandbox.needs_binding([*_program_paths(environment, request.executable), recipe.preload or ""])
 
 
-def command_paths(recipe: Recipe, executable: str, files: Iterable[str], interpreter: str) -> list[str]:
+def command_paths(
+    environment: Environment, recipe: Recipe, executable: str, files: Iterable[str], interpreter: str
+) -> list[str]:
     """What a command needs to see besides: its program and those of the PATH, the folder it runs in, the files it names
-    with what is beside them, and the interpreter of the supervisor. Files in hidden folders, such as `~/.ssh`, stay
-    hidden."""
-    named = [path for path in files if "/." not in path + os.path.realpath(path)]
-    beside = [os.path.dirname(path) for path in named]
-    programs = [*_program_paths(executable), *recipe.stable["PATH"].split(os.pathsep), *interpreter_paths(interpreter)]
-    return sandbox.needs_binding([*programs, recipe.cwd, *named, *beside])
+    with what is beside them, and the interpreter of the supervisor, as far as that may be shown.
+
+    Of what lies elsewhere the files that it names are shown, and nothing beside them: not where a link of the workspace
+    leads there, and nothing in hidden folders, such as `~/.ssh`.
+    """
+    files = list(files)
+    paths = [*recipe.stable["PATH"].split(os.pathsep), *reach.interpreter_paths(interpreter)]
+    paths += [place for path in files for place in (path, os.path.dirname(path))]
+    alone = [path for path in (executable, *files) if _may_be_named(environment, path)]
+    programs = _program_paths(environment, executable)
+    return sandbox.needs_binding([*programs, *_allowed(environment, paths), *alone, recipe.cwd])
 
 
-def _program_paths(executable: str) -> list[str]:
+def _may_be_named(environment: Environment, path: str) -> bool:
+    hidden = "/." in path + os.path.realpath(path)
+    return os.path.isfile(path) and not hidden and not reach.in_workspace(environment, path)
+
+
+def _program_paths(environment: Environment, executable: str) -> list[str]:
     paths = [os.path.dirname(executable), os.path.dirname(os.path.realpath(executable))]
     interpreter = _shebang(executable)
     if interpreter:
-        paths += interpreter_paths(interpreter[0])
-    return paths
+        paths += reach.interpreter_paths(interpreter[0])
+    return paths if reach.is_users_program(environment, executable) else _allowed(environment, paths)
+
+
+def out_of_reach(recipe: Recipe, executable: str, visible: Iterable[str]) -> str | None:
+    """Of what is needed to start a program, what is there and not shown: where a link of the workspace leads out of it,
+    or the interpreter that a script names."""
+    needed = (recipe.argv[0], executable, *_shebang(executable)[:1])
+    places = dict.fromkeys(place for path in needed for place in (path, os.path.realpath(path)))
+    return next((p for p in places if os.path.exists(p) and not sandbox.shown(p, visible)), None)
 
 
 def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
@@ -191,21 +210,6 @@ def missing_interpreter(executable: str) -> str | None:
     """The interpreter that the first line of a script names and that is not there."""
     words = _shebang(executable)
     return words[0] if words and not os.path.exists(words[0]) else None
-
-
-def interpreter_paths(python: str) -> Iterable[str]:
-    """The interpreter and the prefixes it needs: of the virtual environment, and of what that was made from."""
-    seen: list[str] = []
-    at = os.path.abspath(python)
-    for _ in range(16):
-        seen.append(at)
-        prefix = os.path.dirname(os.path.dirname(at))
-        if os.path.isfile(os.path.join(prefix, "pyvenv.cfg")) or any(Path(prefix, "lib").glob("python3*")):
-            seen.append(prefix)
-        if not os.path.islink(at):
-            break
-        at = os.path.normpath(os.path.join(os.path.dirname(at), os.readlink(at)))
-    return seen
 
 
 def folder(request: TraceRequest) -> str:

@@ -29,6 +29,10 @@ _log = logging.getLogger(__name__)
 
 _NO_PRELOAD = preload.Preload(None)
 _MISSING_MODULE = re.compile(r"ModuleNotFoundError: No module named '((\w+)[\w.]*)'\Z")
+_OUT_OF_REACH = (
+    "it needs '{}', which lies outside of the workspace and of what your environment names, and is not shown in the "
+    "sandbox: name its folder in ROS_PACKAGE_PATH, PATH or --package-path"
+)
 _MASTER_ALONE = "only what a ROS master sees of it is known"
 
 
@@ -118,7 +122,10 @@ class Tracer:
         if request.generation == 2 and built.reason is not None:
             return _not_run(built.reason)
         recipe = node_recipe.make(self.environment, request, built.path)
-        visible = sorted({*self._visible, *recipes.request_paths(request, recipe)})
+        visible = sorted({*self._visible, *recipes.request_paths(self.environment, request, recipe)})
+        hidden = recipes.out_of_reach(recipe, request.executable, visible)
+        if hidden is not None:
+            return _not_run(_OUT_OF_REACH.format(hidden))
         python = self.environment.python if request.generation == 1 else self.environment.ros2_python
         interpreter = python or sys.executable
         agents = compiled.copies().of(interpreter, visible)
