@@ -31,7 +31,8 @@ from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
 from preflight_analysis.tracing import compiled, launch_files, ros1_recipe, ros2_recipe, run, sandbox
 from preflight_analysis.tracing import expressions as evaluated
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing.observation import paths, stderr_tail
+from preflight_analysis.tracing.outcome import stderr_tail
+from preflight_analysis.tracing.records import paths
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
 from preflight_analysis.tracing.trace import on_host
 
