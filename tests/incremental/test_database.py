@@ -148,6 +148,7 @@ def test_an_input_is_loaded_once_and_again_when_told() -> None:
     OUTSIDE["b"] = "8"
     assert numbers(db, "b") == (8,)
     OUTSIDE.update(a="0", b="0")
+    assert db.outdated(TEXT, [("a",), ("b",), ("c",), ("never read",)]) == [("a",), ("b",)]
     with db.writing() as write:
         write.reload_all(TEXT)
     assert numbers(db, "a") == numbers(db, "b") == (0,)
@@ -257,7 +258,8 @@ def test_a_write_makes_readers_leave_and_readers_see_one_revision() -> None:
 
     def read() -> None:
         try:
-            slow(db, "a")
+            with db.reading():
+                slow(db, "a")
         except Cancelled:
             seen.append("cancelled")
         seen.append(slow(db, "a"))
@@ -269,13 +271,30 @@ def test_a_write_makes_readers_leave_and_readers_see_one_revision() -> None:
     reader.start()
     assert inside.wait(PATIENCE)
     writer.start()
-    while not db.cancelled:
+    while not db._writers:
         pass
-    assert TEXT.name == "load" and writer.is_alive()
+    assert writer.is_alive()
     go_on.set()
     for each in (reader, writer):
         each.join(PATIENCE)
     assert seen == ["cancelled", (9,)]
+
+
+def test_a_question_outside_of_reading_begins_again() -> None:
+    db = Database()
+    writers: list[threading.Thread] = []
+
+    @query
+    def interrupted(db: Database, name: str) -> tuple[int, ...]:
+        if not writers:
+            writers.append(threading.Thread(target=change, args=(db, "a", "9")))
+            writers[0].start()
+            while not db._writers:
+                pass
+        return numbers(db, name)
+
+    assert interrupted(db, "a") == (9,)
+    writers[0].join(PATIENCE)
 
 
 def test_threads_that_want_the_same_wait_for_the_one_that_makes_it() -> None:

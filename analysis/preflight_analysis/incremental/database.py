@@ -12,14 +12,15 @@ made again.
   whoever holds values of several types has to compare those, too.
 
 Threads may read at the same time. A write waits until they have left, and makes them leave: what they ask next raises
-`Cancelled`. So a reader sees one revision from beginning to end.
+`Cancelled`. So a reader sees one revision from beginning to end. A single question asked outside of `reading` begins
+again by itself.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any, Concatenate, Generic, ParamSpec, TypeVar, cast, overload
 
 P = ParamSpec("P")
@@ -34,7 +35,7 @@ _ALWAYS = 1 << 62
 
 
 class Cancelled(BaseException):
-    """Somebody wants to write: leave, and ask again afterwards. No `Exception`, as nobody but the asker handles it."""
+    """Somebody wants to write: leave `Database.reading`, and ask again. No `Exception`: only the asker handles it."""
 
 
 class CycleError(RuntimeError):
@@ -217,16 +218,27 @@ class Database:
                 self._condition.notify_all()
 
     @property
-    def cancelled(self) -> bool:
-        """Whether somebody waits to write. What takes long between two queries had better look now and then."""
-        return self._writers > 0
+    def is_reading(self) -> bool:
+        """Whether this thread is within `reading`, or a query."""
+        return self._thread.readings > 0
+
+    def outdated(self, kind: Input[Any, Any], keys: Iterable[Key]) -> list[Key]:
+        """Those of the keys whose input was loaded, and would be another one now."""
+        cells = ((key, self.cells.get((kind, key))) for key in keys)
+        return [
+            key for key, cell in cells if cell is not None and cell.value is not _NONE and cell.value != kind.load(*key)
+        ]
 
     def read(self, kind: Input[Any, Any] | Query[Any, Any], key: Key) -> object:
-        """The value of an input or query. Raises `Cancelled`, `CycleError`, and what the query raises."""
+        """The value of an input or query. Raises `CycleError`, and what the query raises; within `reading` also
+        `Cancelled`, else it begins again."""
         thread = self._thread
         if not thread.readings:
-            with self.reading():
-                return self.read(kind, key)
+            while True:
+                with suppress(Cancelled), self.reading():
+                    return self.read(kind, key)
+        if self._writers:
+            raise Cancelled
         cell = self.cells.get((kind, key))
         if cell is None:
             cell = self.cells.setdefault((kind, key), _Cell(kind, key))
@@ -243,8 +255,6 @@ class Database:
         thread = self._thread
         if cell in thread.running:
             raise CycleError(f"{cell.kind.name}{cell.key} needs its own value")
-        if self._writers:
-            raise Cancelled
         with self._condition:
             # Who has claims of his own does not wait, lest two wait for each other: the work is done twice then.
             while cell.claimed and not thread.claims and not self._writers:

@@ -3,124 +3,180 @@
 from __future__ import annotations
 
 import os
-import threading
-from dataclasses import dataclass, field
+from collections.abc import Iterable
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
+from preflight_analysis.incremental.database import Database, Input, query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import read_launch
 
+Signature = tuple[int, int, int, int]
+"""What tells one state of a file on the disk from the next: time, size, inode and mode."""
 
-@dataclass(slots=True)
-class _Entry:
-    """What is known of one path. `signature` says of which state of the file; open buffers have none."""
 
-    signature: object
-    text: Text | Unreadable
-    parsed: dict[str, Document | LaunchFile] = field(default_factory=dict)
-    parsing: threading.Lock = field(default_factory=threading.Lock)
-    """Held while a launch file is parsed: who else needs it had better wait than do the same work at the same time."""
+def _signature(path: str) -> Signature | None:
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return status.st_mtime_ns, status.st_size, status.st_ino, status.st_mode
+
+
+def _buffer(path: str) -> Text | Unreadable | None:
+    return None
+
+
+def _undecided() -> int:
+    return 1
+
+
+SIGNATURE = Input(_signature)
+BUFFER = Input(_buffer)
+"""What an editor has of a file; None where none has it open."""
+UNDECIDED = Input(_undecided)
+"""The generation of ROS that a launch file is of which shows none."""
+
+
+@query
+def text_of(db: Database, path: str) -> Text | Unreadable:
+    """What a file holds."""
+    opened = BUFFER(db, path)
+    if opened is None:
+        SIGNATURE(db, path)
+        return read_text(path)
+    return opened
+
+
+@query
+def digest_of(db: Database, path: str) -> str:
+    """Names the content of a file; "" where there is none."""
+    text = text_of(db, path)
+    if isinstance(text, Text):
+        return text.digest
+    return "" if text.kind == "missing" else digest(repr(SIGNATURE(db, path)))
+
+
+@query
+def launch_file_of(db: Database, path: str, generation: int | None) -> LaunchFile | Unreadable:
+    """The launch file at `path`, read as that generation of ROS reads it; None: as the file looks."""
+    text = text_of(db, path)
+    if isinstance(text, Unreadable):
+        return text
+    if generation is None:
+        return read_launch(text, undecided=UNDECIDED(db))
+    looks = launch_file_of(db, path, None)
+    return (
+        looks if not isinstance(looks, Unreadable) and looks.generation == generation else read_launch(text, generation)
+    )
+
+
+@query
+def document_of(db: Database, path: str) -> Document | Unreadable:
+    """Any text file, not parsed. As roslaunch reads it: in UTF-8, whatever an XML declaration or a mark say."""
+    text = text_of(db, path)
+    if isinstance(text, Text) and not text.plain:
+        text = _plain(path, data_of(db, path))
+    if isinstance(text, Unreadable):
+        return text
+    lines = LineIndex(text.text)
+    comments = preflight_comments(text.text, lines) if path.endswith(HASH_SUFFIXES) else ()
+    return Document(path, text.text, text.digest, comments, (), lines)
+
+
+def data_of(db: Database, path: str) -> bytes | Unreadable:
+    """The bytes of a regular file of bounded size, as it is on the disk. Not remembered."""
+    SIGNATURE(db, path)
+    try:
+        if not os.path.isfile(path):
+            exists = os.path.exists(path)
+            reason = "is not a regular file" if exists else "does not exist"
+            return Unreadable(path, reason, "unreadable" if exists else "missing")
+        with open(path, "rb") as file:
+            content = file.read(SIZE_LIMIT + 1)
+    except (OSError, ValueError) as error:
+        return Unreadable(path, f"cannot be read: {error}", "unreadable")
+    if len(content) > SIZE_LIMIT:
+        return Unreadable(path, "is too large to be read here", "unreadable")
+    return content
+
+
+def _plain(path: str, content: bytes | Unreadable) -> Text | Unreadable:
+    if isinstance(content, Unreadable):
+        return content
+    try:
+        text = content.decode()
+    except UnicodeDecodeError as error:
+        return Unreadable(path, f"is not a text file in UTF-8 (byte {error.start})", "not-text")
+    return Text(path, text, digest(text))
 
 
 class Sources:
-    """Implements `evaluation.files.Files`. Thread-safe; nothing raises."""
+    """Implements `evaluation.files.Files` with the texts of a database. Thread-safe; nothing raises.
+
+    Whoever asks from within a query gets what was found on the disk when it was last looked at (`look`), all others
+    what is there now.
+    """
 
     def __init__(self) -> None:
-        self._lock = threading.RLock()
-        self._open: dict[str, _Entry] = {}
-        self._disk: dict[str, _Entry] = {}
-        self.undecided = 1
+        self.db = Database()
+
+    @property
+    def undecided(self) -> int:
         """The generation of ROS that a launch file is of which shows none: that of the environment."""
+        return UNDECIDED(self.db)
+
+    @undecided.setter
+    def undecided(self, generation: int) -> None:
+        with self.db.writing() as write:
+            write.set(UNDECIDED, generation, durable=True)
 
     def open(self, path: str, text: str) -> None:
         """The editor's text counts from now on; call it again for each change."""
-        entry = _Entry(None, _limited(path, text))
-        with self._lock:
-            self._open[os.path.normpath(path)] = entry
+        path = os.path.normpath(path)
+        limited = _limited(path, text)
+        with self.db.writing() as write:
+            write.set(BUFFER, limited, path)
 
     def close(self, path: str) -> None:
         """The disk counts again."""
-        with self._lock:
-            self._open.pop(os.path.normpath(path), None)
+        path = os.path.normpath(path)
+        with self.db.writing() as write:
+            write.reload(BUFFER, path)
+        self.look([path])
+
+    def look(self, paths: Iterable[str]) -> bool:
+        """Notice what has changed on the disk of these files; whether anything has."""
+        outdated = self.db.outdated(SIGNATURE, ((path,) for path in paths))
+        if outdated:
+            with self.db.writing() as write:
+                for key in outdated:
+                    write.reload(SIGNATURE, *key)
+        return bool(outdated)
 
     def digest(self, path: str) -> str:
         """Names the content as it is now; "" where there is no such file."""
-        entry = self._entry(path)
-        if isinstance(entry.text, Text):
-            return entry.text.digest
-        return "" if entry.text.kind == "missing" else digest(repr(entry.signature))
+        return digest_of(self.db, self._looked_at(path))
 
     def launch_file(self, path: str, generation: int | None = None) -> LaunchFile | Unreadable:
         """The launch file at `path`, read as that generation of ROS reads it; None: as the file looks."""
-        entry = self._entry(path)
-        if isinstance(entry.text, Unreadable):
-            return entry.text
-        with entry.parsing:
-            as_it_looks = f"launch, else {self.undecided}"
-            found = entry.parsed.get(as_it_looks)
-            if not isinstance(found, LaunchFile):
-                found = entry.parsed[as_it_looks] = read_launch(entry.text, undecided=self.undecided)
-            if generation not in (None, found.generation):
-                found = entry.parsed.get(f"launch {generation}")
-                if not isinstance(found, LaunchFile):
-                    found = entry.parsed[f"launch {generation}"] = read_launch(entry.text, generation)
-        return found
+        return launch_file_of(self.db, self._looked_at(path), generation)
 
     def text(self, path: str) -> Document | Unreadable:
-        """Any text file, not parsed. As roslaunch reads it: in UTF-8, whatever an XML declaration or a mark say."""
-        entry = self._entry(path)
-        if isinstance(entry.text, Unreadable):
-            return entry.text
-        found = entry.parsed.get("text")
-        if not isinstance(found, Document):
-            text = entry.text if entry.text.plain else self._plain(path)
-            if isinstance(text, Unreadable):
-                return text
-            lines = LineIndex(text.text)
-            comments = preflight_comments(text.text, lines) if path.endswith(HASH_SUFFIXES) else ()
-            found = Document(path, text.text, text.digest, comments, (), lines)
-            entry.parsed["text"] = found
-        return found
-
-    def _plain(self, path: str) -> Text | Unreadable:
-        content = self.data(path)
-        if isinstance(content, Unreadable):
-            return content
-        try:
-            text = content.decode()
-        except UnicodeDecodeError as error:
-            return Unreadable(path, f"is not a text file in UTF-8 (byte {error.start})", "not-text")
-        return Text(path, text, digest(text))
+        """Any text file, not parsed."""
+        return document_of(self.db, self._looked_at(path))
 
     def data(self, path: str) -> bytes | Unreadable:
         """The bytes of a regular file of bounded size."""
-        try:
-            if not os.path.isfile(path):
-                exists = os.path.exists(path)
-                reason = "is not a regular file" if exists else "does not exist"
-                return Unreadable(path, reason, "unreadable" if exists else "missing")
-            with open(path, "rb") as file:
-                content = file.read(SIZE_LIMIT + 1)
-        except (OSError, ValueError) as error:
-            return Unreadable(path, f"cannot be read: {error}", "unreadable")
-        if len(content) > SIZE_LIMIT:
-            return Unreadable(path, "is too large to be read here", "unreadable")
-        return content
+        return data_of(self.db, self._looked_at(path))
 
-    def _entry(self, path: str) -> _Entry:
+    def _looked_at(self, path: str) -> str:
         path = os.path.normpath(path)
-        with self._lock:
-            opened = self._open.get(path)
-            if opened is not None:
-                return opened
-            signature = _signature(path)
-            entry = self._disk.get(path)
-            if entry is None or entry.signature != signature:
-                entry = self._disk[path] = _Entry(signature, read_text(path))
-            return entry
+        if not self.db.is_reading:
+            self.look([path])
+        return path
 
 
 def _limited(path: str, text: str) -> Text | Unreadable:
@@ -132,11 +188,3 @@ def _limited(path: str, text: str) -> Text | Unreadable:
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
     return Text(path, text, digest(text), encoding=None)
-
-
-def _signature(path: str) -> object:
-    try:
-        status = os.stat(path)
-    except (OSError, ValueError):
-        return None
-    return status.st_mtime_ns, status.st_size, status.st_ino, status.st_mode
