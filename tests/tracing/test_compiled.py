@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing import compiled, run, sandbox
+from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.compiled import Copies
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.recipe import visible_paths
@@ -16,7 +17,7 @@ from tracing_desk import SYSTEM_PYTHON, environment, request, write_node
 
 pytestmark = pytest.mark.ros
 
-VISIBLE = visible_paths(environment())
+VISIBLE = Visible(tuple(visible_paths(environment())))
 
 
 def _compiled(folder: Path) -> list[Path]:
@@ -42,7 +43,7 @@ def test_a_run_uses_the_copy(tmp_path: Path) -> None:
         source.write_text("raise SystemExit('the source was read')")
     script = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nrospy.spin()")
     asked = request(script)
-    visible = sorted({*visible_paths(environment(tmp_path)), str(tmp_path)})
+    visible = Visible((*visible_paths(environment(tmp_path)), str(tmp_path)))
     raw = run.execute(make(environment(tmp_path), asked), {}, visible, SYSTEM_PYTHON, threading.Event(), agents)
     assert [r["own"]["status"] for r in raw.records if r.get("own", {}).get("ev") == "end"] == ["spinning"]
     assert {"node": {"ev": "woven"}} in raw.records
@@ -74,7 +75,7 @@ def test_each_interpreter_has_its_own_copy(tmp_path: Path) -> None:
     other.write_bytes(Path(SYSTEM_PYTHON).read_bytes())
     other.chmod(0o755)
     copies = Copies(tmp_path / "cache")
-    assert copies.of(SYSTEM_PYTHON, VISIBLE) != copies.of(str(other), [*VISIBLE, str(tmp_path)])
+    assert copies.of(SYSTEM_PYTHON, VISIBLE) != copies.of(str(other), Visible((*VISIBLE.paths, str(tmp_path))))
 
 
 def test_a_copy_that_nobody_used_for_long_goes(tmp_path: Path) -> None:

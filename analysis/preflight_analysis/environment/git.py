@@ -67,7 +67,7 @@ def open_repository(path: str) -> Iterator[Repository]:
         raise GitError(f"{path} is not in a git repository")
     if shutil.which("git") is None:
         raise GitError("git is not installed")
-    own, shared = _folders_of(top)
+    own, shared = folders_of(top)
     with tempfile.TemporaryDirectory(prefix="ros-preflight-git-", ignore_cleanup_errors=True) as folder:
         try:
             for source, names in ((own, (*_OWN, *_shared_indices(own))), (shared, _SHARED)):
@@ -93,7 +93,7 @@ def _top_of(folder: str) -> str | None:
     return folder
 
 
-def _folders_of(top: str) -> tuple[str, str]:
+def folders_of(top: str) -> tuple[str, str]:
     """The working tree's own git folder, and the one it shares with others (gitrepository-layout(5), `commondir`)."""
     own = os.path.join(top, ".git")
     if os.path.isfile(own):

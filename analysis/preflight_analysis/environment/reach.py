@@ -8,10 +8,10 @@ the folder that was named lies in one.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
 
 from preflight_analysis.environment.model import Environment
 
@@ -61,7 +61,7 @@ def workspace_folders(workspace: str | None, around: Iterable[str | None], built
     found = [workspace] if workspace else []
     for folder in around:
         if folder is not None and folder != workspace:
-            found += [os.path.join(folder, name) for name in ("src", *sorted(built))] if _is_wide(folder) else [folder]
+            found += [os.path.join(folder, name) for name in ("src", *sorted(built))] if is_wide(folder) else [folder]
     return _both(found)
 
 
@@ -77,13 +77,13 @@ def named_folders(
     entries = [entry for name in _VARIABLES for entry in _entries(variables, name)]
     found = [entry for entry in entries if not _leads_astray(entry, workspaces)]
     found += folders
-    found += [folder for folder in underlays if folder is not None and not _is_wide(folder)]
+    found += [folder for folder in underlays if folder is not None and not is_wide(folder)]
     pythons = [os.path.join(entry, name) for entry in _entries(variables, "PATH") for name in _PYTHONS]
     pythons += [python for python in interpreters if python is not None and not _is_below(python, workspaces)]
     for python in (sys.executable, *filter(os.path.exists, pythons)):
         if os.path.basename(os.path.realpath(python)).startswith(("python", "pypy")):
             # Of `/bin/python3` the prefix is the whole disk.
-            found += [path for path in interpreter_paths(python) if not _is_wide(path)]
+            found += [path for path in interpreter_paths(python) if not is_wide(path)]
     return _both(found)
 
 
@@ -101,7 +101,10 @@ def interpreter_paths(python: str) -> list[str]:
 
 
 def _prefix(folder: str) -> list[str]:
-    libraries = [str(path) for path in Path(folder, "lib").glob("python3*")]
+    library = os.path.join(folder, "lib")
+    libraries: list[str] = []
+    with contextlib.suppress(OSError):
+        libraries = [os.path.join(library, name) for name in os.listdir(library) if name.startswith("python3")]
     if os.path.basename(folder) == ".local":  # has much besides Python: key rings, mail
         return libraries
     return [folder] if libraries or os.path.isfile(os.path.join(folder, "pyvenv.cfg")) else []
@@ -138,7 +141,7 @@ def _dot_folder(real: str) -> str | None:
     return None
 
 
-def _is_wide(folder: str) -> bool:
+def is_wide(folder: str) -> bool:
     """Whether a folder holds a home folder, or all temporary files."""
     real = os.path.realpath(folder)
     return any(within(place, real) for place in (_home(), "/home", "/root", "/tmp", "/var/tmp", "/run"))  # noqa: S108

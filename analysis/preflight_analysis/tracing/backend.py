@@ -47,15 +47,32 @@ TEMPORARY_BYTES = 64 << 20
 
 
 @dataclass(frozen=True, slots=True)
+class Visible:
+    """What of the user's files is shown to a run: paths below the masked folders that it sees nevertheless, and the git
+    folders that it does not see wherever they are (`repositories.py`)."""
+
+    paths: tuple[str, ...] = ()
+    repositories: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class View:
     """What a run may see: all that the user may read, without what lies below `masks` and without `secrets`, but with
-    `shown`. `home` is the home folder, empty and writable inside. `agents` is our own code."""
+    `shown`. `home` is the home folder, empty and writable inside. `agents` is our own code. `repositories` are what is
+    hidden of all that, by its real paths."""
 
     masks: tuple[str, ...]
     secrets: tuple[str, ...]
     shown: tuple[str, ...]
     home: str
     agents: Agents
+    repositories: tuple[str, ...] = ()
+
+    def hidden_repositories(self) -> list[str]:
+        """Where `repositories` would be seen inside, without what lies in another of them."""
+        seen = Seen.of(self.shown, self.masks)
+        places = {place for path in self.repositories if os.path.exists(path) for place in seen.places(path)}
+        return sorted(p for p in places if not any(within(p, other) for other in places if other != p))
 
 
 @dataclass(frozen=True, slots=True)

@@ -77,6 +77,11 @@ def _options(view: View) -> list[str]:
         options += ["--ro-bind", "/dev/null", path]
     for path in mounts.leading_out(view.shown, view.masks):
         options += ["--size", "4096", "--perms", "0555", "--tmpfs", path, "--remount-ro", path]
+    for path in view.hidden_repositories():
+        if os.path.isdir(path):
+            options += ["--size", "4096", "--perms", "0555", "--tmpfs", path, "--remount-ro", path]
+        else:
+            options += ["--ro-bind", "/dev/null", path]
     options += ["--ro-bind", str(view.agents.library), PRIVATE + "/lib/preflight_agents"]
     options += ["--ro-bind", str(view.agents.aspectlib), PRIVATE + "/lib/aspectlib"]
     for name in view.agents.site_names:

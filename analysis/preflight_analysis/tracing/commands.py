@@ -31,8 +31,10 @@ from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
 from preflight_analysis.tracing import compiled, launch_files, ros1_recipe, ros2_recipe, run, sandbox
 from preflight_analysis.tracing import expressions as evaluated
 from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.outcome import stderr_tail
 from preflight_analysis.tracing.records import paths
+from preflight_analysis.tracing.repositories import git_paths
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
 from preflight_analysis.tracing.trace import on_host
 
@@ -154,6 +156,10 @@ class CommandRunner:
     def _visible(self) -> list[str]:
         return recipes.visible_paths(self.environment)
 
+    @functools.cached_property
+    def _repositories(self) -> tuple[str, ...]:
+        return git_paths(self.environment)
+
     @property
     def _interpreter(self) -> str:
         return self.environment.python or sys.executable
@@ -197,8 +203,9 @@ class CommandRunner:
             return CommandResult("not-run", reason=f"no sandbox: {status.reason}")
         if cancel.is_set():
             return CommandResult("not-run", reason="the run was cancelled")
-        agents = compiled.copies().of(self._interpreter, job.visible)
-        raw = run.execute_command(job.recipe, job.visible, self._interpreter, cancel, agents)
+        shown = Visible(tuple(job.visible), self._repositories)
+        agents = compiled.copies().of(self._interpreter, shown)
+        raw = run.execute_command(job.recipe, shown, self._interpreter, cancel, agents)
         ended = _read(raw)
         result = _result(raw, ended)
         if result.status == "failed":
@@ -290,7 +297,9 @@ def _sandbox_to_blame(result: CommandResult, job: _Job, ended: _Ended) -> Comman
     met = (*([needed] if needed else []), *job.named, *ended.files, *_PATH.findall(said))
     hidden = [p for p in met if not sandbox.shown(p, job.visible) and os.path.exists(p)]
     written = [p for p in ended.wrote if sandbox.shown(p, job.visible) and not p.startswith(("/dev/", "/proc/"))]
-    if hidden:
+    if "not a git repository" in said:
+        why = "it needs the git repository, which the sandbox hides"
+    elif hidden:
         why = f"it needs {hidden[0]}, which the sandbox hides"
     elif written or "Read-only file system" in said:
         why = f"it writes {written[0] if written else 'files'}, which the sandbox does not let it"

@@ -23,7 +23,7 @@ from typing import Any
 
 from preflight_analysis.tracing import run
 from preflight_analysis.tracing.agents.compiling import FOLDERS
-from preflight_analysis.tracing.backend import AGENTS, Agents
+from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 
 _log = logging.getLogger(__name__)
@@ -40,7 +40,7 @@ class Copies:
         self._lock = threading.Lock()
         self._found: dict[str, Agents] = {}
 
-    def of(self, interpreter: str, visible: list[str]) -> Agents:
+    def of(self, interpreter: str, visible: Visible) -> Agents:
         """The copy for an interpreter, made if there is none yet. What fails is not tried again by this process."""
         with self._lock:
             found = self._found.get(interpreter)
@@ -53,7 +53,7 @@ class Copies:
                 self._found[interpreter] = found
             return found
 
-    def _copy(self, interpreter: str, visible: list[str]) -> Agents:
+    def _copy(self, interpreter: str, visible: Visible) -> Agents:
         place = self._folder / _digest(interpreter)
         if not place.is_dir():
             make_private(self._folder)

@@ -74,6 +74,7 @@ def _options(view: View, folder: str) -> list[str]:
         if root not in (_TMP, home):
             options += [f"--blacklist={path}" for path in _shut(root, home)]
     leading_out = [*sockets.reachable(shown, view.masks), *mounts.leading_out(shown, view.masks)]
+    leading_out += view.hidden_repositories()
     options += [f"--blacklist={path}" for path in (*view.secrets, *leading_out)]
     return options
 

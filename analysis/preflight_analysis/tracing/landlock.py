@@ -44,17 +44,22 @@ def version() -> int:
     return max(found, 0)
 
 
-def readable(view: View) -> list[str]:
-    """The outermost files and folders that together hold what may be read: Landlock only knows what is allowed."""
+def readable(view: View) -> tuple[list[str], list[str]]:
+    """The outermost files and folders that together hold what may be read: Landlock only knows what is allowed. And
+    the folders with a repository in them, which may be listed, though so its names can be."""
     leading_out = mounts.leading_out(view.shown, view.masks)
+    repositories = view.hidden_repositories()
     found: list[str] = []
+    listed: list[str] = []
 
     def look(path: str, hidden: Sequence[str], *, directory: bool) -> None:
-        if any(within(path, root) for root in hidden):
+        if any(within(path, root) for root in (*hidden, *repositories)):
             return
-        if not directory or not any_within(hidden, path):
+        if not directory or not any_within((*hidden, *repositories), path):
             found.append(path)
             return
+        if not any_within(hidden, path) and not any(within(path, folder) for folder in listed):
+            listed.append(path)
         try:
             entries = sorted(os.scandir(path), key=lambda entry: entry.name)
         except OSError:
@@ -67,7 +72,7 @@ def readable(view: View) -> list[str]:
     look("/", (*view.masks, *view.secrets, *leading_out, "/dev"), directory=True)
     for path in view.shown:
         look(path, leading_out, directory=os.path.isdir(path))
-    return found
+    return found, listed
 
 
 def _tracing_scope() -> int:
@@ -102,12 +107,14 @@ def isolated(argv: Sequence[str], view: View) -> Iterator[Isolated]:
         read_end, write_end = os.pipe()
         at_end.callback(os.close, read_end)
         leash = at_end.enter_context(os.fdopen(write_end, "wb", buffering=0))
+        read, listed = readable(view)
         order = {
             "argv": [argument.replace(PRIVATE, own) for argument in argv],
             "version": landlock,
             "filter": code.hex(),
             "asked": seccomp.asked(machine),
-            "read": [*readable(view), *map(str, (agents.library, agents.aspectlib, agents.site))],
+            "list": listed,
+            "read": [*read, *map(str, (agents.library, agents.aspectlib, agents.site))],
             "write": [moved["/tmp"], moved[view.home]],  # noqa: S108
             "pipes": [own],
             "devices": _DEVICES,

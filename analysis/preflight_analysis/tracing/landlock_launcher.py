@@ -34,8 +34,8 @@ import threading
 import time
 from typing import Any
 
-READ_FILES, READ = 0x5, 0xD
-"""EXECUTE, READ_FILE; and READ_DIR."""
+READ_FILES, LIST, READ = 0x5, 0x8, 0xD
+"""EXECUTE, READ_FILE; READ_DIR; all of them."""
 CHANGE_FILES = 0x4002
 """WRITE_FILE, TRUNCATE."""
 CHANGE = CHANGE_FILES | 0x37B0
@@ -133,6 +133,7 @@ def _enter(order: dict[str, Any], send: socket.socket) -> None:
     version = order["version"]
     fs = _FS_RIGHTS.get(version, 0xFFFF)
     rules = [(path, READ) for path in order["read"]]
+    rules += [(path, LIST) for path in order["list"]]
     rules += [(path, READ | CHANGE) for path in order["write"]]
     rules += [(path, READ | MAKE_PIPE) for path in order["pipes"]]
     rules += [(path, 0x4 | CHANGE_FILES | _DEVICE_CONTROL) for path in order["devices"]]

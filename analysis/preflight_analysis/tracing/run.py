@@ -20,7 +20,7 @@ from typing import IO, Any
 
 from preflight_analysis.tracing import backend, sandbox
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing.backend import AGENTS, Agents
+from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 
 WALL_SECONDS = 5.0
 """From exec to the end, at most, but for the time in which it waits for a processor that others have."""
@@ -88,7 +88,7 @@ class RawRun:
 def execute(
     recipe: recipes.Recipe,
     params: Mapping[str, Any],
-    visible: list[str],
+    visible: Visible,
     interpreter: str,
     cancel: threading.Event,
     agents: Agents = AGENTS,
@@ -112,14 +112,14 @@ def execute(
 
 
 def execute_command(
-    recipe: recipes.Recipe, visible: list[str], interpreter: str, cancel: threading.Event, agents: Agents = AGENTS
+    recipe: recipes.Recipe, visible: Visible, interpreter: str, cancel: threading.Event, agents: Agents = AGENTS
 ) -> RawRun:
     """Run a command to its end; what it prints is among the records. Otherwise as `execute`."""
     job = {"output": {"wall": COMMAND_SECONDS, "bytes": COMMAND_BYTES}}
     return _execute(recipe, job, COMMAND_SECONDS, visible, interpreter, cancel, agents)
 
 
-def compile_agents(interpreter: str, visible: list[str], agents: Agents) -> RawRun:
+def compile_agents(interpreter: str, visible: Visible, agents: Agents) -> RawRun:
     """Have our own code compiled: one record a module. Raises `OSError` as `execute`."""
     return _execute(None, {}, COMMAND_SECONDS, visible, interpreter, threading.Event(), agents)
 
@@ -128,7 +128,7 @@ def _execute(
     recipe: recipes.Recipe | None,
     job: Mapping[str, Any],
     seconds: float,
-    visible: list[str],
+    visible: Visible,
     interpreter: str,
     cancel: threading.Event,
     agents: Agents,

@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from preflight_analysis.tracing import backend, bubblewrap, cgroup, firejail, landlock, seccomp
-from preflight_analysis.tracing.backend import AGENTS, Agents, Backend, Isolated, View, within
+from preflight_analysis.tracing.backend import AGENTS, Agents, Backend, Isolated, View, Visible, within
 
 ROOT = backend.PRIVATE
 """All that is ours, inside."""
@@ -92,7 +92,7 @@ def _probed(choice: str) -> SandboxStatus:
 def _tried(chosen: Backend) -> str | None:
     """Why a backend does not work here."""
     try:
-        with _prepared(chosen, [shutil.which("true") or "/bin/true"], (), AGENTS) as start:
+        with _prepared(chosen, [shutil.which("true") or "/bin/true"], Visible(), AGENTS) as start:
             done = subprocess.run(
                 start.command,
                 stdin=subprocess.DEVNULL,
@@ -114,9 +114,9 @@ def _tried(chosen: Backend) -> str | None:
 
 
 @contextlib.contextmanager
-def prepared(argv: Sequence[str], visible: Iterable[str], agents: Agents = AGENTS) -> Iterator[Start]:
-    """The way to run `argv` isolated, once, until the end of the block. `visible` are paths below the masked folders to
-    show, read-only. Raises `OSError` if there is none."""
+def prepared(argv: Sequence[str], visible: Visible, agents: Agents = AGENTS) -> Iterator[Start]:
+    """The way to run `argv` isolated, once, until the end of the block. What is `visible` can only be read. Raises
+    `OSError` if there is none."""
     status = probe()
     chosen = next((each for each in BACKENDS if each.name == status.backend), None)
     if chosen is None:
@@ -126,9 +126,9 @@ def prepared(argv: Sequence[str], visible: Iterable[str], agents: Agents = AGENT
 
 
 @contextlib.contextmanager
-def _prepared(chosen: Backend, argv: Sequence[str], visible: Iterable[str], agents: Agents) -> Iterator[Start]:
+def _prepared(chosen: Backend, argv: Sequence[str], visible: Visible, agents: Agents) -> Iterator[Start]:
     secrets = tuple(path for path in _SECRET_FILES if os.path.exists(path))
-    view = View(_masks(), secrets, tuple(needs_binding(visible)), home(), agents)
+    view = View(_masks(), secrets, tuple(needs_binding(visible.paths)), home(), agents, visible.repositories)
     with chosen.isolated(argv, view) as found, contextlib.ExitStack() as at_end:
         command, place = found.command, cgroup.place()
         if place is not None:

@@ -18,9 +18,11 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import compiled, limits, node_recipe, nodelets, preload, run, sandbox, windows
 from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Observation, observe
+from preflight_analysis.tracing.repositories import git_paths
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.service_types import ServiceTypes
 from preflight_analysis.tracing.turns import turn
@@ -51,6 +53,10 @@ class Tracer:
     @functools.cached_property
     def _visible(self) -> list[str]:
         return recipes.visible_paths(self.environment)
+
+    @functools.cached_property
+    def _repositories(self) -> tuple[str, ...]:
+        return git_paths(self.environment)
 
     def lookup(self, request: TraceRequest) -> Interface | None:
         """A cached trace that is still valid; nothing is run."""
@@ -128,11 +134,12 @@ class Tracer:
             return _not_run(_OUT_OF_REACH.format(hidden))
         python = self.environment.python if request.generation == 1 else self.environment.ros2_python
         interpreter = python or sys.executable
-        agents = compiled.copies().of(interpreter, visible)
-        raw = run.execute(recipe, request.params, visible, interpreter, cancel, agents)
+        shown = Visible(tuple(visible), self._repositories)
+        agents = compiled.copies().of(interpreter, shown)
+        raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents)
         screen = windows.server() if (blind := windows.lacking(raw)) else None
         if screen is not None:
-            raw = run.execute(recipe, request.params, visible, interpreter, cancel, agents, screen)
+            raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents, screen)
         observed = observe(raw, recipe, request)
         if blind and screen is None:
             observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
