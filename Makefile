@@ -80,7 +80,7 @@ vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-p
 
 lock: $(READY) ## what the extension installs the server with, newest versions, pinned with hashes in vscode-client/server-requirements.txt
 	$(BIN)/python -m pip install --quiet --group lock
-	$(BIN)/python .ci/lock
+	$(BIN)/python .ci/lock.py
 
 test-editors: setup vsix ## the extension in the real VS Code, with screenshots in out/screenshots
 	tests/editors/install.sh vscode

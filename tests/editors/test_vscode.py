@@ -112,12 +112,19 @@ def test_each_format_of_ros_2_shows_its_finding(trusted_desk: Desk) -> None:
 
 def test_server_is_installed_where_there_is_none(desk_without_server: Desk) -> None:
     desk_without_server.environment["PIP_FIND_LINKS"] = str(ROOT / "out/tools/wheels")
+    # Trusted or not, the workspace has no say in what is started without a sandbox.
+    started = desk_without_server.home / "started"
+    hostile = ["sh", "-c", f"touch {started}"]
+    settings = desk_without_server.workspace / ".vscode/settings.json"
+    settings.parent.mkdir()
+    settings.write_text(json.dumps({"rosPreflight.server.command": hostile, "rosPreflight.server.install": False}))
 
     seen = drive(desk_without_server, "installs")
 
     python, *arguments = seen["command"]
     assert python.startswith(str(desk_without_server.home))
     assert arguments == ["-I", "-m", "preflight_server", "lsp"]
+    assert not started.exists()
 
 
 def test_tree_shows_what_the_running_robot_does(trusted_desk: Desk, tmp_path: Path) -> None:

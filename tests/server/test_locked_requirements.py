@@ -115,7 +115,7 @@ def test_each_wheel_has_its_hash_and_no_other_file_has_one() -> None:
 
 
 def test_the_lock_is_tried_for_the_pythons_of_the_project() -> None:
-    script = (ROOT / ".ci/lock").read_text(encoding="utf-8")
+    script = (ROOT / ".ci/lock.py").read_text(encoding="utf-8")
     (pythons,) = re.findall(r"^PYTHONS = \((.*)\)$", script, re.MULTILINE)
     assert re.findall(r"3\.(\d+)", pythons) == [str(minor) for minor in MINORS]
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Pins what the VS Code extension installs the server with: `make lock` writes vscode-client/server-requirements.txt.
 
 Each file is named by its SHA-256, so that pip (`--require-hashes`) takes it and no other. Wheels for Linux alone: what
@@ -32,11 +31,13 @@ HEADER = """\
 
 
 def uv(*arguments: str) -> None:
+    """Run uv with wheels alone, whatever the user's configuration of it says."""
     command = [str(Path(sys.executable).with_name("uv")), "pip", *arguments, "--no-config", "--only-binary", ":all:"]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
 
 def resolved(folder: Path) -> dict[str, Any]:
+    """What the server needs, for all Pythons and platforms, as a `pylock.toml` (PEP 751)."""
     lock = folder / "pylock.toml"
     how = ("--quiet", "--universal", "--python-version", PYTHONS[0], "--format", "pylock.toml")
     uv("compile", *how, "--output-file", str(lock), str(ROOT / "pyproject.toml"))
@@ -54,13 +55,15 @@ def requirement(package: dict[str, Any]) -> str:
 
 
 def tried(requirements: Path, folder: Path) -> None:
+    """Whether nothing is missing: an installation for each Python and platform, without installing."""
     for python in PYTHONS:
         for platform in PLATFORMS:
-            how = ("--quiet", "--dry-run", "--require-hashes", "--python-version", python, "--python-platform", platform)
-            uv("install", *how, "--target", str(folder / f"{python}-{platform}"), "--requirements", str(requirements))
+            for_it = ("--python-version", python, "--python-platform", platform, "--target", str(folder / "none"))
+            uv("install", "--quiet", "--dry-run", "--require-hashes", *for_it, "--requirements", str(requirements))
 
 
 def main() -> None:
+    """Resolve, try, write."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         made = folder / LOCKED.name
