@@ -1,0 +1,220 @@
+"""Inputs that fuzzing begins with, and the words that the languages are made of."""
+
+from __future__ import annotations
+
+import json
+import struct
+import xmlrpc.client
+from pathlib import Path
+from typing import Any
+
+from fuzz_master import BETWEEN, URI
+
+FIXTURES = Path(__file__).parents[1] / "fixtures"
+CORPUS = Path(__file__).parents[2] / "shared" / "corpus"
+LONGEST = 8192
+"""Of an input, in bytes. What grows faster than its input is looked for with longer ones elsewhere."""
+
+
+def files(*patterns: str, most: int = 40) -> list[bytes]:
+    found: list[bytes] = []
+    for pattern in patterns:
+        paths = sorted(p for base in (FIXTURES, CORPUS) if base.is_dir() for p in base.glob(pattern) if p.is_file())
+        fitting = [p for p in paths if 0 < p.stat().st_size <= LONGEST]
+        step = max(1, len(fitting) // most)
+        found += [p.read_bytes() for p in fitting[::step][:most]]
+    return found
+
+
+def json_lines(*values: object) -> list[bytes]:
+    return [json.dumps(value).encode() for value in values]
+
+
+def _answer(value: object) -> bytes:
+    return xmlrpc.client.dumps(([1, "", value],), methodresponse=True).encode()
+
+
+def master_answers() -> list[bytes]:
+    address = URI.decode()
+    state = [[["/t", ["/n", "/m"]]], [["/t", ["/m"]]], [["/s", ["/n"]]]]
+    parts = [_answer(each) for each in (state, [["/t", "std_msgs/String"]], address, 5, address, 5, "x")]
+    fields = b"".join(struct.pack("<I", len(each)) + each for each in (b"type=std_srvs/Empty", b"md5sum=x"))
+    return [
+        BETWEEN.join(parts),
+        BETWEEN.join([*parts[:2], _answer("rosrpc" + address[4:]), struct.pack("<I", len(fields)) + fields]),
+        BETWEEN.join([*parts[:2], xmlrpc.client.dumps(([-1, "no", 0],), methodresponse=True).encode()]),
+        xmlrpc.client.dumps(xmlrpc.client.Fault(1, "no"), methodresponse=True).encode(),
+        b"HTTP/1.1 302 Found\r\nLocation: " + URI + b"\r\nContent-Length: 0\r\n\r\n",
+    ]
+
+
+EVENTS: tuple[dict[str, Any], ...] = (
+    {"node": {"ev": "endpoint", "role": "publisher", "name": "a", "type": "std_msgs/String", "file": "/x", "line": 3}},
+    {"node": {"ev": "param", "access": "get", "name": "~b", "has_default": True, "default": {"c": [1, 2.5, None]}}},
+    {"node": {"ev": "files", "paths": ["/etc/hostname"]}},
+    {"node": {"ev": "wrote", "path": "/etc/x"}},
+    {"node": {"ev": "state", "state": "sleep", "seconds": 1.5}},
+    {"node": {"ev": "asked", "what": "name"}},
+    {"own": {"ev": "end", "status": "spinning", "code": 0}},
+)
+GRAPH = {
+    "nodes": ["/node_py", "/n"],
+    "ends": [["publisher", "/n", "/t", "std_msgs/msg/String", {"reliability": "reliable"}]],
+    "lifecycle": {"/n": "inactive"},
+}
+XML = (
+    *(
+        "<launch>",
+        "</launch>",
+        "<node ",
+        "<include ",
+        "<group>",
+        "<arg ",
+        "<param ",
+        "<rosparam>",
+        "<remap ",
+        "<!--",
+        "-->",
+    ),
+    *(
+        "<![CDATA[",
+        "]]>",
+        "<!DOCTYPE x [<!ENTITY e 'v'>]>",
+        "&e;",
+        "&#x41;",
+        "<?xml version='1.0'?>",
+        "$(arg a)",
+        "$(find p)",
+    ),
+    *("$(eval ", "$(anon n)", "$(env X)", "ns='", "if='", "command='", "file='", "preflight:"),
+)
+ROS2 = (
+    *XML,
+    *(
+        "<let ",
+        "<executable ",
+        "<composable_node ",
+        "<node_container ",
+        "$(var a)",
+        "$(find-pkg-share p)",
+        "$(dirname)",
+    ),
+    *("$(eval ", "$(command ", "exec='", "<set_parameter ", "<push_ros_namespace "),
+)
+YAML = (
+    "/**:",
+    "ros__parameters:",
+    "&a ",
+    "*a",
+    "<<: ",
+    "!!python/object",
+    "? ",
+    "- ",
+    "|\n",
+    "---\n",
+    "!degrees ",
+    "rad(",
+)
+JSON = ('"ev":', '"node":', "1e999", "NaN", '"\\ud800"', "[[[[", "null", '"name":', "9" * 40)
+PYTHON = (
+    "def ",
+    "import ",
+    "LaunchDescription([",
+    "Node(",
+    "lambda: ",
+    "f'{",
+    "rospy.Publisher(",
+    "create_publisher(",
+    "*",
+    "**",
+)
+CPP = ("#include ", "nh.advertise<", "create_publisher<", "template<", "#define ", 'R"x(', "operator", "for(", "::")
+CMAKE = (
+    "add_executable(",
+    "install(",
+    "foreach(",
+    "endforeach()",
+    "macro(",
+    "function(",
+    "${",
+    "}",
+    "if(",
+    "include(",
+    "[[",
+    "]]",
+)
+
+
+SETUP = b"""from setuptools import setup, find_packages
+import os
+from glob import glob
+name = 'p'
+setup(name=name, packages=find_packages(), data_files=[
+    ('share/' + name, ['package.xml']), (os.path.join('share', name, 'launch'), glob('launch/*.launch.py'))],
+    entry_points={'console_scripts': ['node = p.node:main']})
+"""
+SETUP_CFG = b"""[options.entry_points]
+console_scripts =
+    node = p.node:main
+[options.data_files]
+share/p = package.xml
+"""
+PYPROJECT = b"""[project]
+name = "p"
+[project.scripts]
+node = "p.node:main"
+"""
+SETTINGS = b"""roots:
+  - src/p/launch/x.launch
+  - file: src/p/launch/y.launch
+    args: {a: 1}
+external: [/tf, {topic: /x*}]
+severities: {TOP001: off, prm001: error}
+paths:
+  - match: src/**
+    severities: {LCH001: hint}
+nodes:
+  - package: p
+    executable: node.py
+    publishers: [{name: a, type: std_msgs/String, qos: {reliability: reliable}}]
+    parameters: {b: 1}
+"""
+SNAPSHOT = b"""schema: ros-preflight/snapshot/1
+launch: src/p/launch/x.launch
+generation: 1
+args: {a: "1"}
+nodes:
+  /n:
+    package: p
+    executable: node.py
+    outcome: spinning
+    complete: true
+    publishers: {/t: {type: std_msgs/String, qos: {queue_size: 1}}}
+    parameters: {/n/a: 1}
+    reads: {/n/b: {default: 1}}
+parameters: {/x: [1, 2.5, yes]}
+errors: [x]
+unknown: [y]
+"""
+NODL = b"""nodl_version: 2
+include: [{ref: 'local://common.nodl.yaml'}]
+parameters: {rate: {type: double, default_value: 10.0}}
+publishers:
+  - {name: scan, type: sensor_msgs/LaserScan, qos: {history: KEEP_LAST, depth: 5, reliability: BEST_EFFORT}}
+service_servers: [{name: ~/reset, type: std_srvs/srv/Trigger}]
+"""
+NODL_1 = b"""<interface version="1"><node name="driver" executable="driver">
+<parameter name="verbose" type="bool"/><topic name="scan" type="sensor_msgs/msg/LaserScan" role="both"/>
+<service name="reset" type="std_srvs/srv/Trigger" role="server"/></node></interface>
+"""
+ANSWERS = (
+    {
+        "actions": [
+            {"k": "node", "p": [3, 30], "n": "Node", "a": [["package", "p"], ["executable", "node.py"]], "c": []},
+            {"k": "group", "a": {"scoped": True}, "c": [{"k": "opaque", "i": 1, "n": "OpaqueFunction", "p": [3]}]},
+        ],
+        "files": {"/made/by/it.yaml": "a: 1"},
+    },
+    {"error": {"type": "ValueError", "message": "no", "frames": [["/x.py", 3, "f"]]}},
+    {"actions": [{"k": "include", "p": [3, 4], "a": [["file", [{"t": "x"}]]]}], "configurations": {"a": "b"}},
+)
