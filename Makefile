@@ -7,7 +7,7 @@ DEMO := fixtures/ros1/demo
 SIDE_BY_SIDE := --numprocesses=auto --dist=worksteal
 BENCHMARKS := editing completion index trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint bench bench-quick corpus nodes fuzz wheel vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint bench bench-quick corpus nodes attacks fuzz wheel vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -64,9 +64,13 @@ nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real m
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages
 	$(BIN)/python tests/real_nodes.py --write
 
-fuzz: CORPUS = $(realpath ../shared/corpus/ros1)
-fuzz: $(READY) ## 50,000 random edits of files of ../shared/corpus/ros1, each compared with a fresh analysis
-	$(BIN)/python tests/random_edits.py $(CORPUS)/src
+attacks: setup ## what a hostile node meets in the sandbox, as root and as a user, with each backend: the table of docs/security.md
+	$(BIN)/python tests/attacks.py
+
+fuzz: SECONDS = 600
+fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together; what was found lies in out/fuzz
+	@$(BIN)/python -m pip install --quiet --group fuzz || echo "atheris is not to be had here: inputs do not follow the coverage"
+	$(BIN)/python tests/fuzz.py --seconds $(SECONDS)
 
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .

@@ -60,7 +60,7 @@ class Record:
     def found(self, error: BaseException, data: bytes) -> None:
         """Keep the input and the traceback under a name made of where it was raised."""
         frames = traceback.extract_tb(error.__traceback__)
-        ours = [f for f in frames if "preflight_" in f.filename or "fuzz_" in f.filename][-3:]
+        ours = [f for f in frames if "preflight_" in f.filename or "fuzz_" in f.filename][-3:] or frames[-1:]
         key = repr((type(error).__name__, [(f.filename, f.name, f.lineno) for f in ours]))
         name = f"found-{zlib.crc32(key.encode()):08x}"
         if name not in self._told["found"]:
@@ -149,6 +149,15 @@ def names() -> list[str]:
     return [*(target.name for target in fuzz_targets.TARGETS), EDITS]
 
 
+def read_result(name: str) -> dict[str, Any]:
+    """What a target told last."""
+    try:
+        told: dict[str, Any] = json.loads((OUT / name / "result.json").read_text())
+    except (OSError, ValueError):
+        told = {"by": "", "executions": 0, "slowest": 0.0, "seconds": 0.0, "found": {}}
+    return told
+
+
 def run_target(name: str, seconds: float) -> dict[str, Any]:
     """Run a target in a process of its own; what it tells, or how it broke."""
     folder = OUT / name
@@ -163,10 +172,7 @@ def run_target(name: str, seconds: float) -> dict[str, Any]:
             process.kill()
             process.wait()
             code = "it did not end"
-    try:
-        told: dict[str, Any] = json.loads((folder / "result.json").read_text())
-    except (OSError, ValueError):
-        told = {"by": "", "executions": 0, "slowest": 0.0, "seconds": 0.0, "found": {}}
+    told = read_result(name)
     if code != 0:
         told["found"]["log"] = f"the process ended with {code}"
     return told

@@ -40,7 +40,6 @@ from preflight_analysis.environment.setup_py import read_python_build
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.param_files import read_flat_file, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.evaluation.tree_json import tree_json
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.findings.baseline import read_baseline
 from preflight_analysis.findings.github import to_github
@@ -74,16 +73,18 @@ from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.snapshot import report as snapshot_report
 from preflight_analysis.snapshot.difference import difference
 from preflight_analysis.snapshot.files import NotASnapshotError, from_yaml, to_yaml
-from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing import node_recipe
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.tracing.observation import observe
+from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import RawRun, _take
 from preflight_analysis.tracing.trace_json import trace_json
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.project_settings import located_problems, read_project_settings
 from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_server.cli.output import dumps_json, visible
 
@@ -474,11 +475,11 @@ def settings(data: bytes) -> None:
 
 
 @cache
-def _asked() -> tuple[recipes.Recipe, TraceRequest]:
+def _asked() -> tuple[Recipe, TraceRequest]:
     there = place(1)
     script = str(Path(there.environment.packages["p"].share) / "scripts" / "node.py")
     request = TraceRequest("/node", "p", script, params={"/a": 1, "/node/b": [1, 2]})
-    return recipes.make(there.environment, request, None), request
+    return node_recipe.make(there.environment, request, None), request
 
 
 def cache_entries(data: bytes) -> None:

@@ -136,6 +136,8 @@ async def test_malformed_messages_do_not_stop_the_server(desk: Desk) -> None:
             b'{"jsonrpc": "2.0", "method": "textDocument/didChange", "params": {"nonsense": 1}}',
             b'{"jsonrpc": "2.0", "method": "workspace/didChangeConfiguration", "params": {"settings": 7}}',
             b"no JSON at all",
+            b'{"jsonrpc": "2.0", "id": [], "method": "textDocument/hover", "params": null}',
+            b'{"jsonrpc": "2.0", "id": {}, "result": null}',
         ):
             writer.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
         editor.open(desk.launch_file)

@@ -7,7 +7,7 @@ from collections.abc import Generator
 from typing import Any
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcException
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest
 from pygls.protocol import LanguageServerProtocol
 from pygls.protocol.language_server import lsp_method
 
@@ -64,6 +64,12 @@ class PreflightProtocol(LanguageServerProtocol):
     def was_shut_down(self) -> bool:
         """Whether the client sent `shutdown`, as it should before `exit`."""
         return self._shutdown
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """The message of a JSON object. An id is a number or a text: pygls looks requests up by whatever it is."""
+        if "jsonrpc" in data and not isinstance(data.get("id"), str | int | None):
+            raise JsonRpcInvalidRequest("an id is a number or a text")
+        return super().structure_message(data)
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:

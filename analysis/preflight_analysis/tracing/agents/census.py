@@ -49,9 +49,10 @@ class Census:
         return ""
 
     def left_behind(self, ours: Optional[int]) -> list[int]:
-        """The processes beside our own, the sandbox's first and the one that is `ours` too."""
-        first = 1 if self.alone else os.getppid()
-        return sorted(process for process in self._processes() if process not in (first, os.getpid(), ours))
+        """The processes beside our own, those that it descends from and the one that is `ours` too. firejail has it
+        started by the user's shell, and not every shell gives way to the last program that it starts."""
+        above = _ancestors(os.getpid()) if self.alone else [os.getppid()]
+        return sorted(process for process in self._processes() if process not in (*above, os.getpid(), ours))
 
     def _processes(self) -> list[int]:
         return everybody() if self.alone else descendants(os.getppid())
@@ -113,6 +114,19 @@ class Census:
 def everybody() -> list[int]:
     """All processes that can be seen."""
     return [int(name) for name in os.listdir("/proc") if name.isdigit()]
+
+
+def _ancestors(process: int) -> list[int]:
+    """Those that can be seen, the nearest first."""
+    found: list[int] = []
+    while process > 1:
+        try:
+            with open("/proc/%d/stat" % process) as file:
+                process = int(file.read().rpartition(")")[2].split()[1])
+        except (OSError, ValueError, IndexError):
+            process = 1  # the first hides from us with bubblewrap, and is the parent of whoever lost theirs
+        found.append(process)
+    return found
 
 
 def descendants(ancestor: int) -> list[int]:
