@@ -38,3 +38,24 @@ def test_an_editor_has_decoded_what_it_shows() -> None:
     found = sources.launch_file("/a.launch")
     assert not isinstance(found, Unreadable)
     assert found.document.problems == ()
+
+
+@pytest.mark.parametrize("declared", ["punycode", "idna", "utf-7", "unicode_escape", "raw_unicode_escape", "rot13"])
+def test_a_codec_that_is_no_encoding_of_files_is_not_asked(declared: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.launch"
+    path.write_bytes(_text(declared).replace("\u00e9", "e").encode() + b"a-" * 200_000)
+    found = Sources().launch_file(str(path))
+    assert isinstance(found, Unreadable)
+    assert found.reason == f"declares the encoding '{declared}', which is not known"
+
+
+@pytest.mark.parametrize(
+    "declared", ["us-ascii", "cp1252", "windows-1251", "koi8-r", "macintosh", "ISO-8859-15", "IBM850"]
+)
+def test_encodings_of_one_byte_for_a_character_are_read(declared: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.launch"
+    path.write_bytes(_text(declared).replace("\u00e9", "e").encode())
+    found = Sources().launch_file(str(path))
+    assert not isinstance(found, Unreadable)
+    minidom.parseString(path.read_bytes())
+    assert found.document.problems == ()

@@ -1,5 +1,7 @@
 """What a setup.py says, whatever stands in it."""
 
+from pathlib import Path
+
 import pytest
 from preflight_analysis.environment.setup_py import read_python_build
 
@@ -22,3 +24,26 @@ ENTRY = (
 def test_what_would_take_all_memory_is_not_known(text: str) -> None:
     build = read_python_build("/p", "p", lambda path: text + ENTRY if path.endswith("setup.py") else None)
     assert (list(build.scripts), build.complete) == (["a"], False)
+
+
+def test_patterns_do_not_leave_the_package_by_links(tmp_path: Path) -> None:
+    package = tmp_path / "p"
+    (package / "launch").mkdir(parents=True)
+    (package / "launch" / "a.launch.py").touch()
+    (package / "launch" / ".hidden").touch()
+    (package / "root").symlink_to("/")
+    for name in ("one", "two"):
+        (package / name).symlink_to(package)
+    text = "setup(data_files=[('share/p', glob('**/*.launch.py', recursive=True)), ('share/p/all', glob('launch/*'))])"
+    found = read_python_build(str(package), "p", {str(package / "setup.py"): text}.get)
+    assert not found.complete, "links that lead into the package again and again are too many names"
+    for name in ("one", "two"):
+        (package / name).unlink()
+    found = read_python_build(str(package), "p", {str(package / "setup.py"): text}.get)
+    assert found.complete
+    assert found.data == {name: str(package / "launch/a.launch.py") for name in ("a.launch.py", "all/a.launch.py")}
+
+
+def test_a_deeply_nested_pyproject_is_left_out(tmp_path: Path) -> None:
+    for text in ("a=" + "[" * 50_000, "a=" + "{a=" * 50_000, "a." * 50_000, "[a" + ".a" * 50_000 + "]"):
+        assert read_python_build(str(tmp_path), "p", {str(tmp_path / "pyproject.toml"): text}.get).scripts == {}

@@ -23,6 +23,15 @@ def test_every_setting_is_described_with_its_default() -> None:
     assert {name: described["default"] for name, described in SCHEMA.items()} == fields
 
 
+def test_what_names_folders_and_programs_counts_in_trusted_workspaces_only() -> None:
+    manifest = json.loads((CLIENT / "package.json").read_text())
+    settings = manifest["contributes"]["configuration"]["properties"]
+    choices = {name for name, described in settings.items() if described["type"] == "boolean" or "enum" in described}
+    of_the_user = {name for name, described in settings.items() if described["scope"] == "machine"}
+    restricted = manifest["capabilities"]["untrustedWorkspaces"]["restrictedConfigurations"]
+    assert set(settings) - choices - of_the_user == set(restricted)
+
+
 def test_a_setting_that_is_not_the_servers_stays() -> None:
     own = json.dumps(
         {"contributes": {"configuration": {"properties": {"rosPreflight.server.command": {"default": []}}}}}

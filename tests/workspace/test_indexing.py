@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.workspace import indexing
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.sources import Sources
@@ -161,3 +164,36 @@ def test_python_files_that_make_a_launch_description_are_launch_files(desk: Desk
     whole = desk.write("whole.launch.xml", f'<launch><include file="{desk.folder}/p/launch/hello-launch.py"/></launch>')
     index = desk.build(changed=[whole])
     assert paths(tuple(index.entries)) == ["bringup_all.py", "installed.py", "whole.launch.xml"]
+
+
+def test_a_large_circle_is_evaluated_in_parts(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    count = 400
+    for number in range(count):
+        before = desk.folder / f"a{(number - 1) % count:03}.launch"
+        desk.write(f"a{number:03}.launch", including(f'<include file="{before}"/>'))
+    evaluated: list[str] = []
+    tree = Workspace.tree
+
+    def counting(workspace: Workspace, path: str, args: Mapping[str, str]) -> LaunchTree:
+        evaluated.append(path)
+        return tree(workspace, path, args)
+
+    monkeypatch.setattr(Workspace, "tree", counting)
+    index = build_index(desk.workspace, str(desk.folder))
+    assert index is not None
+    assert len(evaluated) <= 12
+    assert all(index.roots_of(str(path)) for path in desk.folder.glob("*.launch"))
+
+
+def test_includes_beyond_the_limit_are_not_evaluated(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(indexing, "MAX_INCLUDED", 2)
+    leaf = desk.write("leaf.launch", LEAF)
+    for number in range(4):
+        desk.write(f"root{number}.launch", including(include(leaf)))
+    index = build_index(desk.workspace, str(desk.folder))
+    assert index is not None
+    assert len(index.roots_of(str(leaf))) == 2
+    (said,) = [record.getMessage() for record in caplog.records]
+    assert said.endswith("who includes whom is not known of 2 of them")

@@ -14,6 +14,13 @@ SIZE_LIMIT = 4 * 1024 * 1024
 """In bytes. The largest launch file of some 3,400 public ones is 200 times smaller."""
 
 _DECLARED_ENCODING = re.compile(rb"""<\?xml\b[^>]{0,200}?\bencoding[ \t\r\n]*=[ \t\r\n]*["']([A-Za-z0-9._:-]+)["']""")
+_KNOWN_ENCODINGS = re.compile(
+    r"ascii|utf-8(?:-sig)?|iso8859-\d+|cp\d+|koi8-[rtu]|mac-[a-z0-9]+|hp-roman8|kz1048|ptcp154|tis-620|palmos"
+    r"|gb\w+|big5\w*|euc-\w+|shift-jis\w*|johab|iso2022-\w+"
+)
+"""Names of the codecs that a declaration may choose: one byte for a character, which is what expat takes of Python, and
+the usual ones of East Asia. The others are no encodings of files, and some (`punycode`) take a time that grows with the
+square of the length."""
 _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF8, "utf-8"),
     (codecs.BOM_UTF32_LE, "utf-32-le"),  # before UTF-16, whose mark it starts with
@@ -111,6 +118,8 @@ def _decode(path: str, data: bytes) -> Text | Unreadable:
     if encoding.lower().replace("_", "-") in {"utf-8", "utf8"} and b"\0" in data:
         return Unreadable(path, "is not a text file", "not-text")
     try:
+        if declared and not _KNOWN_ENCODINGS.fullmatch(codecs.lookup(encoding).name.lower().replace("_", "-")):
+            raise LookupError(encoding)
         text = data.decode(encoding)
     except LookupError:
         return Unreadable(path, f"declares the encoding {encoding!r}, which is not known", "not-text")
@@ -120,8 +129,6 @@ def _decode(path: str, data: bytes) -> Text | Unreadable:
         line = data.count(b"\n", 0, error.start) + 1
         what = f"byte 0x{data[error.start]:02x} in line {line}"
         return Unreadable(path, f"is not a text file in {encoding.upper()} ({what})", "not-text")
-    except ValueError:  # what a few codecs raise instead (idna, punycode)
-        return Unreadable(path, f"declares the encoding {encoding!r} and is not written in it", "not-text")
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
     return Text(path, text, digest(text), not marked and not declared, encoding)

@@ -40,6 +40,16 @@ def parse_xml(path: str, text: str, encoding: str | None = "utf-8") -> Document:
     return Document(path, text, digest(text), scanned.children, problems, lines, scanned.entities)
 
 
+def without_comments(text: str) -> str:
+    """The text, of the same length, with blanks for its comments; one that is not closed is none."""
+    pieces: list[str] = []
+    at = 0
+    while (start := text.find("<!--", at)) >= 0 and (close := text.find("-->", start + 4)) >= 0:
+        pieces += (text[at:start], " " * (close + 3 - start))
+        at = close + 3
+    return "".join((*pieces, text[at:]))
+
+
 def _expat_complaint(text: str, scanned: Scan) -> SyntaxProblem | None:
     """What expat has against the text, None when it is well-formed or has no element yet.
 

@@ -24,6 +24,8 @@ thousand damaged parameter files; `tests/documents/test_yaml.py` repeats some of
 _LIBYAML: type[yaml.SafeLoader] | type[yaml.CSafeLoader] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DEPTH_OF_LIBYAML = 2_000
 """libyaml's composer recurses on the stack of the thread, of which a level takes less than 500 bytes."""
+_DEPTH_ON_A_LINE = 200
+_BRACKET = re.compile(r"[\[\]{}]")
 _DEPTH_OF_PYYAML = 300
 """What is deeper is left to PyYAML, which may find it too deep; it ends somewhere below 500."""
 
@@ -46,8 +48,30 @@ def _integer(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> int:
 PlainLoader.add_constructor("tag:yaml.org,2002:int", _integer)
 
 
+def compose(text: str) -> yaml.Node | None:
+    """What `yaml.compose` with a SafeLoader gives. Raises one of `CONSTRUCTION_ERRORS`."""
+    refuse_deep(text)
+    return yaml.compose(text, Loader=yaml.SafeLoader)
+
+
+def refuse_deep(text: str) -> None:
+    """Raise what PyYAML's composer raises in the end, before its scanner has looked at each bracket once for each that
+    is open on the same line."""
+    if text.count("[") + text.count("{") < _DEPTH_ON_A_LINE:
+        return
+    for line in text.splitlines():
+        if line.count("[") + line.count("{") < _DEPTH_ON_A_LINE:
+            continue
+        depth = 0
+        for sign in _BRACKET.findall(line):
+            depth += 1 if sign in "[{" else -1
+            if depth > _DEPTH_ON_A_LINE:
+                raise RecursionError("nested too deeply")
+
+
 def load_plain(text: str) -> Any:
     """What `yaml.safe_load` gives. Raises one of `CONSTRUCTION_ERRORS`."""
+    refuse_deep(text)
     loader = PlainLoader(text)
     try:
         return loader.get_single_data()
@@ -105,7 +129,7 @@ def _compose(text: str) -> yaml.Node | None:
             node = None  # PyYAML says it in its own words, and takes a few texts that libyaml does not
         if node is not None and (depth < _DEPTH_OF_PYYAML or _depth(node) < _DEPTH_OF_PYYAML):
             return node
-    return yaml.compose(text, Loader=yaml.SafeLoader)
+    return compose(text)
 
 
 def _depth(root: yaml.Node) -> int:

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import ast
 import configparser
+import fnmatch
 import glob
 import importlib
 import os
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -24,6 +25,10 @@ Read = Callable[[str], "str | None"]
 
 _MAX_TEXT = 200_000
 _MAX_FILES = 2_000
+_MAX_ENTRIES = 20_000
+"""Of folders, in which the patterns of one file look for names."""
+_MAX_DOTS = 200
+"""In a line of TOML."""
 _MAX_STEPS = 20_000
 """Expressions that are computed of one file; loops within loops have no end otherwise."""
 _MAX_SIZE = 100_000
@@ -107,9 +112,12 @@ def _from_cfg(text: str) -> dict[str, str]:
 
 
 def _from_toml(text: str) -> dict[str, str]:
+    # The parser goes through a dotted key from its start for each of its names.
+    if len(text) > _MAX_TEXT or any(line.count(".") > _MAX_DOTS for line in text.splitlines()):
+        return {}
     try:
         scripts: Any = _TOML.loads(text).get("project", {}).get("scripts", {})
-    except (ValueError, AttributeError):
+    except (ValueError, AttributeError, RecursionError):
         return {}
     if not isinstance(scripts, dict):
         return {}
@@ -135,6 +143,8 @@ class _Setup:
         self.data_files: list[tuple[str, list[str]]] = []
         self.complete = True
         self._steps = 0
+        self._real = os.path.join(os.path.realpath(folder), "")
+        self._looked_at = 0
         try:
             tree = ast.parse(text[:_MAX_TEXT])
         except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -305,9 +315,55 @@ class _Setup:
     def _glob(self, pattern: str, recursive: bool) -> list[str]:
         if os.path.isabs(pattern) or ".." in pattern.split("/"):
             raise _Unknown
+        return sorted(set(self._below("", pattern.split("/"), recursive)))
+
+    def _below(self, folder: str, pattern: list[str], recursive: bool) -> Iterator[str]:
+        """What `glob` gives for a pattern in a folder of the package, without going through links out of it."""
+        first, *rest = pattern
+        here = os.path.join(self._folder, folder)
+        if first != "" and not glob.has_magic(first):
+            if rest and os.path.isdir(os.path.join(here, first)):
+                yield from self._below(os.path.join(folder, first), rest, recursive)
+            elif not rest and os.path.lexists(os.path.join(here, first)):
+                yield os.path.join(folder, first)
+            return
+        if first == "":  # a slash at the end, or two
+            if rest:
+                yield from self._below(folder, rest, recursive)
+            elif folder and os.path.isdir(here):
+                yield os.path.join(folder, "")
+            return
+        any_depth = recursive and first == "**"
+        if any_depth:
+            yield from self._below(folder, rest, recursive) if rest else ([os.path.join(folder, "")] if folder else [])
+        for name, is_folder in self._listed(here):
+            if name.startswith(".") and not first.startswith("."):
+                continue
+            path = os.path.join(folder, name)
+            if any_depth:
+                if is_folder:
+                    yield from self._below(path, pattern, recursive)
+                elif not rest:
+                    yield path
+            elif fnmatch.fnmatchcase(name, first):
+                if not rest:
+                    yield path
+                elif is_folder:
+                    yield from self._below(path, rest, recursive)
+
+    def _listed(self, folder: str) -> list[tuple[str, bool]]:
+        """The names in a folder of the package, and which are folders; raises `_Unknown` when there are too many."""
         found = []
-        for path in glob.iglob(pattern, root_dir=self._folder, recursive=recursive):
-            found.append(path)
-            if len(found) > _MAX_FILES:
-                raise _Unknown
-        return sorted(found)
+        try:
+            real = os.path.join(os.path.realpath(folder), "")
+            if not real.startswith(self._real):
+                return []
+            with os.scandir(folder) as entries:
+                for entry in entries:
+                    self._looked_at += 1
+                    if self._looked_at > _MAX_ENTRIES:
+                        raise _Unknown
+                    found.append((entry.name, entry.is_dir()))
+        except OSError:
+            return []
+        return found

@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, refuse_deep
 from preflight_analysis.evaluation.expression import EvaluationError, evaluate_arithmetic
 
 MAX_VALUES = 200_000
@@ -97,6 +97,7 @@ _long = lru_cache(maxsize=64)(_load)
 
 def _parse(text: str) -> YamlValue:
     try:
+        refuse_deep(text)
         loader = _Loader(text)
         try:
             node = loader.get_single_node()

@@ -10,6 +10,9 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.report import positions, relative
 
+_MOST = 4000
+"""How many characters count of a line, and of what a finding is about."""
+
 
 def fingerprints(findings: Sequence[Finding], documents: Mapping[str, Document], base: str | None) -> list[str]:
     """One for each finding, in order: `digest:n`, n counting those alike.
@@ -32,7 +35,8 @@ def _digest(finding: Finding, documents: Mapping[str, Document], base: str | Non
     if document is not None:
         (number, _), _ = positions(finding.location, documents)
         start, end = document.lines.line_span(number)
-        line = " ".join(document.text[start:end].split())
-        about = " ".join(document.text[slice(*finding.location.span)].split())
+        line = " ".join(document.text[start : min(end, start + _MOST)].split())
+        begin, stop = finding.location.span
+        about = " ".join(document.text[begin : min(stop, begin + _MOST)].split())
     parts = "\0".join((finding.rule, relative(finding.location.file, base), line, about))
     return hashlib.sha256(parts.encode("utf-8", "surrogatepass")).hexdigest()[:16]

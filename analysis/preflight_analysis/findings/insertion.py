@@ -56,7 +56,9 @@ def insert_attribute(action: Action, document: Document, name: str, value: str =
 
 def remove_attribute(attribute: ActionAttribute, document: Document) -> Edit:
     """The edit that removes the attribute and the blanks before it."""
-    start = len(document.text[: attribute.span.start].rstrip())
+    start = attribute.span.start
+    while start > 0 and document.text[start - 1].isspace():
+        start -= 1
     return Edit(Location(document.path, Span(start, attribute.span.end)), "")
 
 

@@ -14,6 +14,9 @@ from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding,
 CHECK_SCHEMA = "ros-preflight/check/1"
 _COLOURS: Mapping[Severity, str] = {"error": "31", "warning": "33", "info": "34", "hint": "36"}
 _TAB = 4
+_SHOWN_BEFORE = 200
+_SHOWN_BEHIND = 400
+"""How many characters of a line are shown before the place of a finding, and from there on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,10 +125,14 @@ def _underlined(location: Location, documents: Mapping[str, Document], paint: st
         return
     (line, column), (end_line, end_column) = positions(location, documents)
     span = document.lines.line_span(line)
-    text = document.text[span.start : span.end].rstrip("\r\n")
+    first = max(0, column - _SHOWN_BEFORE)
+    end = min(span.end, span.start + column + _SHOWN_BEHIND)
+    text = document.text[span.start + first : end].rstrip("\r\n")
     if not text.strip():
         return
-    stop = end_column if end_line == line else len(text)
+    stop = end_column - first if end_line == line else len(text)
+    text = ("\u2026" if first else "") + text + ("\u2026" if end < span.end else "")
+    column, stop = (column - first + 1, stop + 1) if first else (column, stop)
     number = str(line + 1)
     before, under = _widths(text[:column]), max(1, _widths(text[:stop]) - _widths(text[:column]))
     yield f"  {number} | {printable(text.expandtabs(_TAB))}"
@@ -134,6 +141,8 @@ def _underlined(location: Location, documents: Mapping[str, Document], paint: st
 
 def _widths(text: str) -> int:
     """How many columns of a terminal a text takes: wide characters take two, combining ones none."""
+    if text.isascii() and "\t" not in text:
+        return len(text)
     columns = 0
     for char in text:
         if char == "\t":
@@ -147,6 +156,8 @@ def _widths(text: str) -> int:
 
 def printable(text: str) -> str:
     """Without control characters: a file's text must not drive the terminal on which it is printed."""
+    if text.isprintable():
+        return text
     return "".join(char if char.isprintable() or char == " " else "\N{REPLACEMENT CHARACTER}" for char in text)
 
 

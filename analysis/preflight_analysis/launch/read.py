@@ -10,7 +10,7 @@ import os
 import re
 
 from preflight_analysis.documents.reading import Text
-from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.documents.xml import parse_xml, without_comments
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.ros1_xml import read_ros1
@@ -34,22 +34,21 @@ LAUNCH_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b
 _ONLY_ROS2 = (
     r"""<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
     r"""|unset_env|append_env|node_container|composable_node|load_composable_node|executable|timer)[\s/>]"""
-    r"""|<arg\s[^>]*\bdescription\s*=|<(?:node|test)\s[^>]*\bexec\s*=|<param\s[^>]*\bfrom\s*="""
+    r"""|<arg\s[^<>]*\bdescription\s*=|<(?:node|test)\s[^<>]*\bexec\s*=|<param\s[^<>]*\bfrom\s*="""
 )
 """Tags and attributes that roslaunch never had."""
 _NEVER_ROS1 = re.compile(_ONLY_ROS2)
 _ROS2_MARKS = re.compile(
     r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
-    r"""|<log[\s/>]|<include\s[^>]*\.(?:py|ya?ml)["']|""" + _ONLY_ROS2
+    r"""|<log[\s/>]|<include\s[^<>]*\.(?:py|ya?ml)["']|""" + _ONLY_ROS2
 )
 _ROS1_MARKS = re.compile(
     r"""\$\((?:arg|find|optenv)\s|<(?:rosparam|machine|test)[\s/>]"""
-    r"""|<node\s[^>]*\btype\s*=|<(?:include|node|group)\s[^>]*\bns\s*="""
-    r"""|<param\s[^>]*\b(?:command|textfile|binfile)\s*=|\bpass_all_args\s*="""
+    r"""|<node\s[^<>]*\btype\s*=|<(?:include|node|group)\s[^<>]*\bns\s*="""
+    r"""|<param\s[^<>]*\b(?:command|textfile|binfile)\s*=|\bpass_all_args\s*="""
 )
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_AMENT = re.compile(r"<build_type[^>]*>\s*ament_|<buildtool_depend[^>]*>\s*ament_")
-_CATKIN = re.compile(r"<buildtool_depend[^>]*>\s*catkin\s*<")
+_AMENT = re.compile(r"<build_type[^<>]*>\s*ament_|<buildtool_depend[^<>]*>\s*ament_")
+_CATKIN = re.compile(r"<buildtool_depend[^<>]*>\s*catkin\s*<")
 
 
 def read_launch(source: Text, generation: int | None = None, undecided: int = 1) -> LaunchFile:
@@ -73,7 +72,7 @@ def generation_of(path: str, text: str, undecided: int = 1) -> int:
     """1 or 2; `undecided` for what has no mark of either, in no package that has one."""
     if path.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX)):
         return 2
-    code = _COMMENT.sub("", text)
+    code = without_comments(text)
     ros2, ros1 = _ROS2_MARKS.search(code), _ROS1_MARKS.search(code)
     if ros2 is not None and ros1 is None:
         return 2
@@ -94,7 +93,7 @@ def _of_package(path: str) -> int | None:
         try:
             if os.path.isfile(manifest):
                 with open(manifest, encoding="utf-8", errors="replace") as file:
-                    content = _COMMENT.sub("", file.read(100_000))
+                    content = without_comments(file.read(100_000))
                 return 2 if _AMENT.search(content) else 1 if _CATKIN.search(content) else None
         except OSError:
             return None

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.shares import package_around
@@ -14,10 +15,9 @@ from preflight_analysis.launch.model import LaunchFile, Substitution
 from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^>]*>[^<]*</\w+>", re.MULTILINE)
+_DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^<>]*>[^<]*</\w+>", re.MULTILINE)
 _END = re.compile(r"^([ \t]*)</package\s*>", re.MULTILINE)
-_FORMAT = re.compile(r"<package\b[^>]*\bformat\s*=\s*[\"']([23])[\"']")
+_FORMAT = re.compile(r"<package\b[^<>]*\bformat\s*=\s*[\"']([23])[\"']")
 _OF_A_PACKAGE = ("node", "test", "node_container", "lifecycle_node", "composable_node")
 _FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
@@ -75,7 +75,7 @@ def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix,
     manifest = context.sources.text(owner.manifest) if context.sources is not None else None
     if not isinstance(manifest, Document) or os.path.basename(owner.manifest) != MANIFEST:
         return ()
-    text = _COMMENT.sub(lambda comment: " " * len(comment[0]), manifest.text)
+    text = without_comments(manifest.text)
     folders = file[len(owner.share) :].split("/")
     tag = "exec_depend" if _FORMAT.search(text) else "run_depend"
     if file.endswith(".test") or any(folder in _TEST_FOLDERS for folder in folders):

@@ -15,6 +15,7 @@ from types import ModuleType
 
 import preflight_analysis.rules as package
 from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import apply_suppressions
 from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain
@@ -44,6 +45,7 @@ def rule_by_id(rule_id: str) -> Rule | None:
 def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Finding]:
     """The findings of all rules (or of `rules`), without repetitions and suppressed ones, sorted by place.
 
+    Of a file with very many the most severe, and one that counts the others.
     Each is marked as holding in `context.root`. A rule that raises is logged and costs its own findings alone.
     """
     chosen = all_rules() if rules is None else rules
@@ -65,6 +67,10 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     judge = next((rule for rule in chosen if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
         kept += [judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran]
+    kept, others = most_severe(kept)
+    counts = next((rule for rule in chosen if rule.left_out is not None), None)
+    if counts is not None and counts.left_out is not None:
+        kept += [counts.left_out(counts, path, found) for path, found in others.items()]
     return sorted((in_root(finding, context.root) for finding in kept), key=_place)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, TypeVar
 
@@ -12,6 +12,7 @@ from preflight_analysis.environment.cmake import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.finding import Confidence, End, Finding, Fix, Related, Severity
 from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
@@ -79,6 +80,7 @@ class Rule(RuleDescription):
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
+    `left_out` is for the one rule that counts the findings of a file which are too many to be shown.
     """
 
     check: Check = field(repr=False)
@@ -87,6 +89,7 @@ class Rule(RuleDescription):
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)
     unused_suppression: Callable[[Rule, Suppression], Finding] | None = field(default=None, repr=False)
+    left_out: Callable[[Rule, str, Sequence[Finding]], Finding] | None = field(default=None, repr=False)
 
     def finding(
         self,
@@ -100,16 +103,16 @@ class Rule(RuleDescription):
         stops_launch: bool = False,
         ends: Iterable[End] = (),
     ) -> Finding:
-        """A finding of this rule."""
+        """A finding of this rule. What the messages say is clipped: names may be as long as a file."""
         return Finding(
             self.id,
             self.name,
             severity or self.severity,
             confidence,
-            message,
+            clipped(message),
             location,
-            tuple(related),
-            tuple(fixes),
+            tuple(r if len(r.message) <= SHORT else replace(r, message=clipped(r.message)) for r in related),
+            tuple(f if len(f.title) <= SHORT else replace(f, title=clipped(f.title)) for f in fixes),
             (),
             stops_launch,
             ends=tuple(ends),

@@ -13,7 +13,7 @@ from typing import Any
 
 import yaml
 
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.tracing.interface import Range
 
 _MAX_PARAMS = 300
@@ -49,7 +49,7 @@ Libraries = Callable[[str, Sequence[str]], "ParameterLibrary | None"]
 def read_parameter_library(path: str, text: str) -> tuple[str, ParameterLibrary] | None:
     """The C++ namespace of a file and what it declares; None if it is no such file."""
     try:
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
+        root = compose(text)
     except CONSTRUCTION_ERRORS:
         return None
     if not isinstance(root, yaml.MappingNode) or len(root.value) != 1:

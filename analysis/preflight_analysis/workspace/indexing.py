@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -21,6 +22,11 @@ from preflight_analysis.workspace.workspace import Workspace
 
 SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"})
 """Folders right below the workspace that hold copies of what is in its source."""
+
+MAX_INCLUDED = 200_000
+"""How many includes are evaluated for one index. A workspace of a thousand launch files has some ten thousand."""
+_MAX_UPSTREAM = 100
+_log = logging.getLogger(__name__)
 
 Report = Callable[[int, int, str], None]
 """How many of how many are done, and the path that is next."""
@@ -58,14 +64,46 @@ def build_index(
             return None
         maker.enter(root)
     # A file that only a false condition includes, or files that include each other in a circle, are reached by no one.
+    upstream = _Upstream(maker.written)
     for path in paths:
-        if cancelled():
-            return None
-        if path not in maker.reached:
-            maker.enter(Root(path))
+        while path not in maker.reached:
+            if cancelled():
+                return None
+            maker.enter(root := Root(upstream.of(path, maker.reached)))
+            maker.reached.add(root.path)
+    if maker.left_out:
+        what = (
+            "%s: the launch files include each other more than %d times; who includes whom is not known of %d of them"
+        )
+        _log.warning(what, folder, MAX_INCLUDED, maker.left_out)
     maker.drop_included(keep=frozenset(named))
     maker.read_reached()
     return WorkspaceIndex(maker.files, maker.entries, tuple(maker.written), complete=True)
+
+
+class _Upstream:
+    """Where to begin with files that no root reaches, so that one evaluation reaches many of them."""
+
+    def __init__(self, written: Sequence[Inclusion]) -> None:
+        self._includers: dict[str, dict[str, None]] = {}
+        for inclusion in written:
+            self._includers.setdefault(inclusion.target, {})[inclusion.includer] = None
+
+    def of(self, path: str, reached: Collection[str]) -> str:
+        """The unreached file from which at most `_MAX_UPSTREAM` includes that are written lead to `path`; itself where
+        it is in a shorter circle. A condition may forbid one of them, so the path is not always reached from there."""
+        seen = {path}
+        at = path
+        while len(seen) <= _MAX_UPSTREAM:
+            before = self._includers.get(at, {})
+            if path in before and at != path:
+                return path
+            above = next((each for each in before if each not in reached and each not in seen), None)
+            if above is None:
+                break
+            seen.add(above)
+            at = above
+        return at
 
 
 def entry_of(tree: LaunchTree, root: Root) -> RootEntry:
@@ -100,6 +138,9 @@ class _Maker:
         self.entries: dict[Root, RootEntry] = {}
         self.written: list[Inclusion] = []
         self.reached: set[str] = set()
+        self._included = 0
+        self.left_out = 0
+        """Roots that were not evaluated, as there were too many includes before them."""
 
     def read(self, path: str) -> None:
         """The facts of one file, and the includes that its text shows."""
@@ -120,7 +161,12 @@ class _Maker:
         entry = self._known.entries.get(root)
         if entry is None or not self._stale.isdisjoint(entry.inputs):
             self._report(len(self.reached), self._total, root.path)
-            entry = entry_of(self._workspace.tree(root.path, dict(root.args)), root)
+            if self._included >= MAX_INCLUDED:
+                entry = RootEntry(root, (root.path,), {root.path: self._workspace.sources.digest(root.path)}, (), ())
+                self.left_out += 1
+            else:
+                entry = entry_of(self._workspace.tree(root.path, dict(root.args)), root)
+                self._included += len(entry.inclusions)
         self.entries[root] = entry
         self.reached.update(entry.files)
 

@@ -29,7 +29,7 @@ import yaml
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Text, digest, read_text
 from preflight_analysis.documents.span import LineIndex, Location, Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Severity
@@ -91,7 +91,7 @@ def read_project_settings(folder: str) -> ProjectSettings:
         unreadable = SettingsProblem(f"the file {found.reason}", 1)
         return ProjectSettings(path, (), () if found.kind == "missing" else (unreadable,))
     try:
-        document = yaml.compose(found.text, Loader=yaml.SafeLoader)
+        document = compose(found.text)
     except CONSTRUCTION_ERRORS as error:
         mark = getattr(error, "problem_mark", None)
         reason = getattr(error, "problem", None) or "it is no YAML"

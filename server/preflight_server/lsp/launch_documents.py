@@ -11,9 +11,9 @@ from preflight_server.lsp.text_store import OpenDocument
 
 _LIKE_OTHER_XML = "_launch.xml"
 """Usual in ROS 2, but no name that only a launch file can have."""
-_LAUNCH_ROOT = re.compile(
-    r"\ufeff?\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^<>]*>\s*)*<launch(?=[\s/>]|\Z)", re.DOTALL
-)
+_BLANKS = re.compile(r"\s*")
+_DOCTYPE = re.compile(r"<!DOCTYPE[^<>]*>")
+_LAUNCH_TAG = re.compile(r"<launch(?=[\s/>]|\Z)")
 
 
 def is_launch_file(document: OpenDocument) -> bool:
@@ -25,7 +25,25 @@ def is_launch_file(document: OpenDocument) -> bool:
     says_so = document.path.endswith(LAUNCH_SUFFIXES) and not document.path.endswith(_LIKE_OTHER_XML)
     if document.language_id == "roslaunch" or says_so:
         return document.language_id != "python"
-    return document.language_id == "xml" and _LAUNCH_ROOT.match(document.text) is not None
+    return document.language_id == "xml" and _is_launch(document.text)
+
+
+def _is_launch(text: str) -> bool:
+    """Whether `<launch` is the first tag, behind declarations and comments."""
+    at = 1 if text.startswith("\ufeff") else 0
+    while True:
+        blanks = _BLANKS.match(text, at)
+        at = blanks.end() if blanks else at
+        if text.startswith(("<?", "<!--"), at):
+            closing = "?>" if text.startswith("<?", at) else "-->"
+            close = text.find(closing, at + 2)
+            if close < 0:
+                return False
+            at = close + len(closing)
+        elif doctype := _DOCTYPE.match(text, at):
+            at = doctype.end()
+        else:
+            return _LAUNCH_TAG.match(text, at) is not None
 
 
 def is_python_launch_file(document: OpenDocument) -> bool:

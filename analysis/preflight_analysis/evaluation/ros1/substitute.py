@@ -195,7 +195,7 @@ _COMMANDS: dict[str, Callable[[State, Scope, Substitution, list[str]], str]] = {
 
 def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None) -> Resolved:
     """The second round: `$(find pkg)` with the path that follows it, up to a blank."""
-    written = [part for part in value.substitutions if part.command == "find"]
+    substitutions = {part.text: part for part in reversed(tuple(value.substitutions))}
     known = True
     try:
         pieces = [text[start:end] for start, end in find_substitutions(text)]
@@ -205,13 +205,13 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
     for piece in pieces:
         words = [w for w in piece[2:-1].split(" ") if w]
         if not words or words[0] != "find":
-            if (not words or words[0] not in COMMANDS_ROS1) and all(p.text != piece for p in value.substitutions):
+            if (not words or words[0] not in COMMANDS_ROS1) and piece not in substitutions:
                 # Made by a value: `$$(arg a)` where a is `(b)`.
                 message = f"'{piece}', which the values make, is not a substitution"
                 state.problem("bad-substitution", scope.origin(at or value.span), text=piece, message=message)
             known = known and bool(words) and words[0] in COMMANDS_ROS1
             continue
-        part = next((p for p in written if p.text == piece), None)
+        part = substitutions.get(piece)
         span = at or (part.span if part else value.span)
         try:
             if len(words) != 2:
@@ -222,6 +222,8 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
                 state.problem(failure.kind, scope.origin(span), fatal=failure.fatal, **failure.data)
             known = False
             continue
+        if not state.has_room(len(text) + len(share), scope.origin(span)):
+            return Resolved(text, False)
         text = _insert_package(state, text, piece, words[1], share)
         if part is not None and at is None:
             manifest = state.environment.packages[words[1]].manifest

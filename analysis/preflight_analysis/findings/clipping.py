@@ -1,0 +1,43 @@
+"""How much is said: long names within a message are shortened, and the findings of a file are counted."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from preflight_analysis.findings.finding import SEVERITIES, Finding
+
+SHORT = 300
+"""Characters of a message that is never clipped."""
+MAX_MESSAGE = 2000
+MAX_FINDINGS = 2000
+"""Of one file in one root. Of 3,400 public launch files none has a tenth as many."""
+
+_LONG_WORD = re.compile(r"(\S{120})\S{40,}(\S{40})")
+
+
+def clipped(message: str) -> str:
+    """The message with the middle left out of words of more than 200 characters, and of at most `MAX_MESSAGE`."""
+    if len(message) <= SHORT:
+        return message
+    ends = message[: 2 * MAX_MESSAGE] + message[max(2 * MAX_MESSAGE, len(message) - 2 * MAX_MESSAGE) :]
+    short = _LONG_WORD.sub("\\1\u2026\\2", ends)
+    if len(short) <= MAX_MESSAGE:
+        return short
+    return f"{short[: MAX_MESSAGE // 2]}\u2026{short[-MAX_MESSAGE // 2 :]}"
+
+
+def most_severe(findings: Iterable[Finding]) -> tuple[list[Finding], dict[str, list[Finding]]]:
+    """The `MAX_FINDINGS` most severe findings of each file, the first ones among those as severe, and the others by
+    file."""
+    by_file: dict[str, list[Finding]] = {}
+    for finding in findings:
+        by_file.setdefault(finding.location.file, []).append(finding)
+    kept: list[Finding] = []
+    others: dict[str, list[Finding]] = {}
+    for path, found in by_file.items():
+        if len(found) > MAX_FINDINGS:
+            found.sort(key=lambda f: (-SEVERITIES.index(f.severity), f.location.span, f.rule))
+            others[path] = found[MAX_FINDINGS:]
+        kept += found[:MAX_FINDINGS]
+    return kept, others

@@ -1,0 +1,37 @@
+"""LCH038: a file has more findings than are shown."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.clipping import MAX_FINDINGS
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    """What the other rules find is counted after they have run."""
+    return iter(())
+
+
+def _left_out(rule: Rule, path: str, findings: Sequence[Finding]) -> Finding:
+    counts = Counter(finding.rule for finding in findings)
+    named = ", ".join(f"{count} of {each}" for each, count in counts.most_common())
+    severity = findings[0].severity  # the most severe of them comes first
+    message = f"{len(findings)} more findings in this file are not shown: {named}"
+    return rule.finding(message, Location(path, Span(0, 0)), severity=severity)
+
+
+RULE = Rule(
+    id="LCH038",
+    name="findings-left-out",
+    severity="warning",
+    what=f"Counts the findings of a file beyond the {MAX_FINDINGS:,} most severe ones, which are not shown. It is as "
+    "severe as the most severe of them.",
+    why="A file with so many findings was made by a faulty program, or to stall an editor. Nobody reads them all, and "
+    "showing them would take longer than finding them.",
+    example="<launch>\n  <!-- ten thousand unknown tags -->\n</launch>",
+    instead="Correct the first findings, and suppress or switch off the rule that speaks most.",
+    check=_check,
+    left_out=_left_out,
+)
