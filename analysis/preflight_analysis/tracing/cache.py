@@ -26,7 +26,7 @@ from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import encode_params
-from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, digest_of, fingerprint, listing
+from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, digest_of, fingerprint, listing
 
 SCHEMA = "ros-preflight/trace-cache/4"
 MAX_ENTRY_BYTES = 4 << 20
@@ -90,8 +90,8 @@ class TraceCache(Store):
         files = {}
         for path in dict.fromkeys((request.executable, *dependencies.files)):
             files[path] = fingerprint(path)
-            if changed_since(path, started):
-                return False
+        if any_changed_since(files, started):
+            return False
         known: dict[str, Any] = {
             "files": files,
             "listings": {folder: listing(folder) for folder in listings},

@@ -35,7 +35,7 @@ from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.outcome import stderr_tail
 from preflight_analysis.tracing.records import paths
 from preflight_analysis.tracing.repositories import git_paths
-from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, changed_since, fingerprint
+from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, fingerprint, identity
 from preflight_analysis.tracing.trace import on_host
 
 _log = logging.getLogger(__name__)
@@ -79,7 +79,7 @@ class CommandCache(Store):
     ) -> bool:
         """Keep the output of a run that began at `started`. False if a file has changed since, or the disk refused."""
         known = {path: fingerprint(path) for path in dict.fromkeys(files)}
-        if any(changed_since(path, started) for path in known):
+        if any_changed_since(known, started):
             return False
         return self._keep(self._place(recipe, packages), known, {"files": known, "output": output})
 
@@ -205,6 +205,7 @@ class CommandRunner:
             return CommandResult("not-run", reason="the run was cancelled")
         shown = Visible(tuple(job.visible), self._repositories)
         agents = compiled.copies().of(self._interpreter, shown)
+        before = list(map(identity, job.named))
         raw = run.execute_command(job.recipe, shown, self._interpreter, cancel, agents)
         ended = _read(raw)
         result = _result(raw, ended)
@@ -217,7 +218,7 @@ class CommandRunner:
             refused = launch_files.sandbox_to_blame(result.output, job.visible, narrow=status.narrow)
             if refused is not None:
                 return CommandResult("not-run", reason=refused)
-        if result.status == "done" and self.cache is not None:
+        if result.status == "done" and self.cache is not None and before == list(map(identity, job.named)):
             files = (*job.named, *on_host(ended.files, job.visible))
             self.cache.store(job.recipe, self._packages, result.output, files, started=raw.started)
         return result

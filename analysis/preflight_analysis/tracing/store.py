@@ -17,7 +17,7 @@ import stat
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -202,11 +202,11 @@ def fingerprint(path: str) -> str:
         return "empty"
     if path.startswith(_SYSTEM) or info.st_size > _HASHED_BYTES:
         return f"{info.st_mtime_ns}:{info.st_size}"
-    return _digest(path, info.st_mtime_ns, info.st_size, info.st_ino)
+    return _digest(path, info.st_mtime_ns, info.st_size, info.st_ino, info.st_ctime_ns)
 
 
 @functools.lru_cache(maxsize=4096)
-def _digest(path: str, mtime: int, size: int, inode: int) -> str:
+def _digest(path: str, *_state: int) -> str:
     try:
         with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
             return hashlib.sha256(file.read(_HASHED_BYTES) or b"").hexdigest()
@@ -223,12 +223,47 @@ def listing(folder: str) -> str:
     return hashlib.sha256("\0".join(found).encode(errors="surrogatepass")).hexdigest()
 
 
-def changed_since(path: str, moment: float) -> bool:
-    """Whether a file was written after a moment (seconds since the epoch): a run that read it may have read either."""
+def identity(path: str) -> str:
+    """What tells before and after a run whether a path led to the same file all the time, but for what was put back
+    meanwhile: that `any_changed_since` sees."""
     try:
-        return os.stat(path).st_mtime >= moment
+        info = os.stat(path)
+    except (OSError, ValueError):
+        return ""
+    return repr((os.path.realpath(path), fingerprint(path), info.st_dev, info.st_ino, info.st_ctime_ns))
+
+
+def any_changed_since(paths: Iterable[str], moment: float) -> bool:
+    """Whether a file was written, replaced or removed after a moment (seconds since the epoch), or a link or folder on
+    the way to it was: a run that read it may have read either.
+
+    By the time of the inode's change, which nobody can set. A folder has a later one than that of its content when it
+    was renamed itself.
+    """
+    seen: set[str] = set()
+    return any(
+        _changed_since(at, moment)
+        for path in paths
+        for given in (path, os.path.realpath(path))
+        for at in _way_to(given, seen)
+    )
+
+
+def _way_to(path: str, seen: set[str]) -> Iterator[str]:
+    while path not in seen:
+        seen.add(path)
+        yield path
+        path = os.path.dirname(path)
+
+
+def _changed_since(path: str, moment: float) -> bool:
+    try:
+        info = os.lstat(path)
     except (OSError, ValueError):
         return False
+    if stat.S_ISDIR(info.st_mode):
+        return info.st_ctime >= moment and info.st_ctime_ns != info.st_mtime_ns
+    return max(info.st_mtime, info.st_ctime) >= moment
 
 
 @functools.lru_cache(maxsize=1)

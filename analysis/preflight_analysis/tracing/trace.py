@@ -25,6 +25,7 @@ from preflight_analysis.tracing.observation import Observation, observe
 from preflight_analysis.tracing.repositories import git_paths
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.service_types import ServiceTypes
+from preflight_analysis.tracing.store import identity
 from preflight_analysis.tracing.turns import turn
 
 _log = logging.getLogger(__name__)
@@ -124,6 +125,7 @@ class Tracer:
             return _not_run(f"no sandbox: {status.reason}")
         if cancel.is_set():
             return _not_run("the run was cancelled")
+        before = identity(request.executable)
         built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
         if request.generation == 2 and built.reason is not None:
             return _not_run(built.reason)
@@ -157,7 +159,7 @@ class Tracer:
             )
         if status.narrow and observed.interface.outcome.status == "crashed":
             observed = replace(observed, lasting=False, interface=_perhaps_refused(observed.interface, status))
-        if self.cache is not None and observed.lasting:
+        if self.cache is not None and observed.lasting and identity(request.executable) == before:
             self.cache.store(
                 recipe,
                 request,
