@@ -137,11 +137,11 @@ class SourceAnalysis:
                 entry = (node.resolved.entry_point or "").partition(":")[2] or None
                 rclpy = RclpyCalls(node.name, (file, *args), asked)
                 interpret(file, tree, program.load, rclpy, entry)
-                found = rclpy.found
+                found = rclpy.collected
             else:
                 calls = RospyCalls(node.name, resolved, (file, *args), asked, self._has_type, config)
                 interpret(file, tree, program.load, calls)
-                found = calls.found
+                found = calls.collected
         elif self._generation(node) == 2:
             found = self._cpp.read_ros2((node.name, node.package, node.executable), args, asked, text, node.plugin)
         else:

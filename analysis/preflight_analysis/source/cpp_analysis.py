@@ -8,11 +8,11 @@ from functools import partial
 
 from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.model import Package
+from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
 from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main
 from preflight_analysis.source.cpp_text import FileText, parse
-from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
@@ -41,7 +41,7 @@ class CppAnalysis:
         params: KnownParams,
         text: Callable[[str], tuple[str, str] | None],
         config: Config,
-    ) -> Found:
+    ) -> Collector:
         """What a node (its name, package and executable) makes. `text` gives the text of a file with its digest."""
         name, package, executable = node
         files = CppFiles(
@@ -50,15 +50,15 @@ class CppAnalysis:
         calls = RoscppCalls(name, remaps, params, self._has_type, config)
         if (nodelet := nodelet_of(package, executable, args)) is not None:
             self._nodelet(files, nodelet.plugin, calls)
-            if nodelet.manager is not None and (calls.found.endpoints or calls.found.params):
-                calls.found.end(Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad"))
+            if nodelet.manager is not None and (calls.collected.endpoints or calls.collected.params):
+                calls.collected.end(Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad"))
         elif (program := files.executable(package, executable)) is not None:
             calls.includes = program.includes
             interpret_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
             for loaded in calls.nodelets:
                 calls.loaded = loaded
                 self._nodelet(files, loaded.plugin, calls)
-        return calls.found
+        return calls.collected
 
     def read_ros2(
         self,
@@ -67,7 +67,7 @@ class CppAnalysis:
         params: KnownParams,
         text: Callable[[str], tuple[str, str] | None],
         plugin: str | None,
-    ) -> Found:
+    ) -> Collector:
         """What a node of ROS 2 makes, `plugin` if it is a component that is loaded into a container."""
         name, package, executable = node
         files = CppFiles(
@@ -86,7 +86,7 @@ class CppAnalysis:
             else:
                 interpret_main(program, (executable, *args), calls)
         calls.finish()
-        return calls.found
+        return calls.collected
 
     def component(self, package: str, cls: str, text: Callable[[str], tuple[str, str] | None]) -> Place | None:
         """Where the class is defined that a package registers as an rclcpp component."""

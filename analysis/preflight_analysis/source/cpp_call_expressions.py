@@ -8,6 +8,7 @@ from typing import Any
 
 from tree_sitter import Node
 
+from preflight_analysis.source.branches import ExitError
 from preflight_analysis.source.cpp_objects import Objects
 from preflight_analysis.source.cpp_operators import (
     MAX_ITEMS,
@@ -35,7 +36,6 @@ from preflight_analysis.source.cpp_values import (
     values,
 )
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.ways import ExitError
 
 MAX_WAITING = 500
 _CASTS = frozenset({"static_cast", "dynamic_cast", "const_cast", "reinterpret_cast", "lexical_cast"})
@@ -131,14 +131,14 @@ class CallExpressions(Objects):
         if name == "reset" and len(args) == 1 and not isinstance(owner, (str, list, dict, Stream)):
             reference = self._lvalue(target, scope)
             if reference is not None:
-                self._ways.store(reference.names, reference.name, args[0].value)
+                self._branches.store(reference.names, reference.name, args[0].value)
             return None
         if isinstance(owner, Stream):
             return self._stream(owner, name, args)
         if isinstance(owner, str):
             found = text_method(owner, name, values(args))
             if name == "append" and (reference := self._lvalue(target, scope)) is not None:
-                self._ways.store(reference.names, reference.name, found)
+                self._branches.store(reference.names, reference.name, found)
             return found
         if isinstance(owner, (list, dict)):
             return self._container(owner, name, args)
@@ -174,7 +174,7 @@ class CallExpressions(Objects):
         """An empty text or container that is given to a function of which nothing is known is for what that finds."""
         for arg in args if path[0] != "ros" else ():
             if arg.reference is not None and arg.value in ("", [], {}):
-                self._ways.store(arg.reference.names, arg.reference.name, UNKNOWN)
+                self._branches.store(arg.reference.names, arg.reference.name, UNKNOWN)
 
     def _given(self, text: FunctionText, types: list[CppType]) -> dict[str, CppType]:
         return dict(zip(text.template, types, strict=False))
@@ -186,7 +186,7 @@ class CallExpressions(Objects):
             node = callee.child_by_field_name("argument") if callee is not None else None
         reference = self._lvalue(node, scope)
         if reference is not None:
-            self._ways.store(reference.names, reference.name, value)
+            self._branches.store(reference.names, reference.name, value)
 
     def _stream(self, stream: Stream, name: str, args: list[Argument]) -> Any:
         if name == "str":
@@ -197,10 +197,10 @@ class CallExpressions(Objects):
 
     def _container(self, owner: list[Any] | dict[Any, Any], name: str, args: list[Argument]) -> Any:
         if isinstance(owner, list) and name in ("push_back", "emplace_back", "insert", "push", "add") and args:
-            if len(owner) < MAX_ITEMS and not self._ways.inside:
+            if len(owner) < MAX_ITEMS and not self._branches.inside:
                 owner.append(args[-1].value)
             return None
-        if name == "clear" and not self._ways.inside:
+        if name == "clear" and not self._branches.inside:
             owner.clear()
             return None
         return items_method(owner, name, values(args))
@@ -215,7 +215,7 @@ class CallExpressions(Objects):
 
     def _store(self, argument: Argument, value: Any, /) -> None:
         if argument.reference is not None:
-            self._ways.store(argument.reference.names, argument.reference.name, value)
+            self._branches.store(argument.reference.names, argument.reference.name, value)
 
 
 def _bound(args: list[Argument]) -> Any:

@@ -7,13 +7,13 @@ from typing import Any
 
 from tree_sitter import Node
 
+from preflight_analysis.source.branches import same
 from preflight_analysis.source.cpp_call_expressions import MAX_WAITING, CallExpressions
 from preflight_analysis.source.cpp_operators import MAX_ITEMS, binary, item, number, truth, unary
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import first_child, parameters_of, path_of, text_of
 from preflight_analysis.source.cpp_values import Calls, Fluent, Function, Instance, Reference, Scope
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.ways import same
 
 MAX_STEPS = 80_000
 _MAX_NESTING = 150
@@ -116,7 +116,7 @@ class Expressions(CallExpressions):
         if operator == ">>" and not isinstance(left, int):
             read = self._lvalue(node.child_by_field_name("right"), scope)
             if read is not None:
-                self._ways.store(read.names, read.name, UNKNOWN)
+                self._branches.store(read.names, read.name, UNKNOWN)
             return UNKNOWN
         if operator not in ("&&", "||", "and", "or"):
             return binary(operator, left, self._value(node.child_by_field_name("right"), scope))
@@ -129,10 +129,10 @@ class Expressions(CallExpressions):
 
     def _conditional(self, node: Node, scope: Scope) -> Any:
         known = truth(self._value(node.child_by_field_name("condition"), scope))
-        ways = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
+        branches = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         if known is not None:
-            return self._value(ways[0] if known else ways[1], scope)
-        return same(self._value(ways[0], scope), self._value(ways[1], scope))
+            return self._value(branches[0] if known else branches[1], scope)
+        return same(self._value(branches[0], scope), self._value(branches[1], scope))
 
     def _assign(self, node: Node, scope: Scope) -> Any:
         target = node.child_by_field_name("left")
@@ -145,7 +145,7 @@ class Expressions(CallExpressions):
             indices = target.child_by_field_name("indices")
             key = self._value(first_child(indices), scope)
             if isinstance(owner, dict) and isinstance(key, str) and len(owner) < MAX_ITEMS:
-                self._ways.store(owner, key, value)
+                self._branches.store(owner, key, value)
             return value
         reference = self._lvalue(target, scope)
         if target is not None and target.type == "field_expression" and reference is None:
@@ -157,7 +157,7 @@ class Expressions(CallExpressions):
         if reference is not None:
             if isinstance(value, list):
                 value = list(value)
-            self._ways.store(reference.names, reference.name, value)
+            self._branches.store(reference.names, reference.name, value)
         return value
 
     def _update(self, node: Node, scope: Scope) -> Any:
@@ -167,7 +167,7 @@ class Expressions(CallExpressions):
         new = old + step if isinstance(old, int) else UNKNOWN
         reference = self._lvalue(target, scope)
         if reference is not None:
-            self._ways.store(reference.names, reference.name, new)
+            self._branches.store(reference.names, reference.name, new)
         return new if text_of(node).startswith(("++", "--")) else old
 
     def _lvalue(self, node: Node | None, scope: Scope) -> Reference | None:

@@ -8,13 +8,13 @@ from typing import Any
 
 from tree_sitter import Node
 
+from preflight_analysis.source.branches import Branches, same
 from preflight_analysis.source.cpp_names import Names
 from preflight_analysis.source.cpp_program import CppProgram, words_in
 from preflight_analysis.source.cpp_text import FunctionText, Parameter, parameters_of
 from preflight_analysis.source.cpp_types import PRIMITIVES, pointed, standard
 from preflight_analysis.source.cpp_values import Argument, Calls, CppType, Function, Instance, Scope, Unmade
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.ways import Ways, same
 
 MAX_DEPTH = 30
 _MAX_VISITS = 100
@@ -25,8 +25,8 @@ class Functions(Names):
 
     def __init__(self, program: CppProgram, calls: Calls) -> None:
         super().__init__(program, calls)
-        self._ways = Ways()
-        calls.begin(self._ways)
+        self._branches = Branches()
+        calls.begin(self._branches)
         self._visits: dict[int, int] = {}
         self._active: set[int] = set()
         self._returns: list[list[Any]] = []

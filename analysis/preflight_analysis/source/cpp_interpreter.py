@@ -1,7 +1,7 @@
 """Goes through a C++ program in the order in which it would run, with the values that its text alone tells.
 
-As in `python_interpreter`: both ways of a condition are taken where it is not known, a loop once; callbacks come last,
-with arguments unknown. What is not of the program goes to `Calls`, which knows what ROS's libraries do.
+As in `python_interpreter`: both branches of a condition are taken where it is not known, a loop once; callbacks come
+last, with arguments unknown. What is not of the program goes to `Calls`, which knows what ROS's libraries do.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 
 from tree_sitter import Node
 
+from preflight_analysis.source.branches import ExitError
 from preflight_analysis.source.cpp_expressions import Expressions, TooLargeError
 from preflight_analysis.source.cpp_operators import MAX_ITEMS, truth
 from preflight_analysis.source.cpp_program import CppProgram
@@ -30,7 +31,6 @@ from preflight_analysis.source.cpp_text import (
 )
 from preflight_analysis.source.cpp_values import Argument, Calls, CppType, Instance, Scope
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.ways import ExitError
 
 _MAX_TURNS = 64
 _FEW_TURNS = 8
@@ -55,7 +55,7 @@ def interpret_class(program: CppProgram, name: str, method: str | None, calls: C
 class _Interpreter(Expressions):
     def __init__(self, program: CppProgram, calls: Calls) -> None:
         super().__init__(program, calls)
-        self._is_aside = False
+        self._in_dead_code = False
 
     def run(self, function: FunctionText, instance: Instance | None, args: Sequence[Any]) -> None:
         try:
@@ -89,7 +89,7 @@ class _Interpreter(Expressions):
         return True
 
     def _callbacks(self) -> None:
-        self._late = self._ways.late = True
+        self._late = self._branches.late = True
         for waiting in self._waiting:  # grows while it is gone through
             body = waiting.text.body if waiting.text is not None else waiting.body
             if body is not None and not self._visits.get(body.id):
@@ -102,22 +102,22 @@ class _Interpreter(Expressions):
         ended = False
         for index, node in enumerate(nodes):
             ended = self._statement(node, scope) or ended
-            if ended and not self._is_aside:
-                self._aside(nodes[index + 1 :], scope)
+            if ended and not self._in_dead_code:
+                self._dead_code(nodes[index + 1 :], scope)
                 break
         return ended
 
-    def _aside(self, nodes: Sequence[Node], scope: Scope) -> None:
+    def _dead_code(self, nodes: Sequence[Node], scope: Scope) -> None:
         """Go through what is not reached, if that tells something, and take back all that it did."""
-        if self._is_aside or not any(self._leads(node) for node in nodes) or not self._calls.aside(True):
+        if self._in_dead_code or not any(self._leads(node) for node in nodes) or not self._calls.dead_code(True):
             return
-        self._is_aside = True
+        self._in_dead_code = True
         waiting, returned = len(self._waiting), len(self._returns[-1]) if self._returns else 0
         try:
-            self._ways.try_out(lambda: self._block(nodes, scope))
+            self._branches.try_out(lambda: self._block(nodes, scope))
         finally:
-            self._calls.aside(False)
-            self._is_aside = False
+            self._calls.dead_code(False)
+            self._in_dead_code = False
             del self._waiting[waiting:]
             if self._returns:
                 del self._returns[-1][returned:]
@@ -164,7 +164,7 @@ class _Interpreter(Expressions):
                 other = node.child_by_field_name("alternative")
                 return other is not None and self._statement(other, scope)
             case kind if kind in CONDITIONAL:
-                self._ways.either(
+                self._branches.either(
                     lambda: self._block([c for c in node.named_children if not _is_directive(c)], scope), lambda: False
                 )
                 other = node.child_by_field_name("alternative")
@@ -189,12 +189,12 @@ class _Interpreter(Expressions):
                 if name is not None and args is not None:
                     type_ = self._type(type_node, scope)
                     made = self._make(type_, args, self._place(node, scope), scope) if type_ else UNKNOWN
-                    self._ways.store(scope.names, text_of(name), made)
+                    self._branches.store(scope.names, text_of(name), made)
                 continue
             name = declared_name(declarator)
             if name is not None:
                 field = FieldText(text_of(name), type_node, declarator, value, (), scope.file)
-                self._ways.store(scope.names, field.name, self._initial(field, scope))
+                self._branches.store(scope.names, field.name, self._initial(field, scope))
 
     def _vexed(self, listed: Node | None, scope: Scope) -> list[Argument] | None:
         found: list[Argument] = []
@@ -218,14 +218,14 @@ class _Interpreter(Expressions):
     def _if(self, node: Node, scope: Scope) -> bool:
         condition = node.child_by_field_name("condition")
         met = self._condition(condition, scope)
-        known = truth(met) if not self._is_aside else None
+        known = truth(met) if not self._in_dead_code else None
         then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         if known is not None:
             way, left = (then, other) if known else (other, then)
             if left is not None:
-                self._aside([left], scope)
+                self._dead_code([left], scope)
             return way is not None and self._statement(way, scope)
-        return self._ways.either(
+        return self._branches.either(
             lambda: then is not None and self._statement(then, scope),
             lambda: other is not None and self._statement(other, scope),
         )
@@ -259,7 +259,7 @@ class _Interpreter(Expressions):
             known = truth(self._value(condition, scope)) if condition is not None else None
             if known is None:
                 for name in counters:
-                    self._ways.store(scope.names, name, UNKNOWN)
+                    self._branches.store(scope.names, name, UNKNOWN)
                 self._once(body, scope)
                 return
             if not known or self._statement(body, scope):
@@ -273,7 +273,7 @@ class _Interpreter(Expressions):
 
     def _once(self, body: Node, scope: Scope) -> None:
         """Go through what may be done any number of times."""
-        self._ways.either(lambda: self._statement(body, scope), lambda: False)
+        self._branches.either(lambda: self._statement(body, scope), lambda: False)
 
     def _for_range(self, node: Node, scope: Scope) -> None:
         items = self._value(node.child_by_field_name("right"), scope)
@@ -283,10 +283,10 @@ class _Interpreter(Expressions):
             return
         if isinstance(items, list):
             for each in items[:MAX_ITEMS]:
-                self._ways.store(scope.names, name, each)
+                self._branches.store(scope.names, name, each)
                 self._statement(body, scope)
             return
-        self._ways.store(scope.names, name, UNKNOWN)
+        self._branches.store(scope.names, name, UNKNOWN)
         self._once(body, scope)
 
     def _while(self, node: Node, scope: Scope) -> None:
@@ -308,9 +308,9 @@ class _Interpreter(Expressions):
         self._condition(node.child_by_field_name("condition"), scope)
         body = node.child_by_field_name("body")
         for case in body.named_children if body is not None else ():
-            _, changes = self._ways.try_out(lambda case=case: self._statement(case, scope))  # type: ignore[misc]
+            _, changes = self._branches.try_out(lambda case=case: self._statement(case, scope))  # type: ignore[misc]
             for change in changes.values():
-                self._ways.store(change.names, change.name, UNKNOWN)
+                self._branches.store(change.names, change.name, UNKNOWN)
 
     def _try(self, node: Node, scope: Scope) -> bool:
         body = node.child_by_field_name("body")
@@ -319,7 +319,7 @@ class _Interpreter(Expressions):
         for handler in handlers:
             inside = handler.child_by_field_name("body")
             if inside is not None:
-                self._ways.try_out(lambda inside=inside: self._statement(inside, scope))  # type: ignore[misc]
+                self._branches.try_out(lambda inside=inside: self._statement(inside, scope))  # type: ignore[misc]
         return ended and not handlers
 
 

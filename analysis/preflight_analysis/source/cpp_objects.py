@@ -171,7 +171,7 @@ class Objects(Functions):
                 value = self._initial(given, type_scope)
             else:
                 value = self._initial(field, Scope({}, cls.text.path, field.file, dict(cls.types), instance))
-            self._ways.store(instance.names, field.name, value)
+            self._branches.store(instance.names, field.name, value)
 
 
 def _listed(type_: CppType, args: list[Argument]) -> Any:

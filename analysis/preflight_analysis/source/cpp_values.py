@@ -8,9 +8,9 @@ from typing import Any, Protocol
 
 from tree_sitter import Node
 
+from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.cpp_text import ClassText, FileText, FunctionText, Path
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.ways import Ways
 
 _MAX_CLASSES = 32
 
@@ -156,8 +156,8 @@ class Calls(Protocol):
     def words(self) -> frozenset[str]:
         """Names of which one stands wherever there is something to tell: callbacks without one are left out."""
 
-    def begin(self, ways: Ways) -> None:
-        """The walk begins; `ways` tells what may well not be done."""
+    def begin(self, branches: Branches) -> None:
+        """The program begins; `branches` tells what may well not be done."""
 
     def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
         """Whether a call is told here although the program has the function: what it does is known. `owner` is None
@@ -168,7 +168,7 @@ class Calls(Protocol):
     ) -> None:
         """A call of a method of the program, which is gone through next."""
 
-    def aside(self, is_aside: bool) -> bool:
+    def dead_code(self, begins: bool) -> bool:
         """Whether what is not reached is gone through too; it then begins or ends here, and is not made."""
 
     def cut_short(self) -> None:

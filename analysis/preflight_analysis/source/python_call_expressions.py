@@ -7,6 +7,7 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from preflight_analysis.source.branches import ExitError, same
 from preflight_analysis.source.python_expressions import Expressions
 from preflight_analysis.source.python_modules import Calls
 from preflight_analysis.source.python_operators import MAX_ITEMS, builtin, items_of, text_method
@@ -20,7 +21,6 @@ from preflight_analysis.source.python_values import (
     StarImported,
     Super,
 )
-from preflight_analysis.source.ways import ExitError, same
 
 _MAX_DEPTH = 30
 _MAX_VISITS = 40
@@ -175,7 +175,7 @@ class CallExpressions(Expressions):
         if isinstance(owner, str):
             return text_method(owner, method, args)
         if method in ("append", "add") and isinstance(owner, list) and args:
-            if len(owner) < MAX_ITEMS and not self._ways.inside:
+            if len(owner) < MAX_ITEMS and not self._branches.inside:
                 owner.append(args[0])
             return None
         if isinstance(owner, dict) and method in _OBJECT_METHODS:

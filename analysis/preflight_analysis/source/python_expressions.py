@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from preflight_analysis.source.branches import Branches, same
 from preflight_analysis.source.python_modules import Calls
 from preflight_analysis.source.python_operators import (
     BUILTINS,
@@ -31,7 +32,6 @@ from preflight_analysis.source.python_values import (
     Super,
     is_plain,
 )
-from preflight_analysis.source.ways import Ways, same
 
 MAX_STEPS = 60_000
 
@@ -45,8 +45,8 @@ class Expressions(ABC):
 
     def __init__(self, calls: Calls) -> None:
         self._calls = calls
-        self._ways = Ways()
-        calls.begin(self._ways)
+        self._branches = Branches()
+        calls.begin(self._branches)
         self._steps = 0
 
     @abstractmethod
@@ -261,7 +261,7 @@ class Expressions(ABC):
                 pass
 
     def _store(self, names: dict[str, Any], name: str, value: Any) -> None:
-        self._ways.store(names, name, value)
+        self._branches.store(names, name, value)
 
     def _step(self) -> None:
         self._steps += 1

@@ -1,6 +1,6 @@
 """Goes through a Python program in the order in which it would run, with the values that its text alone tells.
 
-Both ways of a condition are taken where it is not known, a loop once; callbacks come last, with arguments unknown.
+Both branches of a condition are taken where it is not known, a loop once; callbacks come last, with arguments unknown.
 Nothing is imported or executed: calls of modules that are not followed go to `Calls`, which knows what ROS's do.
 """
 
@@ -11,12 +11,12 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
+from preflight_analysis.source.branches import ExitError
 from preflight_analysis.source.python_call_expressions import CallExpressions
 from preflight_analysis.source.python_expressions import TooLargeError, is_class_body, simple_name
 from preflight_analysis.source.python_modules import Calls, Load
 from preflight_analysis.source.python_operators import binary, items_of, truth_of
 from preflight_analysis.source.python_values import UNKNOWN, Class, Function, Imported, Instance, Module, Scope
-from preflight_analysis.source.ways import ExitError
 
 
 def interpret(path: str, tree: ast.Module, load: Load, calls: Calls, entry: str | None = None) -> None:
@@ -37,7 +37,7 @@ class _Interpreter(CallExpressions):
             function = module.names.get(entry) if entry is not None else None
             if isinstance(function, Function):
                 self._call_function(function, [], {})
-            self._ways.late = True
+            self._branches.late = True
             for function in self._waiting:  # grows while it is gone through
                 if not self._visits.get(id(function.node)):
                     self._call_function(function, [], {}, unknown=True)
@@ -102,7 +102,7 @@ class _Interpreter(CallExpressions):
                 for handler in node.handlers:
                     if handler.name:
                         self._store(scope.names, handler.name, UNKNOWN)
-                    self._aside(handler.body, scope)
+                    self._speculatively(handler.body, scope)
                 return self._block(node.orelse, scope) | self._block(node.finalbody, scope) or (
                     ended and not node.handlers
                 )
@@ -129,11 +129,11 @@ class _Interpreter(CallExpressions):
         truth = truth_of(self._value(node.test, scope))
         if truth is not None:
             return self._block(node.body if truth else node.orelse, scope)
-        return self._ways.either(lambda: self._block(node.body, scope), lambda: self._block(node.orelse, scope))
+        return self._branches.either(lambda: self._block(node.body, scope), lambda: self._block(node.orelse, scope))
 
-    def _aside(self, statements: Sequence[ast.stmt], scope: Scope) -> None:
+    def _speculatively(self, statements: Sequence[ast.stmt], scope: Scope) -> None:
         """Go through what is seldom reached; the values that it sets do not count."""
-        self._ways.try_out(lambda: self._block(statements, scope))
+        self._branches.try_out(lambda: self._block(statements, scope))
 
     def _for(self, node: ast.For | ast.AsyncFor, scope: Scope) -> None:
         items = items_of(self._value(node.iter, scope))

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
-from preflight_analysis.source.ways import Ways
+from preflight_analysis.source.branches import Branches
 
 
 class Calls(Protocol):
@@ -15,8 +15,8 @@ class Calls(Protocol):
     def call(self, path: str, args: Sequence[Any], kwargs: Mapping[str, Any], file: str, line: int) -> Any:
         """The value of `path(*args, **kwargs)` at this place, UNKNOWN if that cannot be told."""
 
-    def begin(self, ways: Ways) -> None:
-        """The walk begins; `ways` tells what may well not be done."""
+    def begin(self, branches: Branches) -> None:
+        """The program begins; `branches` tells what may well not be done."""
 
     def value(self, path: str) -> Any:
         """The value of an attribute such as `sys.argv`; `Imported(path)` if nothing else is known."""

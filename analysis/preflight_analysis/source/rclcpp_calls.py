@@ -10,6 +10,7 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source import rclcpp_qos
+from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.cpp_operators import converted
 from preflight_analysis.source.cpp_values import (
     Argument,
@@ -62,7 +63,6 @@ from preflight_analysis.source.rclcpp_objects import (
 from preflight_analysis.source.rclcpp_parameters import Parameters
 from preflight_analysis.source.rclcpp_qos import Qos
 from preflight_analysis.source.rclcpp_types import message_type
-from preflight_analysis.source.ways import Ways
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
 _ARGUMENT = re.compile(r"(?:\w+:)?__(ns|node|name):=(.*)\Z")
@@ -87,14 +87,14 @@ class RclcppCalls(Parameters):
         super().__init__(node, params, libraries)
         self._has_type = has_type
 
-    def begin(self, ways: Ways) -> None:
-        """What the walk tries out makes a node only perhaps."""
-        self.found.ways = ways
+    def begin(self, branches: Branches) -> None:
+        """A node that is made in one branch of a condition may well not be made."""
+        self.collected.branches = branches
 
     def cut_short(self) -> None:
         """There may be more declarations of parameters, and more nodes."""
-        self.found.unknown_node()
-        self.found.use(ParamUse("/", "list"))
+        self.collected.unknown_node()
+        self.collected.use(ParamUse("/", "list"))
 
     def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
         """What declares parameters in the way of a library, and what gives the node itself."""
@@ -166,7 +166,7 @@ class RclcppCalls(Parameters):
             self._unknown_library(name, given, place)
             if name.endswith("Node") and any(isinstance(value, str) or is_options(value) for value in given):
                 self._any_parameter(place)  # of a package that is not there in source form
-                self.found.unknown_node()
+                self.collected.unknown_node()
                 return NodeObject()
         return Unmade(type_)
 
@@ -174,7 +174,7 @@ class RclcppCalls(Parameters):
         options = next((v for v in given if isinstance(v, Options)), Options())
         node = self._named_node(given, options, has_lifecycle=has_lifecycle)
         node = replace(node, from_overrides=options.from_overrides)
-        if not self._is_aside:
+        if not self._in_dead_code:
             self._make_node(given, options, node)
         if has_lifecycle:
             self._services(LIFECYCLE, node, place)
@@ -184,23 +184,23 @@ class RclcppCalls(Parameters):
 
     def _services(self, services: Sequence[tuple[str, str]], node: NodeObject, place: Place) -> None:
         """The services that a node of the class has by itself."""
-        for service, kind in services if not self._is_aside else ():
-            self.found.end(
+        for service, kind in services if not self._in_dead_code else ():
+            self.collected.end(
                 Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
             )
 
     def _make_node(self, given: Sequence[Any], options: Options, node: NodeObject) -> None:
         if node.full is not None:
-            self.found.node(node.full.rpartition("/")[2] if isinstance(node.full, str) else UNKNOWN, renamed=False)
+            self.collected.node(node.full.rpartition("/")[2] if isinstance(node.full, str) else UNKNOWN, renamed=False)
             return
         texts = [value for value in given if isinstance(value, str)]
         if len(texts) != sum(not is_options(value) and value is not UNKNOWN for value in given) or len(texts) > 2:
-            self.found.unknown_node()  # another constructor is meant
+            self.collected.unknown_node()  # another constructor is meant
             return
         space = given[1] if len(given) > 1 and isinstance(given[1], str) else ""
         # Options that are not known may have arguments of their own.
         renamed = options.of_process and all(isinstance(value, (str, Options)) for value in given)
-        self.found.node(given[0] if given else UNKNOWN, space, renamed=renamed)
+        self.collected.node(given[0] if given else UNKNOWN, space, renamed=renamed)
 
     def _named_node(self, given: Sequence[Any], options: Options, *, has_lifecycle: bool) -> NodeObject:
         """The node, and whether its options give it another name than the launch file's."""
@@ -394,8 +394,8 @@ class RclcppCalls(Parameters):
     # Endpoints.
 
     def _end(self, role: Role, name: Any, type_: str | None, qos: Mapping[str, Any], place: Place) -> None:
-        if not self._is_aside:
-            self.found.end(Endpoint(role, name, type_, None, qos, place.file, place.line))
+        if not self._in_dead_code:
+            self.collected.end(Endpoint(role, name, type_, None, qos, place.file, place.line))
 
     def _first(self, types: Sequence[CppType], kind: str) -> str | None:
         return self._type(types[0], kind) if types else None

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.cpp_operators import converted
 from preflight_analysis.source.cpp_values import (
     Argument,
@@ -19,7 +20,6 @@ from preflight_analysis.source.cpp_values import (
     Unmade,
     value_at,
 )
-from preflight_analysis.source.found import Found
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.parameter_library import Libraries
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
@@ -65,22 +65,22 @@ class Parameters:
         self._params = params
         self._libraries = libraries
         self._structs: dict[str, Instance] = {}
-        self._is_aside = False
+        self._in_dead_code = False
         self._not_reached: list[ParamUse] = []
         self._declared: dict[str, Any] = {"~use_sim_time": False}
-        self.found = Found()
+        self.collected = Collector()
 
-    def aside(self, is_aside: bool) -> bool:
+    def dead_code(self, begins: bool) -> bool:
         """A parameter of another mode of the node is no misspelt one: that it has such a name is noted."""
-        self._is_aside = is_aside
+        self._in_dead_code = begins
         return True
 
     def finish(self) -> None:
         """Add the parameters that are declared only where the node does not come with what the launch file sets."""
-        declared = {use.name for use in self.found.params}
+        declared = {use.name for use in self.collected.params}
         for use in self._not_reached:
             if use.name not in declared:
-                self.found.use(use)
+                self.collected.use(use)
 
     def _listener(self, name: str, given: Sequence[Any]) -> bool:
         """The parameters of a class that generate_parameter_library makes. False if its file is not there."""
@@ -163,10 +163,10 @@ class Parameters:
         )
         if node.from_overrides:
             use = replace(use, dynamic=True)
-        if self._is_aside:
+        if self._in_dead_code:
             self._not_reached.append(use)
             return UNKNOWN
-        self.found.use(use)
+        self.collected.use(use)
         self._declared[full] = default if has_default else UNSET
         return self._value(full)
 
@@ -187,7 +187,7 @@ class Parameters:
         if isinstance(full, str):
             found = self._value(full)
             if full not in self._declared:
-                self.found.use(ParamUse(full, "get", None, False, False, place.file, place.line))
+                self.collected.use(ParamUse(full, "get", None, False, False, place.file, place.line))
         if or_else and (found is UNKNOWN or found is UNSET):
             found = value_at(args, len(args) - 1)
         if into is None or (or_else and len(args) == 2):
@@ -212,7 +212,7 @@ class Parameters:
 
     def _any_parameter(self, place: Place) -> None:
         """The node takes parameters of any name, or of names that the text does not tell."""
-        self.found.use(ParamUse("/", "list", source_file=place.file, source_line=place.line))
+        self.collected.use(ParamUse("/", "list", source_file=place.file, source_line=place.line))
 
 
 def _described(args: Sequence[Argument], type_: CppType | None) -> ParamUse:

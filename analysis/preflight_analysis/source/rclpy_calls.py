@@ -9,10 +9,10 @@ from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.source.found import Found
+from preflight_analysis.source.branches import Branches
+from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain
-from preflight_analysis.source.ways import Ways
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 _TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv|action)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
@@ -80,11 +80,11 @@ class RclpyCalls:
         self._params = params
         self._defaults: dict[str, Any] = {}
         self._from_overrides = False
-        self.found = Found()
+        self.collected = Collector()
 
-    def begin(self, ways: Ways) -> None:
-        """What the walk tries out makes a node only perhaps."""
-        self.found.ways = ways
+    def begin(self, branches: Branches) -> None:
+        """A node that is made in one branch of a condition may well not be made."""
+        self.collected.branches = branches
 
     def value(self, path: str) -> Any:
         """`sys.argv` and the profiles of QoS are known; everything else is what its name says."""
@@ -103,22 +103,24 @@ class RclpyCalls:
             role, kind, (type_name, end_name, qos_name) = _METHODS[method]
             qos = _qos(given(_QOS_AT[method], qos_name)) if method in _QOS_AT else {}
             type_ = _type(given(0, type_name), kind)
-            self.found.end(Endpoint(role, given(1, end_name), type_, None, qos, file, line))
+            self.collected.end(Endpoint(role, given(1, end_name), type_, None, qos, file, line))
             return Imported(f"rclpy.{method}()")
         if end := _WITH_NODE.get(name):
             role, kind, (type_name, end_name) = end
-            self.found.end(Endpoint(role, given(2, end_name), _type(given(1, type_name), kind), None, {}, file, line))
+            self.collected.end(
+                Endpoint(role, given(2, end_name), _type(given(1, type_name), kind), None, {}, file, line)
+            )
             return Imported(f"{name}()")
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
-                self.found.end(Endpoint(role, topic, type_, None, {}, file, line))
+                self.collected.end(Endpoint(role, topic, type_, None, {}, file, line))
             return Imported(f"{name}()")
         if name in _DESCRIBING:
             return Instance(Class(name.rpartition(".")[2], {}, ()), dict(kwargs))
         if path.startswith("rclpy."):
             return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
         if _MAKES_NODES.search(path):
-            self.found.unknown_node()
+            self.collected.unknown_node()
         if name in ("os.path.join",) and args and all(isinstance(a, str) for a in args):
             return os.path.join(*args)
         return UNKNOWN
@@ -143,12 +145,12 @@ class RclpyCalls:
         if method == "__init__" or name in ("rclpy.create_node", "rclpy.Node", "rclpy.LifecycleNode"):
             self._from_overrides = self._from_overrides or kwargs.get(_OVERRIDES, False) is not False
             if any(kwargs.get(option, False) is not False for option in ("allow_undeclared_parameters", _OVERRIDES)):
-                self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
+                self.collected.use(ParamUse("/", "list", source_file=file, source_line=line))
             if name.startswith("rclpy.create") or _plain(path.removesuffix(".__init__")) in _NODES:
                 self._make_node(given(0, "node_name"), kwargs)
             return Imported("rclpy.Node()")
         if method == "get_parameters_by_prefix":
-            self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
+            self.collected.use(ParamUse("/", "list", source_file=file, source_line=line))
         if method in ("get_name", "get_fully_qualified_name"):
             return self._node.rpartition("/")[2] if method == "get_name" else self._node
         if method == "get_namespace":
@@ -159,11 +161,11 @@ class RclpyCalls:
 
     def _make_node(self, name: Any, kwargs: Mapping[str, Any]) -> None:
         if kwargs.get("cli_args") is not None:
-            self.found.unknown_node()  # they may give it another name
+            self.collected.unknown_node()  # they may give it another name
             return
         space = kwargs.get("namespace")
         renamed = kwargs.get("use_global_arguments", True) is True
-        self.found.node(name, "" if space is None else space, renamed=renamed)
+        self.collected.node(name, "" if space is None else space, renamed=renamed)
 
     def _declared(self, name: Any, default: Any, descriptor: Any, file: str, line: int) -> Any:
         if not isinstance(name, str) or not name:
@@ -174,7 +176,7 @@ class RclpyCalls:
         use = ParamUse(f"~{name}", "get", known, has_default, False, file, line, type=bare)
         described = _described(use, descriptor)
         # What the launch sets is declared by then, with its type.
-        self.found.use(replace(described, dynamic=True) if self._from_overrides else described)
+        self.collected.use(replace(described, dynamic=True) if self._from_overrides else described)
         self._defaults[name] = default if has_default else UNKNOWN
         return _parameter(self._value(name))
 

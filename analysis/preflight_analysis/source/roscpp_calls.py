@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.collector import Collector, is_name
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_operators import initialized
 from preflight_analysis.source.cpp_values import (
@@ -21,7 +22,6 @@ from preflight_analysis.source.cpp_values import (
     value_at,
     values,
 )
-from preflight_analysis.source.found import Found, is_name
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
@@ -193,7 +193,7 @@ class RoscppCalls:
         self._params = params
         self._has_type = has_type
         self._config = config
-        self.found = Found()
+        self.collected = Collector()
         self.nodelets: list[Loaded] = []
         """The nodelets that the program loads into its own process."""
         self.loaded: Loaded | None = None
@@ -206,9 +206,9 @@ class RoscppCalls:
         """Nothing: the method is gone through."""
 
     def begin(self, _: object) -> None:
-        """Nothing: all ways count alike."""
+        """Nothing: all branches count alike."""
 
-    def aside(self, _: bool) -> bool:
+    def dead_code(self, _: bool) -> bool:
         """No."""
         return False
 
@@ -340,7 +340,7 @@ class RoscppCalls:
                 return UNKNOWN
             case "ros::service::waitForService" | "ros::service::exists":
                 if leaf == "waitForService":
-                    self.found.await_service(Endpoint("client", first, None, None, {}, place.file, place.line))
+                    self.collected.await_service(Endpoint("client", first, None, None, {}, place.file, place.line))
                 return UNKNOWN
             case "ros::service::call":
                 self._end("client", first, self._service_of(value_at(args, 1)), place)
@@ -507,7 +507,7 @@ class RoscppCalls:
         if not is_name(name):
             return default
         known = default if is_plain(default) else None
-        self.found.use(ParamUse(name, access, known, has_default, False, place.file, place.line))
+        self.collected.use(ParamUse(name, access, known, has_default, False, place.file, place.line))
         if access not in ("get", "has"):
             return UNKNOWN
         found = self._params.look(names.resolve(name, self._node, self._remaps))
@@ -538,7 +538,7 @@ class RoscppCalls:
     ) -> None:
         if self.loaded is not None and is_name(name):
             name = self.loaded.remaps.get(names.resolve(name, self._node), name)
-        self.found.end(Endpoint(role, name, type_, None, qos or {}, place.file, place.line))
+        self.collected.end(Endpoint(role, name, type_, None, qos or {}, place.file, place.line))
 
     def _message(self, types: Sequence[CppType]) -> str | None:
         return self._type(types[0]) if types else None

@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.collector import Collector, is_name
 from preflight_analysis.source.config_params import Config
-from preflight_analysis.source.found import Found, is_name
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, Imported, StarImported, is_plain
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
@@ -77,10 +77,10 @@ class RospyCalls:
         self._params = params
         self._has_type = has_type
         self._config = config
-        self.found = Found()
+        self.collected = Collector()
 
     def begin(self, _: object) -> None:
-        """Nothing: all ways count alike."""
+        """Nothing: all branches count alike."""
 
     def value(self, path: str) -> Any:
         """`sys.argv` is known; everything else is what its name says."""
@@ -97,23 +97,23 @@ class RospyCalls:
             role, (first, second), kinds = end
             type_ = self._type(given(1, second), kinds)
             qos = {"latch": True} if role == "publisher" and kwargs.get("latch") is True else {}
-            self.found.end(Endpoint(role, given(0, first), type_, None, qos, file, line))
+            self.collected.end(Endpoint(role, given(0, first), type_, None, qos, file, line))
             return Imported(f"{name}()")
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
-                self.found.end(Endpoint(role, topic, type_, None, {}, file, line))
+                self.collected.end(Endpoint(role, topic, type_, None, {}, file, line))
             if name == "dynamic_reconfigure.Server":
                 self._configured(given(0, "type"))
             return Imported(f"{name}()")
         if name == "rospy.wait_for_service":
             service = given(0, "service")
-            self.found.await_service(Endpoint("client", service, None, None, {}, file, line))
+            self.collected.await_service(Endpoint("client", service, None, None, {}, file, line))
             return None
         if name in _ACCESS:
             has_default = name.startswith("rospy.get_param") and (len(args) > 1 or "default" in kwargs)
             return self._param(_ACCESS[name], given(0, "param_name"), given(1, "default"), has_default, file, line)
         if name == "rospy.get_param_names":
-            self.found.use(ParamUse("/", "list", source_file=file, source_line=line))
+            self.collected.use(ParamUse("/", "list", source_file=file, source_line=line))
         return self._other(name, args, given)
 
     def _configured(self, config: Any) -> None:
@@ -144,7 +144,7 @@ class RospyCalls:
         if not is_name(name):
             return default
         known = default if is_plain(default) else None
-        self.found.use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))
+        self.collected.use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))
         if access not in ("get", "has"):
             return UNKNOWN
         found = self._params.look(names.resolve(name, self._node, self._remaps))

@@ -1,4 +1,4 @@
-"""Both ways of a condition that is not known: what each sets is taken back, and what they agree on counts after it."""
+"""Both branches of a condition that is not known: what each sets is taken back, what they agree on counts after it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class ExitError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """What one way of a condition did to a name in a dictionary."""
+    """What one branch of a condition did to a name in a dictionary."""
 
     names: dict[str, Any]
     name: str
@@ -29,8 +29,8 @@ class Change:
 Changes = dict[_Key, Change]
 
 
-class Ways:
-    """Keeps a trail of what is stored while a way is tried out."""
+class Branches:
+    """Keeps a trail of what is stored while a branch is tried out."""
 
     def __init__(self) -> None:
         self._trails: list[list[tuple[dict[str, Any], str, Any]]] = []
@@ -38,13 +38,13 @@ class Ways:
         """Whether only callbacks are left."""
 
     @property
-    def perhaps(self) -> bool:
-        """Whether what is done now may well not be done: on one way of a condition, or in a callback."""
+    def speculative(self) -> bool:
+        """Whether what is done now may well not be done: in one branch of a condition, or in a callback."""
         return self.late or self.inside
 
     @property
     def inside(self) -> bool:
-        """Whether a way is being tried out: what is done then may well not be done."""
+        """Whether a branch is being tried out: what is done then may well not be done."""
         return bool(self._trails)
 
     def store(self, names: dict[str, Any], name: str, value: Any) -> None:
@@ -53,12 +53,13 @@ class Ways:
             trail.append((names, name, names.get(name, _ABSENT)))
         names[name] = value
 
-    def try_out(self, way: Callable[[], bool]) -> tuple[bool, Changes]:
-        """Go one way and take back what it set: whether it ends (what follows is not reached), and what it set."""
+    def try_out(self, branch: Callable[[], bool]) -> tuple[bool, Changes]:
+        """Go through one branch and take back what it set: whether it ends (what follows is not reached), and what it
+        set."""
         trail: list[tuple[dict[str, Any], str, Any]] = []
         self._trails.append(trail)
         try:
-            ended = way()
+            ended = branch()
         except ExitError:
             ended = True
         finally:
@@ -74,10 +75,10 @@ class Ways:
             found[key] = Change(names, name, old, new[key])
         return ended, found
 
-    def either(self, first_way: Callable[[], bool], second_way: Callable[[], bool]) -> bool:
-        """Go both ways, one of which is taken: whether both end."""
-        ended, first = self.try_out(first_way)
-        other_ended, second = self.try_out(second_way)
+    def either(self, first_branch: Callable[[], bool], second_branch: Callable[[], bool]) -> bool:
+        """Go through both branches, one of which is taken: whether both end."""
+        ended, first = self.try_out(first_branch)
+        other_ended, second = self.try_out(second_branch)
         if ended and other_ended:
             return True
         for key, change in {**first, **second}.items():
@@ -95,7 +96,7 @@ class Ways:
 
 
 def same(value: Any, other: Any) -> Any:
-    """What two ways agree on."""
+    """What two branches agree on."""
     if value is other:
         return value
     known = is_plain(value) or not isinstance(value, (list, tuple, dict))

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.source.ways import Ways
+from preflight_analysis.source.branches import Branches
 from preflight_analysis.tracing.interface import Endpoint, MadeNode, ParamUse
 
 _MAX_FOUND = 500
 _MAX_NODES = 32
 
 
-class Found:
+class Collector:
     """Collects endpoints and uses of parameters; those whose name is not known are left out."""
 
     def __init__(self) -> None:
@@ -22,8 +22,8 @@ class Found:
         self._nodes: dict[MadeNode, None] = {}
         self._alternatives = False
         self._unknown_nodes = False
-        self.ways = Ways()
-        """Those of the walk through the program."""
+        self.branches = Branches()
+        """Those of the program that is gone through."""
 
     @property
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -39,7 +39,7 @@ class Found:
     @property
     def nodes(self) -> tuple[MadeNode, ...]:
         """ROS 2: the nodes that the program makes; empty where that is not known, as they have several names in the
-        ways of a condition for example."""
+        branches of a condition for example."""
         ambiguous = self._unknown_nodes or (self._alternatives and len(self._nodes) > 1)
         return () if ambiguous else tuple(self._nodes)
 
@@ -49,7 +49,7 @@ class Found:
             self._unknown_nodes = True
             return
         self._nodes[MadeNode(name, name, space.strip("/"), renamed, inferred=True)] = None
-        self._alternatives = self._alternatives or self.ways.perhaps
+        self._alternatives = self._alternatives or self.branches.speculative
 
     def unknown_node(self) -> None:
         """There may be a node whose name is not known."""
