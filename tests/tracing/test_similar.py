@@ -62,14 +62,16 @@ class Desk:
         os.utime(self.script, (1, 1))
         self.cache = TraceCache(folder / "cache")
         found = {"pkg": Package("pkg", str(self.package), str(self.package / "package.xml"))}
-        self.environment = replace(environment(self.package), packages=found, workspace=str(folder))
+        self.environment = replace(
+            environment(self.package), packages=found, workspace=str(folder), workspace_folders=(str(folder),)
+        )
         self.tracer = Tracer(self.environment, self.cache)
         self.runs = 0
 
     def analyse(self, name: str, text: str, *, run: bool = True) -> Analysis:
         path = self.package / "launch" / name
         path.write_text(text.lstrip())
-        similar = SimilarTraces(self.cache)
+        similar = SimilarTraces(self.cache, self.environment)
         workspace = Workspace(self.environment, Sources(), str(self.package), similar=similar)
         static = workspace.static(str(path))
         interfaces = [
@@ -257,6 +259,40 @@ def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(desk: Desk) -> None:
     desk.analyse("works.launch", WORKS)
     desk.script.unlink()
     (node,) = desk.analyse("works.launch", WORKS, run=False).tree.nodes
-    similar = SimilarTraces(desk.cache)
+    similar = SimilarTraces(desk.cache, desk.environment)
     assert similar.looking({}, 1)(node) is not None
     assert similar.looking({}, 2)(node) is None
+
+
+@pytest.mark.parametrize("built", [True, False])
+def test_another_workspace_tells_nothing(desk: Desk, tmp_path: Path, built: bool) -> None:
+    """Its package has the same name, its executable the same content, and beside it a module that lies."""
+    hostile = Desk(tmp_path / "hostile")
+    hostile.cache = desk.cache = TraceCache(tmp_path / "shared")
+    hostile.tracer = Tracer(hostile.environment, hostile.cache)
+    (hostile.package / "rospy").mkdir()
+    (hostile.package / "rospy/__init__.py").write_text(
+        "import sys; sys.path.remove(sys.path[0]); del sys.modules['rospy']; import rospy\n"
+        "from std_msgs.msg import String\nmade = rospy.init_node\n"
+        "def init_node(*a, **k):\n    made(*a, **k)\n    rospy.Publisher('/lies', String, queue_size=1)\n"
+        "rospy.init_node = init_node\nsys.modules['rospy'] = rospy\n"
+    )
+    lied = interface(hostile.analyse("works.launch", WORKS))
+    assert ("publisher", "/lies") in told(lied)
+    again = interface(hostile.analyse("crashes.launch", CRASHES, run=False))
+    assert ("publisher", "/lies") in told(again), "where it was made it is similar"
+    assert hostile.script.read_bytes() == desk.script.read_bytes()
+    if not built:
+        desk.script.unlink()
+    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    assert (found.source, found.elsewhere) == ("source" if built else "none", None)
+
+
+def test_a_run_for_another_workspace_is_another(desk: Desk) -> None:
+    """A launch file can give a node of the system all variables that it has elsewhere. What it lacks in a sandbox that
+    shows other files must not count there."""
+    elsewhere = replace(desk.environment, workspace_folders=("/elsewhere",))
+    asked = TraceRequest("/n", "pkg", str(desk.script))
+    first = Tracer(elsewhere, desk.cache).trace(asked, threading.Event())
+    assert Tracer(elsewhere, desk.cache).lookup(asked) is not None, first
+    assert Tracer(desk.environment, desk.cache).lookup(asked) is None

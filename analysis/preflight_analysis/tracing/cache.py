@@ -28,7 +28,7 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import encode_params
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, digest_of, fingerprint, listing
 
-SCHEMA = "ros-preflight/trace-cache/4"
+SCHEMA = "ros-preflight/trace-cache/5"
 MAX_ENTRY_BYTES = 4 << 20
 MOST_OF_ONE_EXECUTABLE = 64
 """How many traces of an executable are looked at for a similar one, the last used."""
@@ -38,8 +38,8 @@ MOST_OF_ONE_EXECUTABLE = 64
 class Kept:
     """A trace with what it was made from, which may be out of date.
 
-    `executable` is its path, `build` its fingerprint then; `given` are the parts of names in `interface` that came with
-    the arguments or parameters, as `bare` texts.
+    `executable` is its path, `build` its fingerprint then, `workspaces` as in its recipe; `given` are the parts of
+    names in `interface` that came with the arguments or parameters, as `bare` texts.
     """
 
     interface: Interface
@@ -48,6 +48,7 @@ class Kept:
     executable: str
     build: str
     args: tuple[str, ...]
+    workspaces: tuple[str, ...]
     given: frozenset[str]
     used: float
     """When it was last of use, in seconds since the epoch."""
@@ -105,6 +106,7 @@ class TraceCache(Store):
             "launch": request.launch,
             "executable": request.executable,
             "args": list(request.args),
+            "workspaces": list(recipe.workspaces),
             "given": sorted(_given(interface, (*request.args, *view.values(dependencies.params)))),
         }
         entry = {"dependencies": known, "interface": _encode(interface), "made": made}
@@ -150,6 +152,7 @@ class TraceCache(Store):
                 made["executable"],
                 known["files"][made["executable"]],
                 tuple(made["args"]),
+                tuple(map(str, made["workspaces"])),
                 frozenset(made["given"]),
                 used,
             )
@@ -175,6 +178,7 @@ class TraceCache(Store):
             "qos": sorted([name, value] for name, value in request.given_to(None).items() if overrides_qos(name)),
             "env": dict(recipe.stable),
             "cwd": recipe.cwd,
+            "workspaces": list(recipe.workspaces),
         }
         name = os.path.basename(request.executable)
         return self._place_of(named, self._executable_folder(request.generation, request.package, name, part(request)))

@@ -85,6 +85,7 @@ class CommandCache(Store):
 
     def _place(self, recipe: recipes.Recipe, packages: str) -> Place:
         named = {"argv": list(recipe.argv), "env": dict(recipe.stable), "cwd": recipe.cwd, "packages": packages}
+        named["workspaces"] = list(recipe.workspaces)
         return self._place_of(named)
 
 

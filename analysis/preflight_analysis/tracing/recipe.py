@@ -53,6 +53,8 @@ class Recipe:
     """The library that watches the client library in it."""
     files: Mapping[str, str] = field(default_factory=dict)
     """What is to be written inside, by its path there."""
+    workspaces: tuple[str, ...] = ()
+    """The folders of the workspace that it is run for: for another one it would see other files."""
 
 
 def preloading(library: str, stable: Mapping[str, str]) -> str:

@@ -40,7 +40,8 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
         env["ROS_NAMESPACE"] = namespace
     if preload is not None:
         env["LD_PRELOAD"] = recipes.preloading(preload, stable)
-    return Recipe(tuple(argv), env, stable, recipes.folder(request), python, remapped, preload)
+    cwd, workspaces = recipes.folder(request), environment.workspace_folders
+    return Recipe(tuple(argv), env, stable, cwd, python, remapped, preload, workspaces=workspaces)
 
 
 def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
@@ -49,7 +50,8 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
     interpreter, python = recipes.shebang_interpreter(environment.python, executable, stable["PATH"])
     if python:
         stable |= _unbuilt_modules(environment)
-    return Recipe((*interpreter, executable, *args), recipes.inside(stable), stable, cwd, python)
+    argv, workspaces = (*interpreter, executable, *args), environment.workspace_folders
+    return Recipe(argv, recipes.inside(stable), stable, cwd, python, workspaces=workspaces)
 
 
 def _unbuilt_modules(environment: Environment) -> dict[str, str]:

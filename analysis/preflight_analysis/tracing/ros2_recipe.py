@@ -73,7 +73,14 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     if preload is not None:
         env["LD_PRELOAD"] = recipes.preloading(preload, stable)
     return Recipe(
-        tuple(argv), env, stable, recipes.folder(request), python=preload is None, preload=preload, files=files
+        tuple(argv),
+        env,
+        stable,
+        recipes.folder(request),
+        python=preload is None,
+        preload=preload,
+        files=files,
+        workspaces=environment.workspace_folders,
     )
 
 
@@ -83,7 +90,8 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
     stable = variables(environment, ())
     interpreter, python = recipes.shebang_interpreter(environment.ros2_python, executable, stable["PATH"])
     env = recipes.inside(stable) | {SHARES: json.dumps(_shares(environment))}
-    return Recipe((*interpreter, executable, *args), env, stable, cwd, python)
+    argv, workspaces = (*interpreter, executable, *args), environment.workspace_folders
+    return Recipe(argv, env, stable, cwd, python, workspaces=workspaces)
 
 
 def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:

@@ -2,7 +2,8 @@
 Tichy.
 
 They are used where a run of the node itself does not tell. Which executable it is tells its package and name; a trace
-of another build counts as long as that was found at the same path. Names that came with the other run's arguments or
+of another build counts as long as that was found at the same path. One that was made for another workspace never
+counts: a package of the same name may be somebody else's, and lie. Names that came with the other run's arguments or
 parameters and that this node is not given are left out: nobody knows what it has instead.
 """
 
@@ -14,6 +15,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.cache import Kept, TraceCache, bare, part, texts
@@ -40,10 +42,12 @@ class _Told:
 
 
 class SimilarTraces:
-    """Looks for them in a cache; what was read is remembered until the cache changes. Thread-safe; runs nothing."""
+    """Looks for them in a cache, for one environment; what was read is remembered until the cache changes.
+    Thread-safe; runs nothing."""
 
-    def __init__(self, cache: TraceCache) -> None:
+    def __init__(self, cache: TraceCache, environment: Environment) -> None:
         self._cache = cache
+        self._folders = frozenset((*environment.workspace_folders, *environment.named_folders))
         self._lock = threading.Lock()
         self._remembered: dict[_Key, tuple[object, tuple[Kept, ...]]] = {}
         self._told: dict[tuple[int, str, str, str, str], _Told] = {}
@@ -95,7 +99,9 @@ class SimilarTraces:
         candidates = [
             kept
             for kept in traces
-            if _tells(kept.interface) and (not path or kept.executable == path or kept.build == build)
+            if _tells(kept.interface)
+            and self._folders.issuperset(kept.workspaces)
+            and (not path or kept.executable == path or kept.build == build)
         ]
         given: frozenset[str] = frozenset()
         found = None

@@ -91,7 +91,7 @@ class OpenWorkspace:
 def open_workspace(environment: Environment, args: argparse.Namespace, *, similar: bool = True) -> OpenWorkspace:
     """The workspace of an environment; `similar` as for `analyse`."""
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
-    elsewhere = SimilarTraces(TraceCache()) if similar else None
+    elsewhere = SimilarTraces(TraceCache(), environment) if similar else None
     workspace = Workspace(environment, Sources(), commands=results, similar=elsewhere)
     runner = CommandRunner(environment, workspace.cwd, CommandCache())
     return OpenWorkspace(workspace, results, args.no_run, runner)

@@ -339,7 +339,7 @@ class Session:
         finally:
             self._detecting = None
         if (folder, package_path) == (self.folder, self.settings.package_path):
-            commands, similar = self.runs.commands.results, SimilarTraces(TraceCache())
+            commands, similar = self.runs.commands.results, SimilarTraces(TraceCache(), environment)
             self._workspace = Workspace(environment, self._sources, commands=commands, similar=similar)
             self.runs.set_workspace(self._workspace)
 
