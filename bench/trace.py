@@ -35,7 +35,9 @@ NODES = {
 def timed(rounds: int) -> None:
     package_path = (str(FIXTURES),)
     variables = {"PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(FIXTURES)}
-    environment = Environment(1, "noetic", variables, package_path, {}, {}, (), ("/usr",), PYTHON)
+    environment = Environment(
+        1, "noetic", variables, package_path, {}, {}, (), ("/usr",), PYTHON, named_folders=package_path
+    )
     cancel = threading.Event()
     print(f"{'median of ' + str(rounds):<30}{'bare':>9}{'cold':>9}{'warm':>9}{'cold/bare':>11}{'warm/bare':>11}")
     with tempfile.TemporaryDirectory() as folder, rosmaster(folder) as ros:

@@ -4,6 +4,9 @@ with any way to isolate; what the workspace and the own variables of the user ha
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
+import tempfile
 import threading
 from pathlib import Path
 
@@ -13,7 +16,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe, ros1_recipe, sandbox
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import request, write_node
+from tracing_desk import known_backends, request, write_node
 
 INDEX = "share/ament_index/resource_index/packages"
 LOOK = """
@@ -224,3 +227,49 @@ def test_programs_of_the_path_have_all_that_they_need(home: Home) -> None:
     shown = recipe.command_paths(environment, made, str(program), (), "/usr/bin/python3")
     assert all(sandbox.shown(str(path), shown) for path in (program, script, place / "pyvenv.cfg"))
     assert not sandbox.shown(f"{home.folder}/.local/share/keyrings", shown)
+
+
+AS_USER = """
+import os, sys, tempfile
+from pathlib import Path
+sys.path[:0] = sys.argv[1:3]
+from preflight_analysis.tracing import cgroup, compiled, sandbox
+from test_hidden_folders import Home
+folder = Path(sys.argv[3])
+home = Home(folder)
+os.environ.update(HOME=str(home.folder), XDG_CACHE_HOME=str(folder / "cache"))
+share = home.link("install/share/k", "../../../.ssh")
+(home.package / ".git").mkdir()
+(home.package / ".git/config").write_text("hunter2")
+paths = [f"{share}/id_ed25519", f"{home.folder}/.ssh/id_ed25519", f"{home.folder}/private/creds.txt"]
+paths.append(f"{home.package}/.git/config")
+assert home.seen(*paths) == []  # and all modules are loaded: where they lie may be shut to others
+if os.geteuid() == 0:
+    for place in (folder, *folder.rglob("*")):
+        os.lchown(place, 65534, 65534)
+    os.setgroups([])
+    os.setgid(65534)
+    os.setuid(65534)
+    sys.executable = "/usr/bin/python3"
+    sandbox.forget()
+    cgroup.place.cache_clear()
+    compiled.copies.cache_clear()
+    os.environ["XDG_CACHE_HOME"] = str(folder / "users")
+print(os.geteuid() != 0, sandbox.probe().backend, home.seen(*paths))
+print("hunter2" in home.command(f"cat {home.folder}/.ssh/id_ed25519"))
+"""
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("backend", [name for name in known_backends() if name != "firejail"])
+def test_a_user_is_as_safe_as_root(backend: str) -> None:
+    """firejail has a list of who may use it."""
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(
+            [sys.executable, "-c", AS_USER, *(str(path) for path in Path(__file__).parents[:2]), folder],
+            capture_output=True,
+            text=True,
+            env={**os.environ, sandbox.CHOICE: backend},
+            check=False,
+        )
+    assert done.stdout == f"True {backend} []\nFalse\n", done.stderr
