@@ -11,10 +11,15 @@ from collections.abc import Iterator
 from functools import cached_property, lru_cache
 
 from preflight_analysis.documents.change import Change
-from preflight_analysis.documents.span import LineIndex, Span
+from preflight_analysis.documents.span import ByteOffsets, LineIndex, Span
 
-_CALL = re.compile(r"\b[A-Za-z_][\w.]*\s*\(")
+MAX_CHARACTERS = 500_000
+"""Of a text that is read as Python; the largest launch file of some 1,500 public ones has 60,000."""
+_NAME_AND_BRACKET = re.compile(r"[\w.]+(\s*\()?")
+_NAME = re.compile(r"\b[A-Za-z_]")
 _MAX_CALLS = 5_000
+_MAX_PARSED = 5_000_000
+"""Characters of all calls together that are tried to be read one by one: they may stand in each other."""
 _MAX_HEADS = 20
 _TOKEN = re.compile(
     r"""(?P<string>(?:[rRbBuUfF]{1,2})?(?:\"\"\"(?:[^\\]|\\.)*?\"\"\"|'''(?:[^\\]|\\.)*?'''|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'))"""
@@ -26,6 +31,8 @@ _TOKEN = re.compile(
 @lru_cache(maxsize=8)
 def _parsed(text: str) -> ast.Module | Exception:
     """The syntax tree, or why there is none. One text is asked for several times, and the trees are not changed."""
+    if len(text) > MAX_CHARACTERS:
+        return ValueError(f"files of more than {MAX_CHARACTERS:,} characters are not read as Python")
     try:
         return ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -39,7 +46,7 @@ class PythonSource:
     def __init__(self, text: str, lines: LineIndex, since: Change | None = None) -> None:
         self.text, self.lines = text, lines
         self._since = since
-        self._ascii = text.isascii()
+        self._bytes = ByteOffsets(text)
         self.problem: tuple[str, Span] | None = None
         self.module: ast.Module | None = None
         parsed = _parsed(text)
@@ -60,32 +67,40 @@ class PythonSource:
         return tuple(self._single_calls())
 
     def _single_calls(self) -> Iterator[ast.AST]:
+        if len(self.text) > MAX_CHARACTERS:
+            return
         brackets = _brackets(self.text)
-        behind = count = 0
-        for found in _CALL.finditer(self.text):
-            end, commas = brackets.get(found.end() - 1, (None, ()))
-            if found.start() < behind or count > _MAX_CALLS:
+        behind = count = parsed = 0
+        for found in _NAME_AND_BRACKET.finditer(self.text):
+            name = _NAME.search(self.text, found.start(), found.end()) if found[1] is not None else None
+            if name is None:
                 continue
+            start = name.start()
+            end, commas = brackets.get(found.end() - 1, (None, ()))
+            if start < behind:
+                continue
+            if count > _MAX_CALLS or parsed > _MAX_PARSED:
+                return
             count += 1
-            node = _expression(self.text[found.start() : end + 1]) if end is not None else None
+            parsed += (end or start) - start + sum(comma - start for comma in commas[-_MAX_HEADS:])
+            node = _expression(self.text[start : end + 1]) if end is not None else None
             if node is not None and end is not None:
                 behind = end
             else:
                 # Half typed: what it was given before that.
                 for comma in reversed(commas[-_MAX_HEADS:]):
-                    node = _expression(self.text[found.start() : comma] + ")")
+                    node = _expression(self.text[start:comma] + ")")
                     if node is not None:
                         behind = comma
                         break
             if node is not None:
-                self._move(node, found.start())
+                self._move(node, start)
                 yield node
 
     def _move(self, node: ast.AST, offset: int) -> None:
         """To its place in the text."""
         line, column = self.lines.position(offset)
-        start = self.lines.line_start(line)
-        width = len(self.text[start : start + column].encode(errors="surrogatepass"))
+        width = self._bytes.bytes_before(offset) - self._bytes.bytes_before(offset - column)
         for each in ast.walk(node):
             if isinstance(each, (ast.expr, ast.keyword)):
                 if each.lineno == 1:
@@ -169,12 +184,8 @@ class PythonSource:
         return self._now(Span(whole.start + len(text) - len(text.lstrip()), whole.start + len(text.rstrip())))
 
     def _offset(self, line: int, column: int) -> int:
-        start = self.lines.line_start(line - 1)
-        if self._ascii:
-            return start + column
-        whole = self.lines.line_span(line - 1)
-        data = self.text[start : whole.end].encode(errors="surrogatepass")[:column]
-        return start + len(data.decode(errors="replace"))
+        start, end = self.lines.line_span(line - 1)
+        return min(self._bytes.offset(self._bytes.bytes_before(start) + column), end)
 
 
 def last_name(node: ast.expr) -> str:

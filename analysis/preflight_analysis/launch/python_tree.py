@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from functools import cached_property
 
 import tree_sitter_python
-from tree_sitter import Language, Node, Parser, Query, QueryCursor
+from tree_sitter import Language, Node, Parser
 
-from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.span import ByteOffsets, Span
+from preflight_analysis.launch.python_source import MAX_CHARACTERS
 
 _LANGUAGE = Language(tree_sitter_python.language())
-_ASSIGNED = Query(_LANGUAGE, "(assignment left: (identifier) @name right: (_) @value)")
-_CALLS = Query(_LANGUAGE, "(call function: [(identifier) (attribute)] arguments: (argument_list)) @call")
-_STRINGS = Query(_LANGUAGE, "(string) @string")
+MAX_BRACKETS = 200
+"""As many may be open at once; Python itself refuses more. tree-sitter takes long to get over them."""
 _MAX_DEPTH = 20
 _SUBSTITUTIONS = {
     "get_package_share_directory": "find-pkg-share",
@@ -31,6 +31,7 @@ _SUBSTITUTIONS = {
 }
 _SAME = frozenset({"str", "Path", "TextSubstitution", "realpath", "abspath", "normpath", "ParameterFile"})
 """Calls that come to what they are given."""
+_BRACKET = re.compile(r"[()\[\]{}]")
 _PREFIX = re.compile(r"[A-Za-z]*")
 _HERE = "$(dirname)"
 
@@ -40,9 +41,9 @@ class PythonTree:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self._data = text.encode(errors="surrogatepass")
-        self._ascii = len(self._data) == len(text)
-        self.root = Parser(_LANGUAGE).parse(self._data).root_node
+        self._bytes = ByteOffsets(text)
+        read = text if len(text) <= MAX_CHARACTERS and not _is_deep(text) else ""
+        self.root = Parser(_LANGUAGE).parse(read.encode(errors="replace")).root_node
 
     def span(self, node: Node) -> Span:
         """Where a node stands; of a text what is between its quotes."""
@@ -54,7 +55,7 @@ class PythonTree:
 
     def string_at(self, offset: int) -> Node | None:
         """The text that begins at `offset`."""
-        at = offset if self._ascii else len(self.text[:offset].encode(errors="surrogatepass"))
+        at = self._bytes.bytes_before(offset)
         node = self.root.descendant_for_byte_range(at, at + 1)
         while node is not None and node.type != "string":
             node = node.parent
@@ -62,20 +63,39 @@ class PythonTree:
 
     def strings(self) -> list[Node]:
         """All texts."""
-        return QueryCursor(_STRINGS).captures(self.root).get("string", [])
+        return self._nodes["string"]
 
     def calls(self, name: str) -> Iterator[Node]:
         """All calls of that name."""
-        for call in QueryCursor(_CALLS).captures(self.root).get("call", ()):
-            if called(call) == name:
+        for call in self._nodes["call"]:
+            given = call.child_by_field_name("arguments")
+            if given is not None and given.type == "argument_list" and called(call) == name:
                 yield call
+
+    @cached_property
+    def _nodes(self) -> dict[str, list[Node]]:
+        """The nodes of the types that are asked for, in the order of the text. A query of tree-sitter takes a time that
+        grows with the square of the children of a node."""
+        found: dict[str, list[Node]] = {"string": [], "call": [], "assignment": []}
+        cursor = self.root.walk()
+        while True:
+            node = cursor.node
+            if node is not None and node.type in found and node.is_named:
+                found[node.type].append(node)
+            if cursor.goto_first_child():
+                continue
+            while not cursor.goto_next_sibling():
+                if not cursor.goto_parent():
+                    return found
 
     @cached_property
     def _assigned(self) -> dict[str, Node]:
         """What names stand for that are assigned in one place only."""
         found: dict[str, list[Node]] = {}
-        for _, captured in QueryCursor(_ASSIGNED).matches(self.root):
-            found.setdefault(written(captured["name"][0]), []).append(captured["value"][0])
+        for node in self._nodes["assignment"]:
+            name, value = node.child_by_field_name("left"), node.child_by_field_name("right")
+            if name is not None and name.type == "identifier" and value is not None:
+                found.setdefault(written(name), []).append(value)
         return {name: values[0] for name, values in found.items() if len(values) == 1}
 
     def resolved(self, node: Node) -> Node:
@@ -141,7 +161,17 @@ class PythonTree:
         return f"$({command} {first})" if command is not None else None
 
     def _offset(self, byte: int) -> int:
-        return byte if self._ascii else len(self._data[:byte].decode(errors="surrogatepass"))
+        return self._bytes.offset(byte)
+
+
+def _is_deep(text: str) -> bool:
+    """Whether more brackets are open at once than Python takes, those in texts and comments counted too."""
+    depth = 0
+    for bracket in _BRACKET.findall(text):
+        depth = depth + 1 if bracket in "([{" else max(0, depth - 1)
+        if depth > MAX_BRACKETS:
+            return True
+    return False
 
 
 def written(node: Node) -> str:

@@ -12,7 +12,7 @@ from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, 
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.rule import Check, Context, Rule
 
-_ANONYMOUS = re.compile(r"([^/]+?)_ANON\d+")
+_ANONYMOUS = re.compile(r"_ANON\d+")
 
 
 def problems_of(rule: Rule, context: Context) -> Iterator[Problem]:
@@ -96,7 +96,14 @@ def quoted(names: Iterable[str]) -> str:
 
 def as_written(name: str) -> str:
     """A name with `$(anon x)` in place of what the evaluation makes of it, which is another at every launch."""
-    return _ANONYMOUS.sub(r"$(anon \1)", name)
+    pieces: list[str] = []
+    at = 0
+    for mark in _ANONYMOUS.finditer(name):
+        start = max(at, name.rfind("/", at, mark.start()) + 1)
+        if start < mark.start():
+            pieces += (name[at:start], f"$(anon {name[start : mark.start()]})")
+            at = mark.end()
+    return "".join((*pieces, name[at:]))
 
 
 def shown(path: str, context: Context) -> str:
