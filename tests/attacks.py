@@ -163,6 +163,8 @@ attempt("terminal-input")(lambda: call((16, 29), 0, 0x5412))
 attempt("fifo-write")(lambda: os.open(given["fifo"], os.O_WRONLY | os.O_NONBLOCK))
 attempt("second-proc")(lambda: any(n.isdigit() for n in os.listdir(given["proc"])))
 attempt("second-proc-root")(lambda: os.listdir("%s/%d/root" % (given["proc"], host)))
+attempt("linked-home")(lambda: open(work + "/linked/id_ed25519").read())
+attempt("git-config")(lambda: open(work + "/.git/config").read())
 attempt("environment-token")(lambda: os.environ.get("PREFLIGHT_TOKEN") is not None)
 attempt("environment-address")(lambda: any("user:pw" in value for value in os.environ.values()))
 attempt("shared-memory-of-host")(lambda: call((30, 196), given["segment"], 0, 0o10000))
@@ -229,6 +231,9 @@ def attack(folder: Path, proc: str = "") -> dict[str, str]:
         log = at_end.enter_context(closing(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)))
         log.bind(f"/tmp/{name}.log")
         at_end.callback(os.unlink, f"/tmp/{name}.log")
+        (folder / "linked").symlink_to(key.parent)
+        (folder / ".git").mkdir()
+        (folder / ".git" / "config").write_text("token")
         os.mkfifo(folder / "pipe")
         pipe = os.open(folder / "pipe", os.O_RDONLY | os.O_NONBLOCK)
         at_end.callback(os.close, pipe)
@@ -261,7 +266,7 @@ def attack(folder: Path, proc: str = "") -> dict[str, str]:
     after = precious.stat()
     for what in ("st_mode", "st_uid", "st_mtime", "st_nlink", "st_ctime"):
         assert getattr(after, what) == getattr(before, what), f"{what} of a file of the workspace was changed"
-    assert sorted(path.name for path in folder.iterdir()) == ["node.py", "pipe", "precious", "s"]
+    assert sorted(path.name for path in folder.iterdir()) == [".git", "linked", "node.py", "pipe", "precious", "s"]
     places = (Path.home(), Path("/tmp"), Path("/etc"), Path("/var/tmp"), Path("/dev/shm"), Path("/"))
     assert not [place for place in places if (place / name).exists()]
     said = [line.partition(" ")[2] for line in outcome.stderr_tail if line.startswith("part ")]

@@ -51,7 +51,7 @@ from preflight_analysis.live.compare import compare
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.live.model import CannotObserveError, Expected
 from preflight_analysis.live.observe_ros1 import Ros1Observer
-from preflight_analysis.live.observe_ros2 import _observation
+from preflight_analysis.live.observe_ros2 import said
 from preflight_analysis.live.report import event_json, line
 from preflight_analysis.live.watcher import State
 from preflight_analysis.nodl.read import read_nodl
@@ -540,8 +540,8 @@ def master_answers(data: bytes) -> None:
 def graph_of_ros2(data: bytes) -> None:
     """What the helper says of a ROS 2 system, whose names others make up."""
     try:
-        found = _observation(json.loads(data))
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        found = said(text_of(data), "domain 0")
+    except (CannotObserveError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return
     _compared(found)
 

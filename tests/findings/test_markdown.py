@@ -65,3 +65,9 @@ def test_a_picture_is_not_loaded(write: object) -> None:
     shown = READER.render(write(PICTURE))  # type: ignore[operator]
     assert "<img" not in shown
     assert "<a" not in shown
+
+
+def test_nothing_turns_the_text_around_it() -> None:
+    for shown in (code("a\u202eb"), block(["a\u2066b"]), escaped("a\u061cb")):
+        assert shown.count("\N{REPLACEMENT CHARACTER}") == 1
+    assert code("שלום") == "`שלום`", "what is written from right to left by itself stays"

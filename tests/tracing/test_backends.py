@@ -36,12 +36,12 @@ def test_every_attempt_ends_as_the_documentation_says(
     assert attacks.wrong(attacks.attack(tmp_path), backend) == {}
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="only root can be both root and a user; the test above is the user's")
 def test_the_same_holds_for_root_and_for_a_user() -> None:
-    """In a mount name space with a second procfs, by each backend that works here."""
+    """In a mount name space with a second procfs, by each backend that works here. Only root can be both."""
     found = attacks.everyone()
-    assert set(found) == set(attacks.IDENTITIES)
-    cases = set(attacks.documented())
+    is_root = os.geteuid() == 0
+    assert set(found) == (set(attacks.IDENTITIES) if is_root else {"user"})
+    cases = {case for case in attacks.documented() if is_root or not case.startswith("second-proc")}
     for who, backends in found.items():
         for backend in WORKING:
             assert backends[backend].keys() == cases, (who, backend, backends[backend].get(""))

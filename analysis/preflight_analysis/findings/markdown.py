@@ -15,6 +15,8 @@ _SHOWN = re.compile(
     r"|\[(?P<label>(?:[^\]\\]|\\.)*)\]\([^)]*\)|\*\*|\\(?P<char>[!-/:-@\[-`{-~])",
     re.DOTALL | re.MULTILINE,
 )
+_TURNS = re.compile("[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+"""What changes the direction of the text around it, also outside of a code span (UAX #9)."""
 _RUNS = re.compile("`+")
 _MARKS = re.compile(r"[\\`*_\[\]<>&~|]|^[-+=#]")
 _NUMBERED = re.compile(r"^(\d{1,9})(?=[.)])")
@@ -23,7 +25,7 @@ _NUMBERED = re.compile(r"^(\d{1,9})(?=[.)])")
 
 def code(text: object) -> str:
     """A code span that shows the text as it is, in one line."""
-    shown = " ".join(str(text).splitlines()) or " "
+    shown = _seen(" ".join(str(text).splitlines())) or " "
     fence = "`" * _beyond(shown, 1)
     # One space on either side goes where both are there: needed where the text itself begins or ends with a fence.
     space = " " if shown.startswith("`") or shown.endswith("`") or (shown[0] == shown[-1] == " " != shown) else ""
@@ -32,19 +34,23 @@ def code(text: object) -> str:
 
 def block(lines: Iterable[str], language: str = "text") -> str:
     """A fenced block of lines."""
-    shown = "\n".join(lines)
+    shown = _seen("\n".join(lines))
     fence = "`" * _beyond(shown, 3)
     return f"{fence}{language}\n{shown}\n{fence}"
 
 
 def escaped(text: str) -> str:
     """Text that is shown as it is: no marks, links, pictures or HTML."""
-    return _NUMBERED.sub(r"\1\\", _MARKS.sub(r"\\\g<0>", " ".join(text.split())))
+    return _NUMBERED.sub(r"\1\\", _MARKS.sub(r"\\\g<0>", _seen(" ".join(text.split()))))
 
 
 def plain(markdown: str) -> str:
     """What is read where Markdown is not shown: the same words without marks, links as their labels."""
     return _SHOWN.sub(_said, markdown)
+
+
+def _seen(text: str) -> str:
+    return _TURNS.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
 def _said(found: re.Match[str]) -> str:

@@ -24,6 +24,7 @@ from xml.parsers.expat import ExpatError
 
 from preflight_analysis.live.bounded import BoundedSocket, Transport
 from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation, is_builtin
+from preflight_analysis.live.names import check_number, with_shown_names
 from preflight_analysis.tracing.interface import Role
 
 DEFAULT_MASTER = "http://localhost:11311"
@@ -92,6 +93,8 @@ class Ros1Observer:
         names = sorted(
             {node for side in (publishers, subscribers, services) for nodes in side.values() for node in nodes}
         )
+        sides = (publishers, subscribers, services)
+        check_number(self.place, names, [node for side in sides for nodes in side.values() for node in nodes])
         nodes = dict(zip(names, self._pool.map(partial(self._node, until), names), strict=True))
         alive = [
             name
@@ -104,7 +107,7 @@ class Ros1Observer:
             *_ends("subscriber", subscribers, types),
             *_ends("service", services, service_types),
         ]
-        return Observation(1, nodes, tuple(ends), self._run(until))
+        return with_shown_names(Observation(1, nodes, tuple(ends), self._run(until)))
 
     def _run(self, until: float) -> str | None:
         """roslaunch gives each run of a master an id."""

@@ -17,11 +17,14 @@ from typing import Any, cast, get_args
 from preflight_analysis.environment.ament import ament_prefixes, python_folders, rclpy_interpreter
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation
+from preflight_analysis.live.names import check_number, with_shown_names
 from preflight_analysis.tracing.interface import Role
 
 _HELPER = Path(__file__).with_name("ros2_helper.py")
 _START_SECONDS = 60.0
 """Seconds until the helper has told the first graph."""
+_MAX_LINE = 64 << 20
+"""Characters; the largest system that is compared takes a third of it."""
 _ROLES = frozenset(get_args(Role))
 
 
@@ -92,31 +95,43 @@ class Ros2Observer:
 
     def _read(self, process: subprocess.Popen[str]) -> None:
         assert process.stdout is not None
-        for line in process.stdout:
+        while line := process.stdout.readline(_MAX_LINE):
+            if len(line) == _MAX_LINE and not line.endswith("\n"):
+                process.kill()
+                self._tell(None, f"{self.place} shows more names than can be looked at")
+                break
             try:
-                told = json.loads(line)
-                error = told.get("error")
-                observation = None if error else _observation(told)
-            except (ValueError, TypeError, KeyError, AttributeError):
+                self._tell(said(line, self.place), None)
+            except CannotObserveError as error:
+                self._tell(None, str(error))
+            except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
                 continue  # a library that prints
-            with self._news:
-                self._latest, self._error = observation, f"rclpy does not work: {error}" if error else None
-                self._news.notify_all()
+        code = process.wait()
+        if self._error is None:
+            self._tell(None, f"the process that asks rclpy ended with {code}")
+
+    def _tell(self, observation: Observation | None, error: str | None) -> None:
         with self._news:
-            self._error = self._error or f"the process that asks rclpy ended with {process.wait()}"
+            self._latest, self._error = observation, error
             self._news.notify_all()
 
 
-def _observation(told: Mapping[str, Any]) -> Observation:
+def said(line: str, place: str) -> Observation:
+    """What a line of the helper says of the system. Raises `CannotObserveError` where it cannot be seen, any of
+    `ValueError`, `TypeError`, `KeyError`, `AttributeError` and `RecursionError` if the line is none of the helper's."""
+    told: Mapping[str, Any] = json.loads(line)
+    if error := told.get("error"):
+        raise CannotObserveError(f"rclpy does not work: {error}")
     counts = Counter(str(name) for name in told["nodes"])
+    check_number(place, counts, told["ends"])
     ends = [
-        LiveEnd(cast(Role, role), str(node), str(name), str(kind), {str(k): v for k, v in qos.items()})
+        LiveEnd(cast(Role, role), str(node), str(name), str(kind), dict(qos))
         for role, node, name, kind, qos in told["ends"]
         if role in _ROLES
     ]
     lifecycle = {str(name): str(state) for name, state in told["lifecycle"].items()}
     nodes = {name: LiveNode(name, count=count, lifecycle=lifecycle.get(name)) for name, count in counts.items()}
-    return Observation(2, nodes, tuple(ends))
+    return with_shown_names(Observation(2, nodes, tuple(ends)))
 
 
 def _lacking(of_workspace: str | None) -> str:
