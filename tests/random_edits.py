@@ -6,8 +6,8 @@ FOLDER has packages. Each seed copies a few launch files that include each other
 edits them as people do: pieces of other files typed character by character, pasted, deleted, undone; files saved,
 closed, opened, created and deleted. After each edit one long-lived `Workspace` is asked about one of its launches, and
 so is a new one that has just read the same texts: trees (values, problems, uses, origins), documents and findings must
-be the same, and nothing may be logged as an error. The texts themselves go through the server's `TextStore`, as ranges
-in one of LSP's encodings, and must stay those of the editor.
+be the same, also with a graph of made-up interfaces, and nothing may be logged as an error. The texts themselves go
+through the server's `TextStore`, as ranges in one of LSP's encodings, and must stay those of the editor.
 """
 
 from __future__ import annotations
@@ -28,6 +28,8 @@ import lsp_desk
 from lsprotocol import types
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import find_packages
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.text_store import TextStore, to_uri
@@ -38,6 +40,7 @@ EDITS_IN_ONE_WORKSPACE = 400
 _FIND = re.compile(r"\$\(find ([\w-]+)\)/([\w./-]+)")
 _BESIDE = re.compile(r"\$\(dirname\)/([\w./-]+)")
 _VALUE = re.compile(r'"([^"<]*)"')
+_NAME = re.compile(r"[A-Za-z]\w*")
 _ARG = re.compile(r'<arg\s+name="(\w+)"')
 ODDITIES = (
     '<node pkg="p" type="t" name="$(anon n)"/>',
@@ -118,6 +121,8 @@ class Desk:
     open: dict[str, str] = field(default_factory=dict)
     undo: dict[str, list[str]] = field(default_factory=dict)
     typing: Typing | None = None
+    known: dict[int, Analysis] = field(default_factory=dict)
+    """What each root came to when it was last compared."""
     log: list[str] = field(default_factory=list)
     changes: int = 0
 
@@ -255,21 +260,50 @@ class Desk:
 
     def compare(self) -> None:
         """Raises `Broken` if a fresh look at the same texts tells something else."""
-        root, args = self.chance.choice(self.roots)
+        number = self.chance.randrange(len(self.roots))
+        root, args = self.roots[number]
         remembered = self.workspace.static(root, args)
+        whole = self.known[number] = _with_graph(self.workspace, remembered, self.known.get(number))
         sources = Sources()
         for path, text in self.open.items():
             sources.open(path, text)
-        fresh = Workspace(self.environment, sources, self.folder).static(root, args)
-        for what, one, other in zip(("tree", "findings", "documents"), _state(remembered), _state(fresh), strict=True):
-            if one != other:
-                raise Broken(f"{what} of {root} with {args}:\n{_difference(one, other)}")
+        workspace = Workspace(self.environment, sources, self.folder)
+        fresh = workspace.static(root, args)
+        now, then = _state(remembered, whole), _state(fresh, _with_graph(workspace, fresh, None))
+        for what, one in now.items():
+            if one != then[what]:
+                raise Broken(f"{what} of {root} with {args}:\n{_difference(one, then[what])}")
 
 
-def _state(analysis: Analysis) -> tuple[str, str, str]:
+def _with_graph(workspace: Workspace, analysis: Analysis, previous: Analysis | None) -> Analysis:
+    """The analysis as if its nodes had been run: what they do is made up from how they are started."""
+    interfaces = [_interface(node) for node in analysis.tree.nodes]
+    return workspace.with_interfaces(analysis, interfaces, None, previous)
+
+
+def _interface(node: LaunchNode) -> Interface:
+    types = ("std_msgs/String", "sensor_msgs/LaserScan", None)
+    kinds = ("publisher", "subscriber", "service", "client")
+    words = [*_NAME.findall(node.executable + " " + node.args)[:6], "scan"]
+    ends = (
+        Endpoint(kinds[(len(word) + at) % 4], word if at % 2 else f"~{word}", types[len(word) % 3])
+        for at, word in enumerate(words)
+    )
+    uses = (ParamUse(f"~{word}", "get", mandatory=len(word) % 2 == 0) for word in words)
+    return Interface("trace", Outcome("spinning" if len(node.name) % 5 else "crashed"), tuple(ends), tuple(uses))
+
+
+def _state(analysis: Analysis, whole: Analysis) -> dict[str, str]:
     """All of an analysis as text: unlike an equality that tells 1 from 1.0 and one order from another."""
     documents = {path: (type(d).__name__, d.digest) for path, d in analysis.documents.items()}
-    return repr(analysis.tree), repr(analysis.findings), repr((documents, list(analysis.launch_files)))
+    graph = whole.graph
+    return {
+        "tree": repr(analysis.tree),
+        "findings": repr(analysis.findings),
+        "documents": repr((documents, list(analysis.launch_files))),
+        "graph": repr((graph.topics, graph.services, graph.param_reads) if graph is not None else None),
+        "findings with a graph": repr(whole.findings),
+    }
 
 
 def _difference(remembered: str, fresh: str) -> str:

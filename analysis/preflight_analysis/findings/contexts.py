@@ -42,7 +42,7 @@ def by_file(reports: Iterable[RootFindings], every_root: Collection[str]) -> dic
     holds: dict[tuple[str, Location], list[str]] = {}
     for report in reports:
         for found_here in report.findings:
-            finding = replace(found_here, roots=(report.root,))
+            finding = _holding_in(found_here, (report.root,))
             key = (finding.rule, finding.location)
             same = first.setdefault(key, [])
             # One root may say several things of one place; a second root's wording of the same thing is not news.
@@ -57,5 +57,9 @@ def by_file(reports: Iterable[RootFindings], every_root: Collection[str]) -> dic
             reaching = {r.root for r in reports if location.file in r.files}
             if not reaching <= set(held):
                 continue
-        files.setdefault(location.file, []).extend(replace(f, roots=tuple(held)) for f in found)
+        files.setdefault(location.file, []).extend(_holding_in(f, tuple(held)) for f in found)
     return {file: tuple(sorted(found, key=lambda f: (f.location.span, f.rule))) for file, found in files.items()}
+
+
+def _holding_in(finding: Finding, roots: tuple[str, ...]) -> Finding:
+    return finding if finding.roots == roots else replace(finding, roots=roots)

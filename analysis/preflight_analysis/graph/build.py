@@ -5,7 +5,7 @@ from __future__ import annotations
 import fnmatch
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
@@ -15,6 +15,7 @@ from preflight_analysis.graph.actions import ActionEnd, actions_of, moves_action
 from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.processes import each_node
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
 
 _OFFERS = ("publisher", "service", "action_server")
@@ -28,6 +29,7 @@ def build_graph(
     external_topics: Sequence[str] = (),
     distro: str | None = None,
     documents: Mapping[str, Document] | None = None,
+    kept: Kept | None = None,
 ) -> Graph:
     """Who talks to whom after the launch of `tree`, given what each of its nodes does.
 
@@ -36,44 +38,69 @@ def build_graph(
 
     `external_topics` are patterns of the topics that something outside of the launch offers or wants. `distro` is the
     distribution of ROS, whose client libraries differ in what a remap moves. `documents` are the texts of parameter
-    files, which may have something for other nodes of a process than the launch file's.
+    files, which may have something for other nodes of a process than the launch file's. What was `kept` of the graph
+    before is taken over.
 
     Raises `ValueError` if the lengths differ.
     """
-    processes = tuple(annotated(interface, node.action) for node, interface in zip(tree.nodes, interfaces, strict=True))
+    kept = kept or Kept()
+    pairs = zip(tree.nodes, interfaces, strict=True)
+    processes = tuple(kept.get(annotated, node.name, interface, node.action) for node, interface in pairs)
     tree, merged = each_node(tree, processes, documents or {})
     topics: list[Connection] = []
     services: list[Connection] = []
     actions: list[Connection] = []
     reads: list[ParamRead] = []
+    moving = moves_actions(distro)
     for node, interface in zip(tree.nodes, merged, strict=True):
-        if not interface.endpoints and not interface.params:
-            continue
-        remaps = effective_remaps(node, tree.generation)
-        of_actions: set[int] = set()
-        for action in actions_of(interface.endpoints, tree.generation):
-            whole, parts = _connect_action(node, action, remaps, as_a_whole=moves_actions(distro))
-            of_actions.update(map(id, action.parts))
-            actions.extend(whole)
-            for part in parts:
-                (topics if part.endpoint.role in _TOPIC_ROLES else services).append(part)
-        for endpoint in interface.endpoints:
-            if endpoint.role in _TOPIC_ROLES and id(endpoint) not in of_actions:
-                topics.append(_connect(node, endpoint, remaps))
-            elif endpoint.role in _SERVICE_ROLES:
-                services.append(_connect(node, endpoint, remaps))
-        targets = {source: remap[1] for source, remap in remaps.items()}
-        reads.extend(ParamRead(names.resolve(use.name, node.name, targets), node, use) for use in interface.params)
+        if interface.endpoints or interface.params:
+            made = kept.get(_of_node, node.name, node, interface, tree.generation, moving)
+            topics += made.topics
+            services += made.services
+            actions += made.actions
+            reads += made.reads
     return Graph(
         tree,
         merged,
         processes,
-        _channels(topics, external_topics),
-        _channels(_named(services)),
-        _channels(actions),
+        _channels(kept, "topic", topics, external_topics),
+        _channels(kept, "service", _named(services)),
+        _channels(kept, "action", actions),
         tuple(reads),
         tuple(external_topics),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Made:
+    """What one node brings into the graph."""
+
+    topics: tuple[Connection, ...]
+    services: tuple[Connection, ...]
+    actions: tuple[Connection, ...]
+    reads: tuple[ParamRead, ...]
+
+
+def _of_node(node: LaunchNode, interface: Interface, generation: int, moves: bool) -> _Made:
+    topics: list[Connection] = []
+    services: list[Connection] = []
+    actions: list[Connection] = []
+    remaps = effective_remaps(node, generation)
+    of_actions: set[int] = set()
+    for action in actions_of(interface.endpoints, generation):
+        whole, parts = _connect_action(node, action, remaps, as_a_whole=moves)
+        of_actions.update(map(id, action.parts))
+        actions.extend(whole)
+        for part in parts:
+            (topics if part.endpoint.role in _TOPIC_ROLES else services).append(part)
+    for endpoint in interface.endpoints:
+        if endpoint.role in _TOPIC_ROLES and id(endpoint) not in of_actions:
+            topics.append(_connect(node, endpoint, remaps))
+        elif endpoint.role in _SERVICE_ROLES:
+            services.append(_connect(node, endpoint, remaps))
+    targets = {source: remap[1] for source, remap in remaps.items()}
+    reads = tuple(ParamRead(names.resolve(use.name, node.name, targets), node, use) for use in interface.params)
+    return _Made(tuple(topics), tuple(services), tuple(actions), reads)
 
 
 def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap, str]]:
@@ -143,23 +170,31 @@ def _named(services: Sequence[Connection]) -> list[Connection]:
     return [named(connection) for connection in services]
 
 
-def _channels(connections: Iterable[Connection], external: Sequence[str] = ()) -> dict[str, Channel]:
+def _channels(
+    kept: Kept, kind: str, connections: Iterable[Connection], external: Sequence[str] = ()
+) -> dict[str, Channel]:
     """Grouped by final name, sorted by it; ends that a node made twice alike count once."""
     is_external = re.compile("|".join(fnmatch.translate(pattern) for pattern in external)).match if external else None
     grouped: dict[str, list[Connection]] = {}
-    seen: set[tuple[object, ...]] = set()
     for connection in connections:
-        end = connection.endpoint
-        key = (connection.name, id(connection.node), end.role, end.type, end.md5)
-        if key not in seen:
-            seen.add(key)
-            grouped.setdefault(connection.name, []).append(connection)
+        grouped.setdefault(connection.name, []).append(connection)
     return {
-        name: Channel(
+        name: kept.get(
+            _channel,
+            (kind, name),
             name,
-            tuple(c for c in grouped[name] if c.endpoint.role in _OFFERS),
-            tuple(c for c in grouped[name] if c.endpoint.role not in _OFFERS),
+            tuple(grouped[name]),
             is_external is not None and is_external(name) is not None,
         )
         for name in sorted(grouped)
     }
+
+
+def _channel(name: str, connections: Sequence[Connection], external: bool) -> Channel:
+    alike: dict[tuple[object, ...], Connection] = {}
+    for each in connections:
+        end = each.endpoint
+        alike.setdefault((id(each.node), end.role, end.type, end.md5), each)
+    offers = tuple(each for each in alike.values() if each.endpoint.role in _OFFERS)
+    wants = tuple(each for each in alike.values() if each.endpoint.role not in _OFFERS)
+    return Channel(name, offers, wants, external)

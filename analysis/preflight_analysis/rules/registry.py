@@ -7,7 +7,7 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -63,15 +63,20 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         raw.extend(_in_order(rule, found, context) if rule.problems else found)
     filtered = apply_suppressions(unique(raw), context.documents)
     chains = _first_chains(context)
-    kept = [_with_include_chain(finding, chains) for finding in filtered.kept]
+    kept = [
+        context.kept.get(_in_context, id(finding), finding, chains.get(finding.location.file), context.root)
+        for finding in filtered.kept
+    ]
     judge = next((rule for rule in chosen if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
-        kept += [judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran]
+        useless = (judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran)
+        kept += [in_root(finding, context.root) for finding in useless]
     kept, others = most_severe(kept)
     counts = next((rule for rule in chosen if rule.left_out is not None), None)
     if counts is not None and counts.left_out is not None:
-        kept += [counts.left_out(counts, path, found) for path, found in others.items()]
-    return sorted((in_root(finding, context.root) for finding in kept), key=_place)
+        kept += [in_root(counts.left_out(counts, path, found), context.root) for path, found in others.items()]
+    context.kept.end()
+    return sorted(kept, key=_place)
 
 
 def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iterator[Finding]:
@@ -91,32 +96,39 @@ def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iter
 def unique(findings: Iterable[Finding]) -> list[Finding]:
     """Each rule says each thing of a place once, and what it says of it in further includes of the same file (other
     arguments, another namespace) becomes a related place of what it says in the first one that is as severe as any."""
-    places: dict[tuple[str, Location], dict[tuple[Location, ...], dict[str, Finding]]] = {}
+    places: dict[tuple[str, Location], list[Finding]] = {}
     for finding in findings:
-        chain = tuple(related.location for related in finding.related if related.message == INCLUDED_HERE)
-        contexts = places.setdefault((finding.rule, finding.location), {})
-        contexts.setdefault(chain, {}).setdefault(finding.message, finding)
+        places.setdefault((finding.rule, finding.location), []).append(finding)
     kept: list[Finding] = []
-    for (_, place), contexts in places.items():
-        ranks = {chain: max(SEVERITIES.index(f.severity) for f in said.values()) for chain, said in contexts.items()}
-        lead = max(ranks, key=ranks.__getitem__)
-        first, *more = contexts.pop(lead).values()
-        told = {first.message, *(finding.message for finding in more)}
-        others: list[Related] = []
-        for chain, said in contexts.items():
-            where = chain[0] if chain else place
-            others += [Related(f"in another context: {message}", where) for message in said if message not in told]
-            told.update(said)
-        kept += [replace(first, related=(*first.related, *others[:_MOST_CONTEXTS])), *more]
+    for (_, place), found in places.items():
+        kept += found if len(found) == 1 else _of_all_contexts(place, found)
     return kept
 
 
-def _with_include_chain(finding: Finding, chains: Mapping[str, tuple[Related, ...]]) -> Finding:
-    """A finding about a file, whatever includes it, says how the file is reached."""
-    chain = chains.get(finding.location.file)
+def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[Finding]:
+    """What one rule says of one place."""
+    contexts: dict[tuple[Location, ...], dict[str, Finding]] = {}
+    for finding in findings:
+        chain = tuple(related.location for related in finding.related if related.message == INCLUDED_HERE)
+        contexts.setdefault(chain, {}).setdefault(finding.message, finding)
+    ranks = {chain: max(SEVERITIES.index(f.severity) for f in said.values()) for chain, said in contexts.items()}
+    lead = max(ranks, key=ranks.__getitem__)
+    first, *more = contexts.pop(lead).values()
+    told = {first.message, *(finding.message for finding in more)}
+    others: list[Related] = []
+    for chain, said in contexts.items():
+        where = chain[0] if chain else place
+        others += [Related(f"in another context: {message}", where) for message in said if message not in told]
+        told.update(said)
+    yield replace(first, related=(*first.related, *others[:_MOST_CONTEXTS]))
+    yield from more
+
+
+def _in_context(finding: Finding, chain: tuple[Related, ...] | None, root: str) -> Finding:
+    """A finding of a root; one about a file, whatever includes it, says how the file is reached."""
     if not chain or any(related.message == INCLUDED_HERE for related in finding.related):
-        return finding
-    return replace(finding, related=(*finding.related, *chain))
+        return in_root(finding, root)
+    return in_root(replace(finding, related=(*finding.related, *chain)), root)
 
 
 def _first_chains(context: Context) -> dict[str, tuple[Related, ...]]:

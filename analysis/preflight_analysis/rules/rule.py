@@ -17,6 +17,7 @@ from preflight_analysis.findings.finding import Confidence, End, Finding, Fix, R
 from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import LaunchFile
 
 T = TypeVar("T")
@@ -58,6 +59,8 @@ class Context:
     executables: ExecutableNames | None = None
     sources: Files | None = None
     settings_problems: tuple[tuple[str, Location], ...] = ()
+    kept: Kept = field(default_factory=Kept, repr=False, compare=False)
+    """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
     _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def once(self, make: Callable[[Context], T]) -> T:

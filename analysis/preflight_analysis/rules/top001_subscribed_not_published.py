@@ -1,6 +1,6 @@
 """TOP001: a node subscribes to what nobody publishes."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection, Graph
@@ -29,7 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_ends)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.wanting), id(pair.offering)))]
-    dangling = by_type(dangling_offers(graph.topics))
+    dangling, whole = by_type(dangling_offers(graph.topics)), nodes_looked_at(graph)
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -47,7 +47,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     explained = {id(pair.wanting) for pair in near} | remapped
     for end in dangling_wants(graph.topics):
         if id(end) not in explained and not graph.blind:
-            yield _hint(rule, graph, end, dangling)
+            sure = graph.complete and not end.endpoint.uncertain
+            lone = lone_of_type(end, dangling)
+            yield context.kept.get(_hint, (end.name, end.node.name), rule, whole, end, lone, sure)
 
 
 def _near_message(graph: Graph, pair: NearMiss) -> str:
@@ -63,15 +65,13 @@ def _near_message(graph: Graph, pair: NearMiss) -> str:
     )
 
 
-def _hint(rule: Rule, graph: Graph, end: Connection, dangling: Mapping[str | None, list[Connection]]) -> Finding:
+def _hint(rule: Rule, whole: str, end: Connection, lone: Connection | None, sure: bool) -> Finding:
     kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
-    message = f"{nodes_looked_at(graph)} publishes '{end.name}'{kind}, to which {end.node.name} subscribes"
-    lone = lone_of_type(end, dangling)
+    message = f"{whole} publishes '{end.name}'{kind}, to which {end.node.name} subscribes"
     related = include_chain(end.node.origin)
     if lone is not None:
         message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
         related = (related_end(lone, "publishes"), *related)
-    sure = graph.complete and not end.endpoint.uncertain
     return rule.finding(
         message,
         connection_location(end),

@@ -24,13 +24,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             at.setdefault((connection_location(end), end.node.name), []).append(end)
     for (location, node), ends in at.items():
         sure = graph.complete and not any(end.endpoint.uncertain for end in ends)
-        yield rule.finding(
-            f"no node of this launch subscribes to {quoted(sorted({end.name for end in ends}))}, published by {node}",
-            location,
-            confidence="likely" if sure else "possible",
-            related=include_chain(ends[0].node.origin),
-            ends=ends_of(*ends),
-        )
+        yield context.kept.get(_finding, (location, node), rule, location, tuple(ends), sure)
+
+
+def _finding(rule: Rule, location: Location, ends: tuple[Connection, ...], sure: bool) -> Finding:
+    topics, node = quoted(sorted({end.name for end in ends})), ends[0].node
+    return rule.finding(
+        f"no node of this launch subscribes to {topics}, published by {node.name}",
+        location,
+        confidence="likely" if sure else "possible",
+        related=include_chain(node.origin),
+        ends=ends_of(*ends),
+    )
 
 
 RULE = Rule(

@@ -25,6 +25,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.rules.registry import run_rules
@@ -209,6 +210,7 @@ class Workspace:
             view.environment,
             executables=view.executables,
             sources=self.sources,
+            kept=Kept(known.context.kept if known is not None else None),
         )
         analysis = Analysis(path, key[1], tree, documents, launch_files, view.environment, context, severities)
         with self._lock:
@@ -280,11 +282,19 @@ class Workspace:
             launch=node.location.file,
         )
 
-    def with_interfaces(self, analysis: Analysis, interfaces: Sequence[Interface], why_not_run: str | None) -> Analysis:
+    def with_interfaces(
+        self,
+        analysis: Analysis,
+        interfaces: Sequence[Interface],
+        why_not_run: str | None,
+        previous: Analysis | None = None,
+    ) -> Analysis:
         """The analysis with the graph that the interfaces (one a node of the tree, in order) make, and all findings.
 
-        `why_not_run` says why nothing was executed, None where it was.
+        `why_not_run` says why nothing was executed, None where it was. `previous` is what this came to for the same
+        root before: what has not changed since is taken over.
         """
+        kept = Kept(previous.context.kept if previous is not None else None)
         tree = with_own_names(analysis.tree, interfaces, analysis.documents)
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
@@ -294,7 +304,9 @@ class Workspace:
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             whole = self._filled_in(of_source, interfaces, project)
-        graph = build_graph(analysis.tree, whole, project.external_topics, self.environment.distro, analysis.documents)
+        graph = build_graph(
+            analysis.tree, whole, project.external_topics, self.environment.distro, analysis.documents, kept
+        )
         document, problems = located_problems(project)
         context = replace(
             analysis.context,
@@ -302,6 +314,7 @@ class Workspace:
             why_not_run=why_not_run,
             executables=self._view(analysis.root).executables,
             settings_problems=problems,
+            kept=kept,
         )
         documents = analysis.documents if document is None else {**analysis.documents, document.path: document}
         return replace(analysis, context=context, documents=documents, severities=project.severities)

@@ -96,9 +96,14 @@ def node_keys(tree: LaunchTree) -> list[NodeKey]:
 
 
 def with_known(
-    workspace: Workspace, static: Analysis, known: Mapping[NodeKey, Interface], why_not_run: str | None
+    workspace: Workspace,
+    static: Analysis,
+    known: Mapping[NodeKey, Interface],
+    why_not_run: str | None,
+    previous: Analysis | None = None,
 ) -> Analysis:
-    """The analysis with what is known of its nodes. While the first runs are under way it says nothing of the graph."""
+    """The analysis with what is known of its nodes. While the first runs are under way it says nothing of the graph.
+    `previous` is what was known of the same root before."""
     keys = node_keys(static.tree)
     nodes = zip(keys, static.tree.nodes, strict=True)
     reason = why_not_run or workspace.cannot_run(static.tree) or PENDING
@@ -107,7 +112,7 @@ def with_known(
         return static
     if all(key in known for key in keys):
         why_not_run = None
-    return workspace.with_interfaces(static, interfaces, why_not_run)
+    return workspace.with_interfaces(static, interfaces, why_not_run, previous)
 
 
 def tell(loop: asyncio.AbstractEventLoop, told: Callable[[int, Interface], None], index: int, what: Interface) -> None:

@@ -460,7 +460,7 @@ class Session:
         def work() -> _Round:
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
-                analyses[root] = with_known(workspace, static, known, why)
+                analyses[root] = with_known(workspace, static, known, why, analyses.get(root))
             return self._merge(analyses, stale, explicit, selected)
 
         try:

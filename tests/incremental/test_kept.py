@@ -1,0 +1,75 @@
+"""What is taken over from the last time, and what is not."""
+
+from __future__ import annotations
+
+from preflight_analysis.incremental.kept import Kept
+
+CALLS: list[tuple[object, ...]] = []
+
+
+def described(*parts: object) -> str:
+    CALLS.append(parts)
+    return " ".join(map(str, parts))
+
+
+def round_of(before: Kept | None, items: dict[str, object]) -> tuple[Kept, list[str], list[tuple[object, ...]]]:
+    CALLS.clear()
+    kept = Kept(before)
+    texts = [kept.get(described, key, key, value) for key, value in items.items()]
+    kept.end()
+    return kept, texts, list(CALLS)
+
+
+def test_only_what_changed_is_made_again() -> None:
+    first, texts, made = round_of(None, {"a": 1, "b": 2})
+    assert texts == ["a 1", "b 2"] and len(made) == 2
+    second, texts, made = round_of(first, {"a": 1, "b": 3, "c": 4})
+    assert texts == ["a 1", "b 3", "c 4"] and made == [("b", 3), ("c", 4)]
+    _, texts, made = round_of(second, {"b": 3, "a": 1})
+    assert texts == ["b 3", "a 1"] and made == []
+
+
+def test_nothing_older_than_the_last_time_is_taken() -> None:
+    first, _, _ = round_of(None, {"a": 1})
+    second, _, _ = round_of(first, {})
+    assert round_of(second, {"a": 1})[2] == [("a", 1)]
+
+
+def test_two_items_of_one_key_are_two() -> None:
+    kept = Kept()
+    assert [kept.get(described, "same", value) for value in (1, 2, 1)] == ["1", "2", "1"]
+
+
+def test_functions_are_apart() -> None:
+    kept = Kept()
+    assert kept.get(described, "a", 1) == "1"
+    assert kept.get(len, "a", "text") == 4
+
+
+def test_of_many_items_only_other_objects_are_looked_at() -> None:
+    items: list[object] = [["a"], ["b"], ["c"]]
+    CALLS.clear()
+    first = Kept()
+    assert first.each(described, items, 1) == ["['a'] 1", "['b'] 1", "['c'] 1"]
+    items[1] = ["d"]
+    second = Kept(first)
+    assert second.each(described, [*items, items[0]], 1) == ["['a'] 1", "['d'] 1", "['c'] 1", "['a'] 1"]
+    assert len(CALLS) == 4
+    assert Kept(second).each(described, items, 2) == ["['a'] 2", "['d'] 2", "['c'] 2"]
+    assert len(CALLS) == 7
+
+
+def test_equal_objects_are_not_the_same() -> None:
+    item, alike = ["a"], ["a"]
+    first = Kept()
+    assert first.get(id, "a", item) == id(item)
+    assert first.get(id, "a", alike) == id(alike)
+    assert first.get(len, "pair", (item, "x", 1)) == 3
+    CALLS.clear()
+    first.get(described, "pair", (item, "x", 1), None)
+    first.get(described, "pair", (item, "".join(["x"]), 1), None)
+    assert len(CALLS) == 1
+    first.get(described, "pair", (item, "x", True), None)
+    first.get(described, "pair", (alike, "x", True), None)
+    first.get(described, "pair", (alike, "x"), None)
+    assert len(CALLS) == 4
