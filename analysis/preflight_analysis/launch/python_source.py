@@ -14,7 +14,7 @@ from preflight_analysis.documents.change import Change
 from preflight_analysis.documents.span import ByteOffsets, LineIndex, Span
 
 MAX_CHARACTERS = 500_000
-"""Of a text that is read as Python; the largest launch file of some 1,500 public ones has 60,000."""
+"""Of a text that is read as Python."""
 _NAME_AND_BRACKET = re.compile(r"[\w.]+(\s*\()?")
 _NAME = re.compile(r"\b[A-Za-z_]")
 _MAX_CALLS = 5_000

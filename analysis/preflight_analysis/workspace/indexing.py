@@ -24,7 +24,7 @@ SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"}
 """Folders right below the workspace that hold copies of what is in its source."""
 
 MAX_INCLUDED = 200_000
-"""How many includes are evaluated for one index. A workspace of a thousand launch files has some ten thousand."""
+"""How many includes are evaluated for one index."""
 _MAX_UPSTREAM = 100
 _log = logging.getLogger(__name__)
 
