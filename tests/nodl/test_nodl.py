@@ -190,6 +190,14 @@ def test_rubbish_is_no_document(text: str) -> None:
     assert not any(said.endpoints or said.params for said in read_nodl("/x.nodl.xml", text, 2))
 
 
+@pytest.mark.parametrize("type_", ["String", "/", "std_msgs/", ""])
+def test_an_end_whose_type_is_none_stays_without_one(type_: str) -> None:
+    (two,) = read_nodl("/x.nodl.yaml", f"nodl_version: 2\npublishers: [{{name: a, type: '{type_}'}}]", 2)
+    one = VERSION_1.replace("std_msgs/msg/String", type_)
+    for said in (two, read_nodl("/x.nodl.xml", one, 2)[0]):
+        assert [(end.role, end.type) for end in said.endpoints] == [("publisher", None)]
+
+
 def test_written_and_read_again_is_the_same(tmp_path: Path) -> None:
     files = {"nodl/driver.nodl.yaml": DRIVER}
     workspace = lay(tmp_path / "a", files)

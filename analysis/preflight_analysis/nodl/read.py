@@ -110,8 +110,9 @@ def _type(type_: Any, role: Role, generation: int) -> str | None:
     """The middle of `std_msgs/msg/String` may be left out in NoDL; ROS 1 does not have it, ROS 2 always."""
     if not isinstance(type_, str):
         return None
-    package, *_, name = type_.split("/")
-    if not package or not name or "/" not in type_:
+    parts = type_.split("/")
+    package, name = parts[0], parts[-1]
+    if len(parts) == 1 or not package or not name:
         return None
     return f"{package}/{name}" if generation == 1 else f"{package}/{_KINDS[role]}/{name}"
 
