@@ -9,10 +9,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import parse_arguments
-from preflight_analysis.evaluation.json_values import dumps
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace

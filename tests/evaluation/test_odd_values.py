@@ -6,7 +6,7 @@ import json
 from xml.sax.saxutils import quoteattr
 
 import pytest
-from preflight_analysis.evaluation.json_values import dumps
+from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_check import analyse, read_fixture

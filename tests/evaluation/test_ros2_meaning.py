@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation.arguments import parse_ros2_arguments
-from preflight_analysis.evaluation.json_values import dumps
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json

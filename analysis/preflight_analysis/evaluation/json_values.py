@@ -1,9 +1,8 @@
-"""Values of parameters in JSON, and JSON as text."""
+"""Values of parameters in JSON."""
 
 from __future__ import annotations
 
 import hashlib
-import json
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -25,13 +24,3 @@ def json_value(value: ParamValue) -> Any:
     if isinstance(value, (list, tuple)):
         return [json_value(each) for each in value]
     return value if value is None or isinstance(value, (bool, int, float, str)) else str(value)
-
-
-def dumps(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
-    """JSON text with sorted keys; characters stay what they are, save halves of surrogate pairs."""
-    text = json.dumps(data, sort_keys=True, indent=indent, ensure_ascii=False, allow_nan=False)
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        return json.dumps(data, sort_keys=True, indent=indent, allow_nan=False)
-    return text

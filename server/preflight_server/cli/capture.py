@@ -26,7 +26,6 @@ from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
 from preflight_server.cli.output import print_text, say
 from preflight_server.cli.project import open_project, run_nodes
 
-HELP = "write down what the nodes of a running system do"
 DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID) and prints what
 the nodes of the launch file do there, as annotations for the launch file or as settings: for nodes that cannot be run
 in the sandbox, which are captured where none is named. --no-run executes nothing. Exit codes: 0 captured, 1 one of the

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE
-from preflight_analysis.evaluation.json_values import dumps
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
@@ -32,7 +32,6 @@ from preflight_server.cli.project import run_nodes
 
 FORMATS = ("text", "json", "sarif", "junit", "github")
 
-HELP = "what is wrong with launch files"
 DESCRIPTION = """Tells what is wrong with launch files and everything they include. Without a file it is those of
 the current folder that nothing includes, and what .ros-preflight.yaml names, with each of its sets of arguments.
 The nodes, and the commands that parameters come from, are run in a sandbox, without network and with your files out

@@ -15,7 +15,6 @@ from preflight_server.cli.errors import CannotDoError
 from preflight_server.cli.output import colours, print_json, print_text
 from preflight_server.cli.side import sides, snapshot_of_side
 
-HELP = "what is not the same in two launch configurations"
 DESCRIPTION = """Compares the nodes, connections, types, QoS and parameters of two launch configurations. Each side is
 a launch file followed by its own arguments, a file that `snapshot` wrote, or one of either in a git revision, as
 REV:path. The nodes are run in a sandbox, those of revisions too: calling this command is your consent; --no-run

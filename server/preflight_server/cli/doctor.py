@@ -17,7 +17,6 @@ from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
 from preflight_server.cli.output import print_json, print_text
 from preflight_server.doctor import page
 
-HELP = "the ROS environment and the sandbox, and what is missing"
 DESCRIPTION = """Shows what launch files and nodes are looked at with: distribution, package path, interpreter, sandbox.
 Only an empty command is run in the sandbox, to see whether it works; --no-run leaves that out. The exit code is 1 if
 something is missing."""

@@ -22,7 +22,6 @@ from preflight_server.cli.errors import FAILED
 from preflight_server.cli.output import print_json, print_text, say
 from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
 
-HELP = "who talks to whom after the launch"
 DESCRIPTION = """Shows topics, services and actions under their final names, with the nodes at both ends. The nodes are
 run in a sandbox to see what they do: calling this command is your consent; --no-run executes nothing."""
 

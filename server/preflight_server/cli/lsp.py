@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-HELP = "serve an editor over standard input and output"
 DESCRIPTION = """The language server. Nothing is executed unless the editor says that the workspace is trusted
 (initialisation option workspaceTrusted, or the notification rosPreflight/workspaceTrust)."""
 

@@ -10,12 +10,24 @@ import sys
 from collections.abc import Sequence
 
 from preflight_analysis import __version__
-from preflight_analysis.tracing.cache_folder import VARIABLE
 
 from preflight_server.cli.errors import FAILED, CannotDoError
 from preflight_server.cli.output import LogFormatter, say
 
-_VERBS = ("check", "tree", "graph", "trace", "snapshot", "diff", "watch", "capture", "rules", "doctor", "lsp")
+_VERBS = {
+    "check": "what is wrong with launch files",
+    "tree": "what a launch file would start",
+    "graph": "who talks to whom after the launch",
+    "trace": "run the nodes of a launch file in the sandbox and show what they do",
+    "snapshot": "write the expected graph to a file",
+    "diff": "what is not the same in two launch configurations",
+    "watch": "compare a running system with what the launch file should have started",
+    "capture": "write down what the nodes of a running system do",
+    "rules": "list the rules, or explain one",
+    "doctor": "the ROS environment and the sandbox, and what is missing",
+    "lsp": "serve an editor over standard input and output",
+}
+"""The verbs with their help. The module of one is imported only if the command line has its name."""
 _SEVERAL_FILES = ("check", "diff")
 """The verbs whose positional arguments are files too, in `launch_args`."""
 _EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"
@@ -28,6 +40,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     logging.basicConfig(level=logging.WARNING, handlers=[handler])
     args = _parse(sys.argv[1:] if argv is None else argv)
     if getattr(args, "cache_dir", None):
+        from preflight_analysis.tracing.cache_folder import VARIABLE  # noqa: PLC0415, `--version` starts faster without
+
         os.environ[VARIABLE] = args.cache_dir
     try:
         code: int = args.run(args)
@@ -53,9 +67,12 @@ def _parse(argv: Sequence[str]) -> argparse.Namespace:
     )
     parser.add_argument("--version", action="version", version=f"ros-preflight {__version__}")
     verbs = parser.add_subparsers(metavar="VERB", required=True)
-    for verb in _VERBS:
+    for verb, text in _VERBS.items():
+        sub = verbs.add_parser(verb, help=text)
+        if verb not in argv:
+            continue
         module = importlib.import_module(f"preflight_server.cli.{verb}")
-        sub = verbs.add_parser(verb, help=module.HELP, description=module.DESCRIPTION)
+        sub.description = module.DESCRIPTION
         module.add_arguments(sub)
         if sub.get_default("fail_on") is not None:
             sub.epilog = _EPILOG  # the others tell theirs themselves

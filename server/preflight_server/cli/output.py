@@ -10,7 +10,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from preflight_analysis.evaluation.json_values import dumps
+from preflight_analysis.documents.json_text import dumps
 
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 """All but line break and tab, and what changes the direction of the text around it."""

@@ -11,7 +11,6 @@ from preflight_server.cli import options
 from preflight_server.cli.errors import CLEAN, CannotDoError
 from preflight_server.cli.output import print_json, print_text
 
-HELP = "list the rules, or explain one"
 DESCRIPTION = (
     "Lists the rules, or explains one: what it looks for, why that matters, an example and what to write instead."
 )

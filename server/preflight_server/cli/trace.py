@@ -15,7 +15,6 @@ from preflight_server.cli.errors import CannotDoError
 from preflight_server.cli.output import print_json, print_text
 from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
 
-HELP = "run the nodes of a launch file in the sandbox and show what they do"
 DESCRIPTION = """Runs the nodes of a launch file in a sandbox until they reach their event loop, and shows what they
 made until then under the names that they gave it, before namespaces and remaps."""
 

@@ -22,7 +22,6 @@ from preflight_server.cli.errors import CannotDoError
 from preflight_server.cli.output import colours, print_json, print_text
 from preflight_server.cli.project import exit_code, open_project, say_errors
 
-HELP = "what a launch file would start"
 DESCRIPTION = """Shows the nodes with their names, parameters, remaps and environment, and where each comes from.
 No node is run; the commands that parameters come from are, in a sandbox, unless with --no-run or --batch. With
 --batch many launch files are answered in one process, one line of JSON each."""

@@ -18,7 +18,6 @@ from preflight_server.cli.errors import CLEAN, FAILED, FOUND, CannotDoError
 from preflight_server.cli.output import print_json, print_text, say
 from preflight_server.cli.project import open_project, run_nodes, say_errors
 
-HELP = "compare a running system with what the launch file should have started"
 DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID), compares its
 nodes, topics, services and actions with those that the launch file should have started, and says what is missing, extra
 or of the wrong type, until it is interrupted; with --once until the system is as expected. What is expected is what
