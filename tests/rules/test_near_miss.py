@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.rules import near_miss
 from preflight_analysis.rules.near_miss import NearMiss, near_misses
 from preflight_analysis.rules.nearest_memory import Nearest
@@ -42,6 +43,11 @@ def _channels(ends: list[End]) -> dict[str, Channel]:
     return {name: Channel(name, tuple(o), tuple(w), name.startswith("/x")) for name, (o, w) in sorted(sides.items())}
 
 
+def _context(topics: dict[str, Channel]) -> Any:
+    """As much of a context as is looked at."""
+    return SimpleNamespace(kept=Kept(), graph=SimpleNamespace(channels=lambda kind: topics, blind=0))
+
+
 def _told(found: tuple[NearMiss, ...]) -> list[tuple[Any, ...]]:
     return [(id(n.wanting), id(n.offering), n.likeness, n.same_type, n.offering_dangles) for n in found]
 
@@ -59,8 +65,8 @@ def test_edits_one_by_one(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
             ends[at : at + made.randint(0, 1)] = [_end(made, nodes)]
         channels = _channels(ends)
         monkeypatch.setattr(near_miss, "_nearest", remembering)
-        again = near_misses(channels)
+        again = near_misses(_context(channels), "topics")
         monkeypatch.setattr(near_miss, "_nearest", Nearest())
-        assert _told(again) == _told(near_misses(channels))
+        assert _told(again) == _told(near_misses(_context(channels), "topics"))
         found += len(again)
     assert found

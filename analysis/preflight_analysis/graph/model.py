@@ -6,9 +6,12 @@ import fnmatch
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+
+ChannelKind = Literal["topics", "services", "actions"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +69,10 @@ class Graph:
     param_reads: tuple[ParamRead, ...]
     external_topics: tuple[str, ...] = ()
     """Patterns of the topics that something outside of the launch offers or wants."""
+
+    def channels(self, kind: ChannelKind) -> Mapping[str, Channel]:
+        """All of a kind, by their names."""
+        return {"topics": self.topics, "services": self.services, "actions": self.actions}[kind]
 
     def is_external(self, topic: str) -> bool:
         """Whether the settings say so of a topic."""

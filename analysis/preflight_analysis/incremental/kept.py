@@ -35,10 +35,11 @@ class Kept:
         **none: P.kwargs,
     ) -> list[V]:
         """`[function(item, *shared) for item in items]`, for many items: those that are the same objects as last time
-        are not looked at, if what they share is equal. Ask once for each function and what is shared."""
+        are not looked at, if what they share is equal."""
         before = self._each_before.get(function)
         known = before[1] if before is not None and before[0] == shared else {}
-        now: dict[int, tuple[Any, Any]] = {}
+        already = self._each_now.get(function)
+        now = already[1] if already is not None and already[0] == shared else {}
         results: list[V] = []
         for item in items:
             pair = known.get(id(item))  # the item is held, so nothing else can have its id

@@ -17,7 +17,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    near = near_misses(graph.actions, blind=graph.blind > 0)
+    near = near_misses(context, "actions")
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ends=ends_of(pair.wanting, pair.offering),
         )
     explained = {id(pair.wanting) for pair in near}
-    for end in dangling_wants(graph.actions):
+    for end in dangling_wants(context, "actions"):
         if id(end) not in explained and not graph.blind:
             sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""

@@ -13,7 +13,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
-from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.rules.nearest import has_all_words, likeness, numbers_in, share_words
 from preflight_analysis.rules.nearest_memory import Hit, Nearest
 from preflight_analysis.rules.places import connection_location
@@ -78,14 +78,19 @@ class NearMiss:
         return said
 
 
-def near_misses(channels: Mapping[str, Channel], *, blind: bool = False) -> tuple[NearMiss, ...]:
+def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
     """For each wanting end that dangles the offering end that it was most likely meant for, if there is one.
 
-    `blind`: what is not known of some node may well be the other end, so that only strong evidence counts.
+    Where what is not known of some node may well be the other end, only strong evidence counts.
     """
-    wants = list(dangling_wants(channels))
-    if not wants:
+    wants = tuple(dangling_wants(context, kind))
+    if context.graph is None or not wants:
         return ()
+    channels = tuple(context.graph.channels(kind).values())
+    return context.kept.get(_near_misses, kind, channels, wants, context.graph.blind > 0)
+
+
+def _near_misses(channels: tuple[Channel, ...], wants: tuple[Connection, ...], blind: bool) -> tuple[NearMiss, ...]:
     index = _Index(channels, wants)
     hits = _nearest.best(index.seekers, index.pools, index.rate)
     found = []
@@ -108,7 +113,7 @@ class _Index:
     or its last segment. In a fleet of like robots that leaves few to compare.
     """
 
-    def __init__(self, channels: Mapping[str, Channel], wants: Iterable[Connection]) -> None:
+    def __init__(self, channels: Iterable[Channel], wants: Iterable[Connection]) -> None:
         self._nodes: dict[int, tuple[str, int]] = {}
         self._names: Counter[str] = Counter()
         self._wants = {self.seeker(wanting): wanting for wanting in wants}
@@ -118,7 +123,7 @@ class _Index:
         self._channels: dict[Hashable, Channel] = {}
         self._lone: Counter[tuple[str, str | None, str]] = Counter()
         self._offered: Counter[tuple[str | None, str]] = Counter()
-        for channel in channels.values():
+        for channel in channels:
             leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
             if not channel.offers or not channel.wants:
                 side = "offers" if channel.offers else "wants"
@@ -201,22 +206,37 @@ def _pools(wanting: Connection) -> tuple[Hashable, ...]:
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
     """Those of topics, for which several rules ask: do so through `context.once`."""
-    graph = context.graph
-    return near_misses(graph.topics, blind=graph.blind > 0) if graph is not None else ()
+    return near_misses(context, "topics")
 
 
-def dangling_wants(channels: Mapping[str, Channel]) -> Iterator[Connection]:
+def dangling_wants(context: Context, kind: ChannelKind) -> list[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
-    for channel in channels.values():
-        if not channel.offers and not channel.external:
-            yield from (c for c in channel.wants if c.action is None and not may_dangle(channel.name, c.endpoint))
+    channels = context.graph.channels(kind) if context.graph is not None else {}
+    return [end for ends in context.kept.each(_lone_wants, channels.values()) for end in ends]
 
 
-def dangling_offers(channels: Mapping[str, Channel]) -> Iterator[Connection]:
+def dangling_offers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
-    for channel in channels.values():
-        if not channel.wants and not channel.external and not _read_otherwise(channel.name, channels):
-            yield from (c for c in channel.offers if c.action is None and not may_dangle(channel.name, c.endpoint))
+    channels = context.graph.channels(kind) if context.graph is not None else {}
+    found = zip(channels, context.kept.each(_lone_offers, channels.values()), strict=True)
+    return [end for name, ends in found if ends and not _read_otherwise(name, channels) for end in ends]
+
+
+def dangling_topic_offers(context: Context) -> list[Connection]:
+    """Those of topics, for which several rules ask: do so through `context.once`."""
+    return dangling_offers(context, "topics")
+
+
+def _lone_wants(channel: Channel) -> tuple[Connection, ...]:
+    if channel.offers or channel.external:
+        return ()
+    return tuple(c for c in channel.wants if c.action is None and not may_dangle(channel.name, c.endpoint))
+
+
+def _lone_offers(channel: Channel) -> tuple[Connection, ...]:
+    if channel.wants or channel.external:
+        return ()
+    return tuple(c for c in channel.offers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
 def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:

@@ -7,7 +7,7 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -63,10 +63,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         raw.extend(_in_order(rule, found, context) if rule.problems else found)
     filtered = apply_suppressions(unique(raw), context.documents)
     chains = _first_chains(context)
-    kept = [
-        context.kept.get(_in_context, id(finding), finding, chains.get(finding.location.file), context.root)
-        for finding in filtered.kept
-    ]
+    kept = context.kept.each(_in_context, filtered.kept, chains, context.root)
     judge = next((rule for rule in chosen if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
         useless = (judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran)
@@ -124,8 +121,9 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
     yield from more
 
 
-def _in_context(finding: Finding, chain: tuple[Related, ...] | None, root: str) -> Finding:
+def _in_context(finding: Finding, chains: Mapping[str, tuple[Related, ...]], root: str) -> Finding:
     """A finding of a root; one about a file, whatever includes it, says how the file is reached."""
+    chain = chains.get(finding.location.file)
     if not chain or any(related.message == INCLUDED_HERE for related in finding.related):
         return in_root(finding, root)
     return in_root(replace(finding, related=(*finding.related, *chain)), root)

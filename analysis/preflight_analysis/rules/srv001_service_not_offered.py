@@ -27,7 +27,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
     remapped = context.once(meant_ends)
-    near = [pair for pair in near_misses(graph.services, blind=graph.blind > 0) if id(pair.wanting) not in remapped]
+    near = [pair for pair in near_misses(context, "services") if id(pair.wanting) not in remapped]
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -46,9 +46,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
-    unused = by_type(dangling_offers(graph.services)) if answers else {}
+    unused = by_type(dangling_offers(context, "services")) if answers else {}
     explained = {id(pair.wanting) for pair in near} | remapped
-    for end in dangling_wants(graph.services):
+    for end in dangling_wants(context, "services"):
         if id(end) not in explained:
             sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""

@@ -8,7 +8,7 @@ from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import (
     NearMiss,
     by_type,
-    dangling_offers,
+    dangling_topic_offers,
     dangling_wants,
     fixes,
     lone_of_type,
@@ -29,7 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_ends)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.wanting), id(pair.offering)))]
-    dangling, whole = by_type(dangling_offers(graph.topics)), nodes_looked_at(graph)
+    dangling, whole = by_type(context.once(dangling_topic_offers)), nodes_looked_at(graph)
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -45,7 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ends=ends_of(pair.wanting, pair.offering),
         )
     explained = {id(pair.wanting) for pair in near} | remapped
-    for end in dangling_wants(graph.topics):
+    for end in dangling_wants(context, "topics"):
         if id(end) not in explained and not graph.blind:
             sure = graph.complete and not end.endpoint.uncertain
             lone = lone_of_type(end, dangling)
