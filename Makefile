@@ -5,9 +5,14 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
 SIDE_BY_SIDE := --numprocesses=auto --dist=worksteal
+LINTERS := .ci/lint/node_modules
+JAVASCRIPT := $(LINTERS)/.bin
+CPP = $(shell git ls-files '*.c' '*.cpp' '*.hpp' ':!fixtures')
+PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_preload.cpp rcl_preload.cpp)
+LUA = $(shell git ls-files '*.lua')
 BENCHMARKS := editing completion index trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint bench bench-quick corpus nodes attacks fuzz wheel vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks fuzz wheel vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -36,11 +41,28 @@ test: setup ## all tests but those in VS Code, side by side; Neovim is among the
 quick: $(READY) ## the tests that need neither ROS nor an editor, in a minute
 	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not ros and not editor"
 
-lint: $(READY) ## ruff, mypy and import-linter
+lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the types of Python and of the pages' scripts, the layers
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
+	$(JAVASCRIPT)/biome check --error-on-warnings .
+	node .ci/lint/stylua.mjs --check $(LUA)
+	luacheck --quiet $(LUA)
+	$(BIN)/clang-format --dry-run --Werror $(CPP)
+	$(BIN)/clang-tidy --quiet $(PRELOADED) -- -std=c++17
+
+format: $(READY) $(LINTERS)/.ready ## writes each file as its formatter has it
+	$(BIN)/ruff check --select I --fix .
+	$(BIN)/ruff format .
+	$(JAVASCRIPT)/biome check --write .
+	node .ci/lint/stylua.mjs $(LUA)
+	$(BIN)/clang-format -i $(CPP)
+
+$(LINTERS)/.ready: .ci/lint/package-lock.json
+	tests/editors/install.sh node
+	npm ci --prefix .ci/lint --ignore-scripts --no-audit --no-fund --loglevel=error
+	touch $@
 
 bench: setup ## editing and completion latency, a large workspace and the time of a trace, of a command and of a Python launch file, as ratios
 	@set -e; for each in $(BENCHMARKS); do echo "bench/$$each.py"; $(BIN)/python bench/$$each.py; done
@@ -75,7 +97,7 @@ fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
-vsix test-editors: export PATH := $(CURDIR)/out/tools/node/bin:$(PATH)
+vsix test-editors lint format: export PATH := $(CURDIR)/out/tools/node/bin:$(PATH)
 
 vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
 	tests/editors/install.sh node
@@ -104,4 +126,4 @@ docs: $(READY) ## the documentation site, in out/site, with the rule reference f
 	$(BIN)/mkdocs build --quiet --config-file .mkdocs.yml
 
 clean:
-	rm -rf $(VENV) out dist vscode-client/node_modules vscode-client/dist vscode-client/server tests/editors/vscode/node_modules
+	rm -rf $(LINTERS) $(VENV) out dist vscode-client/node_modules vscode-client/dist vscode-client/server tests/editors/vscode/node_modules
