@@ -9,7 +9,9 @@ for (let round = 0; round < rounds; round += 1) {
   for (const [name, path] of Object.entries(pages)) {
     const page = await browser.newPage({ viewport: { width: 1400, height: 800 } });
     await page.goto(pathToFileURL(path).href);
-    const painted = await page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
+    const painted = await page.waitForFunction(
+      () => performance.getEntriesByName("first-contentful-paint")[0]?.startTime,
+    );
     found[name].push(await painted.jsonValue());
     await page.close();
   }

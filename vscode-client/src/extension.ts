@@ -76,7 +76,9 @@ export function activate(context: ExtensionContext): void {
       return which && server.withClient((client) => trace(client, which));
     }),
     command("traceAll", () => {
-      const which = window.activeTextEditor ? nodesOf(window.activeTextEditor, true) : tree.shown && { uri: tree.shown };
+      const which = window.activeTextEditor
+        ? nodesOf(window.activeTextEditor, true)
+        : tree.shown && { uri: tree.shown };
       return which && server.withClient((client) => trace(client, which));
     }),
     command("watch", () => {

@@ -25,7 +25,11 @@ export function nodesOf(editor: TextEditor, all: boolean): Which {
 /** Has nodes run anew, whatever is known of them. */
 export async function trace(client: LanguageClient, { uri, node, position }: Which): Promise<void> {
   const where = position === undefined ? {} : { position: client.code2ProtocolConverter.asPosition(position) };
-  const answer = await client.sendRequest<Traced>("rosPreflight/trace", { uri, ...(node === undefined ? {} : { node }), ...where });
+  const answer = await client.sendRequest<Traced>("rosPreflight/trace", {
+    uri,
+    ...(node === undefined ? {} : { node }),
+    ...where,
+  });
   if (answer.message !== null) {
     void window.showWarningMessage(notice(answer.message));
   }
@@ -43,10 +47,15 @@ export async function watch(client: LanguageClient, uri: string, on: boolean): P
 
 /** Forgets what runs of nodes told. */
 export async function clearCache(client: LanguageClient): Promise<void> {
-  const { entries, bytes } = await client.sendRequest<{ entries: number; bytes: number }>("rosPreflight/clearCache", {});
+  const { entries, bytes } = await client.sendRequest<{ entries: number; bytes: number }>(
+    "rosPreflight/clearCache",
+    {},
+  );
   const size = bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
   void window.showInformationMessage(
-    notice(`${entries} kept result${entries === 1 ? "" : "s"} of runs (${size}) ${entries === 1 ? "was" : "were"} removed; nodes are run anew.`),
+    notice(
+      `${entries} kept result${entries === 1 ? "" : "s"} of runs (${size}) ${entries === 1 ? "was" : "were"} removed; nodes are run anew.`,
+    ),
   );
 }
 

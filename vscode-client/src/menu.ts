@@ -8,24 +8,52 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
   [
     "Nodes",
     [
-      { label: "$(play) Trace This Node", description: "run the node at the cursor anew", command: "rosPreflight.traceNode" },
-      { label: "$(run-all) Trace All Nodes", description: "run all nodes of the launch anew", command: "rosPreflight.traceAll" },
-      { label: "$(trash) Clear Cache", description: "forget what runs of nodes told", command: "rosPreflight.clearCache" },
+      {
+        label: "$(play) Trace This Node",
+        description: "run the node at the cursor anew",
+        command: "rosPreflight.traceNode",
+      },
+      {
+        label: "$(run-all) Trace All Nodes",
+        description: "run all nodes of the launch anew",
+        command: "rosPreflight.traceAll",
+      },
+      {
+        label: "$(trash) Clear Cache",
+        description: "forget what runs of nodes told",
+        command: "rosPreflight.clearCache",
+      },
     ],
   ],
   [
     "Launch",
     [
-      { label: "$(list-selection) Select Root and Arguments", description: "in whose context the file is shown", command: "rosPreflight.selectRoot" },
-      { label: "$(list-tree) Show Node Tree", description: "what the launch starts", command: "rosPreflight.showNodeTree" },
-      { label: "$(eye) Watch Running System", description: "compare it with the launch", command: "rosPreflight.watch" },
+      {
+        label: "$(list-selection) Select Root and Arguments",
+        description: "in whose context the file is shown",
+        command: "rosPreflight.selectRoot",
+      },
+      {
+        label: "$(list-tree) Show Node Tree",
+        description: "what the launch starts",
+        command: "rosPreflight.showNodeTree",
+      },
+      {
+        label: "$(eye) Watch Running System",
+        description: "compare it with the launch",
+        command: "rosPreflight.watch",
+      },
       { label: "$(type-hierarchy) Show Graph", description: "who talks to whom", command: "rosPreflight.showGraph" },
     ],
   ],
   [
     "Server",
     [
-      { label: "$(pulse) Doctor", description: "ROS, the sandbox, and what is missing", command: "rosPreflight.doctor" },
+      {
+        label: "$(pulse) Doctor",
+        description: "ROS, the sandbox, and what is missing",
+        command: "rosPreflight.doctor",
+      },
       { label: "$(output) Show Log", command: "rosPreflight.showOutput" },
       { label: "$(debug-restart) Restart Server", command: "rosPreflight.restartServer" },
     ],

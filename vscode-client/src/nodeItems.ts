@@ -27,7 +27,14 @@ export interface NodeTree {
 }
 
 /** The colours of launch files, by names that every theme has. The root file has the first. */
-const COLOURS = ["charts.blue", "charts.orange", "charts.green", "charts.purple", "charts.yellow", "charts.red"] as const;
+const COLOURS = [
+  "charts.blue",
+  "charts.orange",
+  "charts.green",
+  "charts.purple",
+  "charts.yellow",
+  "charts.red",
+] as const;
 
 /** The colour of what comes from a file; there are more files than colours in a large launch. */
 export function colourOf(file: number | null, live?: LiveState): string | undefined {
@@ -56,7 +63,14 @@ export function extras(live: ReadonlyMap<string, LiveState>): NodeItem[] {
   const plain = { detail: "", location: null, file: null, note: "", severity: null, findings: 0, children: [] };
   const names = [...live].filter(([, state]) => state === "extra").map(([name]) => name);
   const children = names.sort().map((name): NodeItem => ({ ...plain, kind: "node", label: name, name }));
-  const section = { ...plain, kind: "section", label: "Running, not launched", detail: String(names.length), name: "", children } as const;
+  const section = {
+    ...plain,
+    kind: "section",
+    label: "Running, not launched",
+    detail: String(names.length),
+    name: "",
+    children,
+  } as const;
   return names.length > 0 ? [section] : [];
 }
 
@@ -86,7 +100,9 @@ export function decorationOf(item: NodeItem): string | undefined {
     return "left-out";
   }
   const marks = marksOf(item);
-  return marks.findings > 0 ? `${marks.severity === 1 ? "error" : marks.severity === 2 ? "warning" : "info"}=${marks.findings}` : undefined;
+  return marks.findings > 0
+    ? `${marks.severity === 1 ? "error" : marks.severity === 2 ? "warning" : "info"}=${marks.findings}`
+    : undefined;
 }
 
 /** The findings of a node, or of all nodes in a namespace: those are seen while it is folded. */

@@ -221,7 +221,11 @@ function fold(item: NodeItem): TreeItemCollapsibleState {
   if (item.children.length === 0) {
     return TreeItemCollapsibleState.None;
   }
-  const unfolded = item.kind === "namespace" || item.kind === "not-taken" || item.kind === "include" || (item.kind === "section" && item.label !== "Shared parameters");
+  const unfolded =
+    item.kind === "namespace" ||
+    item.kind === "not-taken" ||
+    item.kind === "include" ||
+    (item.kind === "section" && item.label !== "Shared parameters");
   return unfolded ? TreeItemCollapsibleState.Expanded : TreeItemCollapsibleState.Collapsed;
 }
 

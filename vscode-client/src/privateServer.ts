@@ -105,18 +105,26 @@ async function chosen(pythons: readonly string[], installer: Installer): Promise
   throw new InstallFailed(`the server needs Python 3.${OLDEST} to 3.${NEWEST}, and none was found${found}.`);
 }
 
-function execute(installer: Installer, program: string, args: string[], minutes: number, logged = true): Promise<Ended> {
+function execute(
+  installer: Installer,
+  program: string,
+  args: string[],
+  minutes: number,
+  logged = true,
+): Promise<Ended> {
   const { PYTHONPATH: _path, PYTHONHOME: _home, ...environment } = installer.environment;
   if (logged) {
     installer.line([program, ...args].join(" "));
   }
   const how = { cwd: installer.storage, environment, milliseconds: minutes * MINUTES, signal: installer.signal };
-  return run(program, args, logged ? { ...how, line: installer.line, outputLine: installer.line } : how).then((ended) => {
-    if (installer.signal.aborted) {
-      throw new InstallFailed("the installation of the server was cancelled.");
-    }
-    return ended;
-  });
+  return run(program, args, logged ? { ...how, line: installer.line, outputLine: installer.line } : how).then(
+    (ended) => {
+      if (installer.signal.aborted) {
+        throw new InstallFailed("the installation of the server was cancelled.");
+      }
+      return ended;
+    },
+  );
 }
 
 function venvWorked(ended: Ended, python: string): void {
@@ -141,7 +149,13 @@ function worked(ended: Ended, what: string): void {
     throw new InstallFailed(`${what} took too long and was ended.`);
   }
   const lines = ended.errors.trim().split("\n");
-  const reason = lines.filter((line) => line.startsWith("ERROR:")).at(-1)?.slice("ERROR:".length) ?? lines.at(-1) ?? "";
+  const reason =
+    lines
+      .filter((line) => line.startsWith("ERROR:"))
+      .at(-1)
+      ?.slice("ERROR:".length) ??
+    lines.at(-1) ??
+    "";
   throw new InstallFailed(`${what} failed: ${reason.trim()}`);
 }
 

@@ -13,10 +13,7 @@ export type Place = [uri: string, position: Positioned, locations: Located[]];
 export const clientCommands = ["rosPreflight.showReferences", "rosPreflight.selectRoot"];
 
 /** Shows the places that a code lens counts. */
-export async function showReferences(
-  client: LanguageClient,
-  ...[uri, position, locations]: Place
-): Promise<void> {
+export async function showReferences(client: LanguageClient, ...[uri, position, locations]: Place): Promise<void> {
   const { asPosition, asLocation } = client.protocol2CodeConverter;
   await commands.executeCommand(
     "editor.action.showReferences",

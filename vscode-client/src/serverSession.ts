@@ -1,6 +1,14 @@
 import { existsSync } from "node:fs";
 import * as path from "node:path";
-import { commands, type ExtensionContext, type LogOutputChannel, ProgressLocation, window, workspace, type WorkspaceFolder } from "vscode";
+import {
+  commands,
+  type ExtensionContext,
+  type LogOutputChannel,
+  ProgressLocation,
+  window,
+  workspace,
+  type WorkspaceFolder,
+} from "vscode";
 import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
 import { createClient, workspaceTrust } from "./client";
 import { findServer, type ServerCommand, ServerNotFound } from "./findServer";

@@ -49,7 +49,8 @@ export function shown(life: Life, status: ServerStatus | undefined): Shown {
 function running(status: ServerStatus | undefined): Shown {
   if (status !== undefined && status.state !== "idle") {
     const share = status.total > 0 ? ` ${status.done} of ${status.total}` : "";
-    const what = status.state === "tracing" ? "Running nodes in the sandbox." : "Looking at the launch files of the workspace.";
+    const what =
+      status.state === "tracing" ? "Running nodes in the sandbox." : "Looking at the launch files of the workspace.";
     return { text: `$(sync~spin) ${NAME}: ${status.state}${share}`, tooltip: what, severity: "none" };
   }
   const notRun = status?.notRun;

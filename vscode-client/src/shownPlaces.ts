@@ -55,5 +55,7 @@ function keyOf({ file, line, column }: Place): string {
 
 /** Whether a path leads neither out of its folder nor through hidden ones, such as `.git`. */
 function isVisible(relative: string): boolean {
-  return relative !== "" && !path.isAbsolute(relative) && !relative.split(path.sep).some((part) => part.startsWith("."));
+  return (
+    relative !== "" && !path.isAbsolute(relative) && !relative.split(path.sep).some((part) => part.startsWith("."))
+  );
 }

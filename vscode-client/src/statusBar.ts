@@ -21,8 +21,7 @@ export class StatusBar implements Disposable {
     const { text, tooltip, severity } = shown(life, status);
     this.main.text = text;
     this.main.tooltip = tooltip;
-    this.main.backgroundColor =
-      severity === "none" ? undefined : new ThemeColor(`statusBarItem.${severity}Background`);
+    this.main.backgroundColor = severity === "none" ? undefined : new ThemeColor(`statusBarItem.${severity}Background`);
     this.main.show();
     if (showsTrustBadge(life, status)) {
       this.badge.show();

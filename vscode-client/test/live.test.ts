@@ -7,7 +7,11 @@ it("says in one line what the running system is like", () => {
   assert.equal(say({ event: "waiting", reason: "no master" }, undefined), "Waiting for the running system: no master");
   assert.equal(say({ event: "attached", to: "the master" }, undefined), "Watching the master");
   assert.equal(say({ event: "state", nodes: {}, issues: [] }, "the master"), "Watching the master: as it should be");
-  const issues = ["/a is missing", "for information", "/b is missing"].map((message, n) => ({ node: "/a", message, counts: n !== 1 }));
+  const issues = ["/a is missing", "for information", "/b is missing"].map((message, n) => ({
+    node: "/a",
+    message,
+    counts: n !== 1,
+  }));
   assert.equal(say({ event: "state", issues }, undefined), "Watching the running system: 2 differences. /a is missing");
   assert.equal(watched({ event: "stopped", reason: null }, "the master"), UNWATCHED);
   assert.equal(say({ event: "stopped", reason: "no rclpy" }, undefined), "Not watched any more: no rclpy");
@@ -15,7 +19,13 @@ it("says in one line what the running system is like", () => {
 
 it("has the states of nodes by their names", () => {
   const { states } = watched({ event: "state", nodes: { "/a": "present", "/b": "missing" } }, undefined);
-  assert.deepEqual([...states], [["/a", "present"], ["/b", "missing"]]);
+  assert.deepEqual(
+    [...states],
+    [
+      ["/a", "present"],
+      ["/b", "missing"],
+    ],
+  );
 });
 
 it("says of a node what is not as expected", () => {
@@ -23,8 +33,14 @@ it("says of a node what is not as expected", () => {
     { node: "/a", counts: true, message: "/a does not subscribe to /scan" },
     { node: "/b", counts: false, message: "/b publishes /x" },
   ];
-  const all = watched({ event: "state", nodes: { "/a": "differs", "/b": "present", "/c": "inactive" }, issues }, undefined);
-  assert.deepEqual(liveLines("/a", all), ["On the running robot: Runs, with differences.", "/a does not subscribe to /scan"]);
+  const all = watched(
+    { event: "state", nodes: { "/a": "differs", "/b": "present", "/c": "inactive" }, issues },
+    undefined,
+  );
+  assert.deepEqual(liveLines("/a", all), [
+    "On the running robot: Runs, with differences.",
+    "/a does not subscribe to /scan",
+  ]);
   assert.deepEqual(liveLines("/b", all), ["On the running robot: Runs as expected.", "/b publishes /x"]);
   assert.deepEqual(liveLines("/c", all), ["On the running robot: Runs; the lifecycle node is not active."]);
   assert.deepEqual(liveLines("/a", UNWATCHED), []);

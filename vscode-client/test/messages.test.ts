@@ -20,7 +20,12 @@ it("other text stays as it is", () => {
 
 it("all messages are made so", () => {
   for (const name of readdirSync("src")) {
-    const calls = readFileSync(`src/${name}`, "utf8").split(/show(?:Information|Warning|Error)Message\(\s*/).slice(1);
-    assert.ok(calls.every((call) => call.startsWith("notice(")), name);
+    const calls = readFileSync(`src/${name}`, "utf8")
+      .split(/show(?:Information|Warning|Error)Message\(\s*/)
+      .slice(1);
+    assert.ok(
+      calls.every((call) => call.startsWith("notice(")),
+      name,
+    );
   }
 });

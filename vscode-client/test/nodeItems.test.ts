@@ -3,7 +3,19 @@ import { describe, it } from "node:test";
 import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem } from "../src/nodeItems";
 
 function item(kind: NodeItem["kind"], label: string, more: Partial<NodeItem> = {}): NodeItem {
-  return { kind, label, detail: "", name: "", location: null, file: null, note: "", severity: null, findings: 0, children: [], ...more };
+  return {
+    kind,
+    label,
+    detail: "",
+    name: "",
+    location: null,
+    file: null,
+    note: "",
+    severity: null,
+    findings: 0,
+    children: [],
+    ...more,
+  };
 }
 
 describe("a line of the tree", () => {
@@ -20,8 +32,17 @@ describe("a line of the tree", () => {
   });
 
   it("is there for what runs and was not launched", () => {
-    const [section] = extras(new Map([["/b", "extra"], ["/ok", "present"], ["/a", "extra"]]));
-    assert.deepEqual(section?.children.map(({ name }) => name), ["/a", "/b"]);
+    const [section] = extras(
+      new Map([
+        ["/b", "extra"],
+        ["/ok", "present"],
+        ["/a", "extra"],
+      ]),
+    );
+    assert.deepEqual(
+      section?.children.map(({ name }) => name),
+      ["/a", "/b"],
+    );
     assert.deepEqual(extras(new Map([["/ok", "present"]])), []);
   });
 
@@ -40,7 +61,12 @@ describe("a line of the tree", () => {
   it("keeps its name when the tree is made anew, whatever comes before it", () => {
     const [a, b] = [item("node", "a", { name: "/a" }), item("node", "b", { name: "/b" })];
     const ids = identified([a, b]).map(({ id }) => id);
-    assert.deepEqual(identified([item("node", "new", { name: "/new" }), a, b]).map(({ id }) => id).slice(1), ids);
+    assert.deepEqual(
+      identified([item("node", "new", { name: "/new" }), a, b])
+        .map(({ id }) => id)
+        .slice(1),
+      ids,
+    );
     assert.equal(new Set(identified([a, a, a]).map(({ id }) => id)).size, 3);
   });
 });

@@ -14,7 +14,11 @@ describe("what the page sends", () => {
   ]) {
     it(message.type, () => {
       assert.deepEqual(pageMessage(message), message);
-      assert.deepEqual(pageMessage({ ...message, command: "x", uri: "command:x" }), message, "nothing more is passed on");
+      assert.deepEqual(
+        pageMessage({ ...message, command: "x", uri: "command:x" }),
+        message,
+        "nothing more is passed on",
+      );
     });
   }
 });
@@ -58,13 +62,24 @@ describe("what the page does not send", () => {
     { type: "open", file: place.file, line: 3 },
   ];
   for (const message of crafted) {
-    it(`is no message: ${(JSON.stringify(message) ?? "undefined").slice(0, 80)}`, () => assert.equal(pageMessage(message), undefined));
+    it(`is no message: ${(JSON.stringify(message) ?? "undefined").slice(0, 80)}`, () =>
+      assert.equal(pageMessage(message), undefined));
   }
 });
 
 describe("what a page has kept", () => {
-  it("is the launch file that it was of", () => assert.equal(keptUri({ uri: "file:///ws/a.launch" }), "file:///ws/a.launch"));
-  for (const state of [undefined, null, "file:///x", {}, { uri: 1 }, { uri: "command:x" }, { uri: "https://x" }, { uri: "file://host/x" }]) {
+  it("is the launch file that it was of", () =>
+    assert.equal(keptUri({ uri: "file:///ws/a.launch" }), "file:///ws/a.launch"));
+  for (const state of [
+    undefined,
+    null,
+    "file:///x",
+    {},
+    { uri: 1 },
+    { uri: "command:x" },
+    { uri: "https://x" },
+    { uri: "file://host/x" },
+  ]) {
     it(`and no ${JSON.stringify(state)}`, () => assert.equal(keptUri(state), undefined));
   }
 });

@@ -83,7 +83,11 @@ describe("what goes wrong is said", () => {
     ["no Python", () => [], /needs Python 3\.10 to 3\.14, and none was found\.$/],
     ["one that is too old", () => [python("old", "3.8")], /none was found \(.*old is 3\.8\)/],
     ["one that is too new", () => [python("new", "3.15")], /none was found \(.*new is 3\.15\)/],
-    ["no venv", () => [python("bare", "3.11", "echo 'ensurepip is not available'; exit 1")], /install the package python3-venv/],
+    [
+      "no venv",
+      () => [python("bare", "3.11", "echo 'ensurepip is not available'; exit 1")],
+      /install the package python3-venv/,
+    ],
     [
       "no network",
       () => [python("offline", "3.11", "", "echo 'ERROR: No matching distribution found for pygls' >&2; exit 1")],

@@ -31,7 +31,10 @@ describe("choices", () => {
   it("does not offer the file twice", () => {
     const alone: Root = { uri: "file:///ws/inc.launch", args: {}, declared: [] };
     const found = choices({ shown: alone, roots: [alone] }, alone.uri, path);
-    assert.deepEqual(found.map(({ label }) => label), ["inc.launch", "Default"]);
+    assert.deepEqual(
+      found.map(({ label }) => label),
+      ["inc.launch", "Default"],
+    );
     assert.equal(found[0]?.description, "this file, shown");
   });
 });

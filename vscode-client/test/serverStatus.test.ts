@@ -30,7 +30,10 @@ describe("the status bar", () => {
       tooltip: "Syntax error in my robot.launch: what it touches is not run.",
       severity: "warning",
     });
-    assert.match(shown(running, { ...idle, broken: ["file:///a.launch", "file:///b.launch"] }).text, /a\.launch and 1 more$/);
+    assert.match(
+      shown(running, { ...idle, broken: ["file:///a.launch", "file:///b.launch"] }).text,
+      /a\.launch and 1 more$/,
+    );
     assert.match(shown(running, { ...notRun("off"), broken: ["file:///a.launch"] }).tooltip, /^Nodes are not run/);
   });
 

@@ -60,26 +60,35 @@ describe("sourcing", () => {
   });
 
   it("says which file is not there", async () => {
-    await assert.rejects(new Setups().environment(["/no/such.bash"], base, () => undefined), {
-      constructor: SetupFailed,
-      message: /the set-up \/no\/such\.bash .* does not exist/,
-    });
+    await assert.rejects(
+      new Setups().environment(["/no/such.bash"], base, () => undefined),
+      {
+        constructor: SetupFailed,
+        message: /the set-up \/no\/such\.bash .* does not exist/,
+      },
+    );
   });
 
   it("says what went wrong", async () => {
     const broken = file("broken.bash", "echo the reason >&2\nexit 3\n");
-    await assert.rejects(new Setups().environment([broken], base, () => undefined), {
-      constructor: SetupFailed,
-      message: /failed: the reason$/,
-    });
+    await assert.rejects(
+      new Setups().environment([broken], base, () => undefined),
+      {
+        constructor: SetupFailed,
+        message: /failed: the reason$/,
+      },
+    );
   });
 
   it("does not wait for ever", async () => {
     const endless = file("endless.bash", "sleep 600\n");
-    await assert.rejects(new Setups(200).environment([endless], base, () => undefined), {
-      constructor: SetupFailed,
-      message: /did not end within 0\.2 seconds/,
-    });
+    await assert.rejects(
+      new Setups(200).environment([endless], base, () => undefined),
+      {
+        constructor: SetupFailed,
+        message: /did not end within 0\.2 seconds/,
+      },
+    );
   });
 });
 

@@ -31,7 +31,12 @@ const installed = file("opt/lib/driver.py");
 
 describe("places of the shown graph", () => {
   const places = [{ file: launch, line: 3, column: 5 }];
-  const graph = { title: "", files: [{ path: launch }], nodes: [{ places }], edges: [{ places: [{ file: source, line: 9, column: 1 }] }] };
+  const graph = {
+    title: "",
+    files: [{ path: launch }],
+    nodes: [{ places }],
+    edges: [{ places: [{ file: source, line: 9, column: 1 }] }],
+  };
   const shown = new ShownPlaces(graph);
 
   it("are known to the column", () => {

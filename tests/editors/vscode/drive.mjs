@@ -188,7 +188,12 @@ const scenarios = {
     const broken = message.filter({ hasText: "difference" });
     seen.broken = await step("a node is missed", () => broken.innerText());
     const marked = ".codicon-error, .codicon-debug-disconnect";
-    await step("its line", () => workbench.treeLine("listener").filter({ has: workbench.page.locator(marked) }).waitFor());
+    await step("its line", () =>
+      workbench
+        .treeLine("listener")
+        .filter({ has: workbench.page.locator(marked) })
+        .waitFor(),
+    );
     await step("picture of the running system", async () => {
       await workbench.parkMouse();
       await picture("16-watch");
@@ -206,7 +211,9 @@ const scenarios = {
     await step("squiggle without it", () => squiggle().waitFor());
     const before = serverProcess();
     workbench.configure({ "rosPreflight.environment.setup": [desk.setup] });
-    await step("another server", () => until("another server", () => processes().length === 1 && processes()[0] !== before));
+    await step("another server", () =>
+      until("another server", () => processes().length === 1 && processes()[0] !== before),
+    );
     await step("the doctor's page", async () => {
       await workbench.idle();
       await workbench.command("ROS Preflight: Doctor");
@@ -226,7 +233,9 @@ const scenarios = {
     await step("squiggle of the installed server", () => squiggle().waitFor({ timeout: INSTALLING }));
     const first = serverProcess();
     await step("Restart Server", () => workbench.command("ROS Preflight: Restart Server"));
-    await step("another server", () => until("another server", () => processes().length === 1 && processes()[0] !== first));
+    await step("another server", () =>
+      until("another server", () => processes().length === 1 && processes()[0] !== first),
+    );
     await step("squiggle of the restarted server", () => squiggle().waitFor());
     seen.command = readFileSync(`/proc/${serverProcess()}/cmdline`, "utf8").split("\0").filter(Boolean);
   },
@@ -292,7 +301,9 @@ try {
   if (workbench.page) {
     const messages = await workbench.page.locator(".notification-list-item-message").allInnerTexts();
     console.error(`messages shown: ${JSON.stringify(messages)}`);
-    await workbench.page.screenshot({ path: path.join(desk.screenshots, `failed-${scenario}.png`) }).catch(() => undefined);
+    await workbench.page
+      .screenshot({ path: path.join(desk.screenshots, `failed-${scenario}.png`) })
+      .catch(() => undefined);
   }
   process.exitCode = 1;
 } finally {

@@ -7,7 +7,10 @@ import { contents, until } from "./workbench.mjs";
 export async function walkThroughGraph({ workbench, desk, step, picture, seen }) {
   const graph = () => workbench.page.frameLocator("iframe.webview.ready").frameLocator("iframe#active-frame");
   const item = (label) => graph().locator(`[aria-label^="${label}"]`).first();
-  const labels = () => graph().locator("[data-node], [data-channel]").evaluateAll((all) => all.map((each) => each.getAttribute("aria-label")).sort());
+  const labels = () =>
+    graph()
+      .locator("[data-node], [data-channel]")
+      .evaluateAll((all) => all.map((each) => each.getAttribute("aria-label")).sort());
   const cursor = (text) => workbench.page.locator(".statusbar-item", { hasText: text }).first().waitFor();
 
   await step("shown", async () => {
@@ -52,11 +55,17 @@ export async function walkThroughGraph({ workbench, desk, step, picture, seen })
       if (/graph\.svg$/.test(await box.inputValue())) {
         await box.press("Enter");
         // Not pressed again while it closes: that would be typed into the launch file.
-        return box.waitFor({ state: "hidden", timeout: 10_000 }).then(() => true, () => false);
+        return box.waitFor({ state: "hidden", timeout: 10_000 }).then(
+          () => true,
+          () => false,
+        );
       }
       return false;
     });
-    await until("the picture on the disk", () => existsSync(target) && readFileSync(target, "utf8").endsWith("</svg>\n"));
+    await until(
+      "the picture on the disk",
+      () => existsSync(target) && readFileSync(target, "utf8").endsWith("</svg>\n"),
+    );
     seen.saved = readFileSync(target, "utf8");
   });
   await step("restored", async () => {

@@ -14,14 +14,21 @@ let current = "start";
 
 async function open(name, { colorScheme = "light", inEditor = false } = {}) {
   await page?.context().close();
-  const context = await browser.newContext({ viewport: { width: 1400, height: 800 }, colorScheme, acceptDownloads: true });
+  const context = await browser.newContext({
+    viewport: { width: 1400, height: 800 },
+    colorScheme,
+    acceptDownloads: true,
+  });
   context.setDefaultTimeout(PATIENCE);
   page = await context.newPage();
   const wrong = (seen.wrong ??= []);
   page.on("pageerror", (error) => wrong.push(`${name}: ${error}`));
   page.on("console", (message) => message.type() === "error" && wrong.push(`${name}: ${message.text()}`));
   page.on("dialog", (dialog) => wrong.push(`${name}: ${dialog.message()}`) && dialog.dismiss());
-  page.on("request", (request) => request.url().startsWith("file:") || wrong.push(`${name}: asked for ${request.url()}`));
+  page.on(
+    "request",
+    (request) => request.url().startsWith("file:") || wrong.push(`${name}: asked for ${request.url()}`),
+  );
   if (inEditor) {
     // What VS Code gives to a page in a webview.
     await page.addInitScript(() => {
@@ -38,7 +45,14 @@ async function open(name, { colorScheme = "light", inEditor = false } = {}) {
   if (inEditor) {
     await page.evaluate(() => {
       document.body.classList.add("vscode-light");
-      window.postMessage({ type: "graph", graph: JSON.parse(document.getElementById("data").textContent).plain, uri: "file:///robot.launch" }, "*");
+      window.postMessage(
+        {
+          type: "graph",
+          graph: JSON.parse(document.getElementById("data").textContent).plain,
+          uri: "file:///robot.launch",
+        },
+        "*",
+      );
     });
   }
   await page.locator("#canvas svg").waitFor();
@@ -55,10 +69,12 @@ async function picture(name) {
 }
 
 const labels = (locator) => locator.evaluateAll((items) => items.map((item) => item.getAttribute("aria-label")).sort());
-const shown = () => labels(page.locator("[data-node]:not(.off):not(.context), .stack:not(.off) [data-channel]:not(.context)"));
+const shown = () =>
+  labels(page.locator("[data-node]:not(.off):not(.context), .stack:not(.off) [data-channel]:not(.context)"));
 const context = () => labels(page.locator("[data-node].context:not(.off), .stack:not(.off) [data-channel].context"));
 const item = (name) => page.locator(`[aria-label^="${name}"]`).first();
-const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.id);
+const focused = () =>
+  page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.id);
 const press = async (...keys) => {
   for (const key of keys) {
     await page.keyboard.press(key);

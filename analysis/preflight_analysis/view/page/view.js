@@ -93,7 +93,9 @@
   }
 
   const keyOf = (item) =>
-    item.dataset.node !== undefined ? `node ${graph.nodes[item.dataset.node].name}#${item.dataset.node}` : channelKey(Number(item.dataset.channel));
+    item.dataset.node !== undefined
+      ? `node ${graph.nodes[item.dataset.node].name}#${item.dataset.node}`
+      : channelKey(Number(item.dataset.channel));
   const nodeKey = (node) => `node ${graph.nodes[node].name}#${node}`;
   const channelKey = (channel) => `${graph.channels[channel].kind} ${graph.channels[channel].name}`;
   const worst = (findings) => Math.max(-1, ...findings.map((i) => RANKS.indexOf(graph.findings[i].severity)));
@@ -102,24 +104,32 @@
 
   /** A part of a name, or a pattern with `*` and `?`; `ns:`, `node:` and so on before it, `-` for what is left out. */
   function terms(text) {
-    return text.split(/\s+/).filter(Boolean).map((word) => {
-      const [, not, kind, wanted] = /^(-?)(?:(ns|node|topic|service|action):)?(.*)$/.exec(word);
-      const low = wanted.toLowerCase();
-      const pattern = /[*?]/.test(low)
-        ? new RegExp(`^${/^[/*]/.test(low) ? "" : "(?:.*/)?"}${low.replace(/[.+^${}()|[\]\\]/g, "\\$&").replace(/\*/g, ".*").replace(/\?/g, ".")}$`)
-        : undefined;
-      const folder = `/${low.replace(/^\/+|\/+$/g, "")}/`.replace(/^\/\/$/, "/");
-      return {
-        not: not !== "",
-        fits(of, name) {
-          const text = name.toLowerCase();
-          if (kind === "ns") {
-            return pattern ? pattern.test(text.slice(0, text.lastIndexOf("/")) || "/") : text.startsWith(folder);
-          }
-          return (kind === undefined || kind === of) && (pattern ? pattern.test(text) : text.includes(low));
-        },
-      };
-    });
+    return text
+      .split(/\s+/)
+      .filter(Boolean)
+      .map((word) => {
+        const [, not, kind, wanted] = /^(-?)(?:(ns|node|topic|service|action):)?(.*)$/.exec(word);
+        const low = wanted.toLowerCase();
+        const pattern = /[*?]/.test(low)
+          ? new RegExp(
+              `^${/^[/*]/.test(low) ? "" : "(?:.*/)?"}${low
+                .replace(/[.+^${}()|[\]\\]/g, "\\$&")
+                .replace(/\*/g, ".*")
+                .replace(/\?/g, ".")}$`,
+            )
+          : undefined;
+        const folder = `/${low.replace(/^\/+|\/+$/g, "")}/`.replace(/^\/\/$/, "/");
+        return {
+          not: not !== "",
+          fits(of, name) {
+            const text = name.toLowerCase();
+            if (kind === "ns") {
+              return pattern ? pattern.test(text.slice(0, text.lastIndexOf("/")) || "/") : text.startsWith(folder);
+            }
+            return (kind === undefined || kind === of) && (pattern ? pattern.test(text) : text.includes(low));
+          },
+        };
+      });
   }
 
   /** Which nodes and channels are shown: 2 for what is looked for, 1 for what it is connected to, 0 for nothing. */
@@ -136,8 +146,12 @@
       channel: graph.channels.map((channel) => !open(channel.kind) || out(channel.kind, channel.name)),
     };
     const bad = (findings) => !problems || worst(findings) > 0;
-    const node = graph.nodes.map((each, i) => (!hidden.node[i] && fits("node", each.name) && bad(each.findings) ? 2 : 0));
-    const channel = graph.channels.map((each, i) => (!hidden.channel[i] && fits(each.kind, each.name) && bad(each.findings) ? 2 : 0));
+    const node = graph.nodes.map((each, i) =>
+      !hidden.node[i] && fits("node", each.name) && bad(each.findings) ? 2 : 0,
+    );
+    const channel = graph.channels.map((each, i) =>
+      !hidden.channel[i] && fits(each.kind, each.name) && bad(each.findings) ? 2 : 0,
+    );
     if (wanted.length > 0 || problems) {
       const found = graph.edges.filter((edge) => !hidden.node[edge.node] && !hidden.channel[edge.channel]);
       const near = { node: new Set(), channel: new Set() };
@@ -164,7 +178,9 @@
   function arrange() {
     const shown = chosen();
     const boxes = graph.boxes.map((box) =>
-      box.node !== undefined ? shown.node[box.node] : Math.max(...box.channels.map((channel) => shown.channel[channel])),
+      box.node !== undefined
+        ? shown.node[box.node]
+        : Math.max(...box.channels.map((channel) => shown.channel[channel])),
     );
     const routes = graph.routes.map((route) => boxes[route.source] > 0 && boxes[route.target] > 0);
     const isAll = boxes.every((each) => each > 0);
@@ -197,9 +213,14 @@
     const channels = count(shown.channel);
     filter.classList.toggle("nothing", nodes + channels === 0 && !shown.all);
     const of = (shownOnes, all, what) => `${shown.all && isAll ? "" : `${shownOnes} of `}${all} ${what}`;
-    const named = graph.channels.every((channel) => channel.kind === "topic") ? "topics" : "topics, services and actions";
+    const named = graph.channels.every((channel) => channel.kind === "topic")
+      ? "topics"
+      : "topics, services and actions";
     element("status").textContent =
-      `${of(nodes, graph.nodes.length, "nodes")}, ${of(channels, graph.channels.length, named)}`.replace(/\b1 (node|topic)s\b/g, "1 $1");
+      `${of(nodes, graph.nodes.length, "nodes")}, ${of(channels, graph.channels.length, named)}`.replace(
+        /\b1 (node|topic)s\b/g,
+        "1 $1",
+      );
     walkable();
   }
 
@@ -268,14 +289,21 @@
       line += `L${at(towards(points[i], points[i - 1]))}Q${at(points[i])} ${at(towards(points[i], after))}`;
     }
     const half = ARROW / 2;
-    const sides = [[neck[0] - dy * half, neck[1] + dx * half], [neck[0] + dy * half, neck[1] - dx * half]];
+    const sides = [
+      [neck[0] - dy * half, neck[1] + dx * half],
+      [neck[0] + dy * half, neck[1] - dx * half],
+    ];
     return [`${line}L${at(neck)}`, `M${at(tip)}L${at(sides[0])}L${at(sides[1])}z`];
   }
 
   // Zoom
 
   const magnification = () =>
-    zoom ?? Math.min(1.25, Math.max(least, Math.min((canvas.clientWidth - 4) / drawn.width, (canvas.clientHeight - 4) / drawn.height)));
+    zoom ??
+    Math.min(
+      1.25,
+      Math.max(least, Math.min((canvas.clientWidth - 4) / drawn.width, (canvas.clientHeight - 4) / drawn.height)),
+    );
 
   function scale() {
     const by = magnification();
@@ -321,16 +349,29 @@
   /** Marks what is not as launched. What runs and is not in the picture at all is told in words. */
   function compare() {
     for (const part of graph.items.values()) {
-      const own = part.dataset.node !== undefined ? graph.nodes[part.dataset.node].state : graph.channels[part.dataset.channel].state;
+      const own =
+        part.dataset.node !== undefined
+          ? graph.nodes[part.dataset.node].state
+          : graph.channels[part.dataset.channel].state;
       part.classList.remove("state-normal", "state-missing", "state-extra", "state-wrong");
       part.classList.add(`state-${LIVE[liveOf(part)]?.[0] ?? own}`);
     }
     const drawnNodes = new Set(graph.nodes.map((node) => node.name));
-    const extra = Object.entries(live.nodes ?? {}).filter(([name, state]) => state === "extra" && !drawnNodes.has(name));
+    const extra = Object.entries(live.nodes ?? {}).filter(
+      ([name, state]) => state === "extra" && !drawnNodes.has(name),
+    );
     const states = Object.values(live.nodes ?? {});
     const gone = states.filter((state) => state === "missing" || state === "dead").length;
     element("live").hidden = live.nodes === undefined;
-    element("live").textContent = `Running robot: ${gone === 0 && extra.length === 0 ? "all nodes are there" : ""}${gone > 0 ? `${gone} of ${states.length - extra.length} nodes not there` : ""}${gone > 0 && extra.length > 0 ? ", " : ""}${extra.length > 0 ? `also there: ${extra.map(([name]) => name).slice(0, 5).join(", ")}${extra.length > 5 ? ", …" : ""}` : ""}`;
+    element("live").textContent =
+      `Running robot: ${gone === 0 && extra.length === 0 ? "all nodes are there" : ""}${gone > 0 ? `${gone} of ${states.length - extra.length} nodes not there` : ""}${gone > 0 && extra.length > 0 ? ", " : ""}${
+        extra.length > 0
+          ? `also there: ${extra
+              .map(([name]) => name)
+              .slice(0, 5)
+              .join(", ")}${extra.length > 5 ? ", …" : ""}`
+          : ""
+      }`;
   }
 
   function liveShown(part) {
@@ -345,7 +386,8 @@
 
   function neighbours(item) {
     const near = { boxes: new Set([item]), routes: new Set() };
-    const of = item.dataset.node !== undefined ? graph.ofNode[item.dataset.node] : graph.ofChannel[item.dataset.channel];
+    const of =
+      item.dataset.node !== undefined ? graph.ofNode[item.dataset.node] : graph.ofChannel[item.dataset.channel];
     const edges = new Set(of);
     graph.routes.forEach((route, i) => {
       if (route.edges.some((edge) => edges.has(edge))) {
@@ -386,15 +428,25 @@
   const findingsShown = (indices) =>
     indices.map((i) => {
       const { rule, severity, message } = graph.findings[i];
-      return make("p", { className: `finding ${severity}` }, make("b", { className: severity }, `${severity} ${rule}`), ` ${message}`);
+      return make(
+        "p",
+        { className: `finding ${severity}` },
+        make("b", { className: severity }, `${severity} ${rule}`),
+        ` ${message}`,
+      );
     });
 
   const qosShown = (qos) =>
-    Object.entries(qos).map(([policy, value]) => `${policy} ${typeof value === "string" ? value : JSON.stringify(value)}`).join(", ");
+    Object.entries(qos)
+      .map(([policy, value]) => `${policy} ${typeof value === "string" ? value : JSON.stringify(value)}`)
+      .join(", ");
 
   function nodeShown(node) {
     const what = [node.package, node.executable].filter(Boolean).join("/");
-    const how = node.source === "none" ? "what it does is not known" : `known by ${node.source === "similar" ? "a similar run" : `its ${node.source}`}`;
+    const how =
+      node.source === "none"
+        ? "what it does is not known"
+        : `known by ${node.source === "similar" ? "a similar run" : `its ${node.source}`}`;
     return [
       make("p", { className: "dim" }, `${node.kind} ${what}, from ${graph.files[node.file].shown}`),
       make("p", { className: "dim" }, `${how}; ${node.outcome}${node.reason ? `: ${node.reason}` : ""}`),
@@ -402,7 +454,12 @@
   }
 
   const edgeShown = (edge) =>
-    [edge.type ?? "type not known", qosShown(edge.qos), edge.from && `remapped from ${edge.from}`, edge.uncertain && "not sure"]
+    [
+      edge.type ?? "type not known",
+      qosShown(edge.qos),
+      edge.from && `remapped from ${edge.from}`,
+      edge.uncertain && "not sure",
+    ]
       .filter(Boolean)
       .join(" · ");
 
@@ -414,13 +471,36 @@
     if (item.dataset.channel !== undefined) {
       const channel = graph.channels[item.dataset.channel];
       const ends = graph.ofChannel[item.dataset.channel].map((i) => graph.edges[i]);
-      const lines = ends.slice(0, 10).map((edge) => make("p", {}, `${graph.nodes[edge.node].name} ${DOES[edge.role]} `, make("span", { className: "dim" }, edgeShown(edge))));
+      const lines = ends
+        .slice(0, 10)
+        .map((edge) =>
+          make(
+            "p",
+            {},
+            `${graph.nodes[edge.node].name} ${DOES[edge.role]} `,
+            make("span", { className: "dim" }, edgeShown(edge)),
+          ),
+        );
       const more = ends.length > 10 ? [make("p", { className: "dim" }, `and ${ends.length - 10} more`)] : [];
-      return [make("b", {}, `${channel.kind} ${channel.name}`), ...liveShown(item), ...lines, ...more, ...findingsShown(channel.findings)];
+      return [
+        make("b", {}, `${channel.kind} ${channel.name}`),
+        ...liveShown(item),
+        ...lines,
+        ...more,
+        ...findingsShown(channel.findings),
+      ];
     }
     const edges = graph.routes[item.dataset.route].edges.map((i) => graph.edges[i]);
     const lines = edges.map((edge) =>
-      make("p", {}, make("b", {}, graph.nodes[edge.node].name), ` ${DOES[edge.role]} `, make("b", {}, graph.channels[edge.channel].name), " ", make("span", { className: "dim" }, edgeShown(edge))),
+      make(
+        "p",
+        {},
+        make("b", {}, graph.nodes[edge.node].name),
+        ` ${DOES[edge.role]} `,
+        make("b", {}, graph.channels[edge.channel].name),
+        " ",
+        make("span", { className: "dim" }, edgeShown(edge)),
+      ),
     );
     return [...lines, ...findingsShown([...new Set(edges.flatMap((edge) => edge.findings))])];
   }
@@ -446,8 +526,19 @@
       const rows = edges.map((edge) => {
         const key = other === "node" ? nodeKey(edge.node) : channelKey(edge.channel);
         const name = other === "node" ? graph.nodes[edge.node].name : graph.channels[edge.channel].name;
-        const jump = make("button", { type: "button", className: "item", onclick: () => walkTo(graph.items.get(key)) }, name);
-        return make("li", {}, jump, make("p", { className: "dim" }, edgeShown(edge)), ...places(edge.places), ...findingsShown(edge.findings));
+        const jump = make(
+          "button",
+          { type: "button", className: "item", onclick: () => walkTo(graph.items.get(key)) },
+          name,
+        );
+        return make(
+          "li",
+          {},
+          jump,
+          make("p", { className: "dim" }, edgeShown(edge)),
+          ...places(edge.places),
+          ...findingsShown(edge.findings),
+        );
       });
       return rows.length === 0 ? [] : [make("h3", {}, `${title} (${rows.length})`), make("ul", {}, ...rows)];
     };
@@ -459,17 +550,48 @@
       const edges = graph.ofNode[item.dataset.node].map((i) => graph.edges[i]);
       parts.push(make("h2", {}, node.name), ...nodeShown(node), ...findingsShown(node.findings));
       parts.push(make("h3", {}, "Launched at"), ...places(node.places));
-      for (const [role, title] of Object.entries({ publisher: "Publishes", subscriber: "Subscribes to", service: "Services", client: "Calls", action_server: "Actions", action_client: "Client of actions" })) {
-        parts.push(...list(title, edges.filter((edge) => edge.role === role), "channel"));
+      for (const [role, title] of Object.entries({
+        publisher: "Publishes",
+        subscriber: "Subscribes to",
+        service: "Services",
+        client: "Calls",
+        action_server: "Actions",
+        action_client: "Client of actions",
+      })) {
+        parts.push(
+          ...list(
+            title,
+            edges.filter((edge) => edge.role === role),
+            "channel",
+          ),
+        );
       }
     } else {
       const channel = graph.channels[item.dataset.channel];
       const edges = graph.ofChannel[item.dataset.channel].map((i) => graph.edges[i]);
       const towards = (edge) => TOWARDS.has(edge.role);
-      const [first, second] = { topic: ["Publishers", "Subscribers"], service: ["Clients", "Servers"], action: ["Clients", "Servers"] }[channel.kind];
-      parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${channel.external ? ", used from outside of the launch" : ""}`));
+      const [first, second] = {
+        topic: ["Publishers", "Subscribers"],
+        service: ["Clients", "Servers"],
+        action: ["Clients", "Servers"],
+      }[channel.kind];
+      parts.push(
+        make("h2", {}, channel.name),
+        make(
+          "p",
+          { className: "dim" },
+          `${channel.kind}${channel.external ? ", used from outside of the launch" : ""}`,
+        ),
+      );
       parts.push(...channel.types.map((type) => make("p", {}, type)), ...findingsShown(channel.findings));
-      parts.push(...list(first, edges.filter(towards), "node"), ...list(second, edges.filter((edge) => !towards(edge)), "node"));
+      parts.push(
+        ...list(first, edges.filter(towards), "node"),
+        ...list(
+          second,
+          edges.filter((edge) => !towards(edge)),
+          "node",
+        ),
+      );
     }
     details.replaceChildren(...parts);
   }
@@ -556,7 +678,9 @@
     const others = [...graph.items.values()].filter((to) => to !== item && isShown(to));
     const ahead = others.map((to) => [middle(box(to)), to]).filter(([[, toY]]) => (toY - y) * sign > 1);
     // The nearest ahead; what stands aside counts as farther away.
-    return ahead.map(([[toX, toY], to]) => [Math.abs(toY - y) + 3 * Math.abs(toX - x), to]).sort((a, b) => a[0] - b[0])[0]?.[1];
+    return ahead
+      .map(([[toX, toY], to]) => [Math.abs(toY - y) + 3 * Math.abs(toX - x), to])
+      .sort((a, b) => a[0] - b[0])[0]?.[1];
   }
 
   document.addEventListener("keydown", (event) => {
@@ -610,7 +734,10 @@
   const partAt = (event) => event.target.closest?.("[data-node],[data-channel],[data-route]");
   let drag;
   canvas.addEventListener("pointerdown", (event) => {
-    drag = event.button === 0 ? { x: event.clientX, y: event.clientY, left: canvas.scrollLeft, top: canvas.scrollTop, far: false } : undefined;
+    drag =
+      event.button === 0
+        ? { x: event.clientX, y: event.clientY, left: canvas.scrollLeft, top: canvas.scrollTop, far: false }
+        : undefined;
   });
   addEventListener("pointermove", (event) => {
     if (drag === undefined || event.buttons === 0) {
@@ -657,12 +784,16 @@
     }
   });
   canvas.addEventListener("focusout", () => light(undefined));
-  canvas.addEventListener("wheel", (event) => {
-    if (event.ctrlKey || event.metaKey) {
-      event.preventDefault();
-      zoomTo(magnification() * Math.exp(-event.deltaY / 400), { x: event.clientX, y: event.clientY });
-    }
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      if (event.ctrlKey || event.metaKey) {
+        event.preventDefault();
+        zoomTo(magnification() * Math.exp(-event.deltaY / 400), { x: event.clientX, y: event.clientY });
+      }
+    },
+    { passive: false },
+  );
   canvas.addEventListener("scrollend", () => remember());
 
   // The rest of the page
@@ -670,7 +801,9 @@
   function legend() {
     const picture = (inside) => {
       const parsed = new DOMParser().parseFromString(
-        `<svg xmlns="http://www.w3.org/2000/svg" class="graph" width="22" height="20" aria-hidden="true">${inside}</svg>`, "image/svg+xml");
+        `<svg xmlns="http://www.w3.org/2000/svg" class="graph" width="22" height="20" aria-hidden="true">${inside}</svg>`,
+        "image/svg+xml",
+      );
       return document.importNode(parsed.documentElement, true);
     };
     const rows = [];
@@ -679,14 +812,20 @@
       made.setAttribute("role", "listitem");
       rows.push(made);
     };
-    const icons = { topic: '<circle class="icon" cx="14" cy="10" r="4"/>', service: '<path class="icon" d="M14 5l5 5-5 5-5-5z"/>', action: '<path class="icon" d="M10 5l9 5-9 5z"/>' };
+    const icons = {
+      topic: '<circle class="icon" cx="14" cy="10" r="4"/>',
+      service: '<path class="icon" d="M14 5l5 5-5 5-5-5z"/>',
+      action: '<path class="icon" d="M10 5l9 5-9 5z"/>',
+    };
     for (const kind of Object.keys(icons).filter((each) => graph.channels.some((channel) => channel.kind === each))) {
       row(`<g class="channel ${kind}">${icons[kind]}</g>`, kind);
     }
     if (svg.querySelector(".dangling")) {
       row(`<g class="channel topic dangling">${icons.topic}</g>`, "one side only");
     }
-    for (const severity of ["error", "warning", "info"].filter((each) => graph.findings.some((finding) => finding.severity === each))) {
+    for (const severity of ["error", "warning", "info"].filter((each) =>
+      graph.findings.some((finding) => finding.severity === each),
+    )) {
       row(`<g class="route ${severity}"><path class="line" d="M2 10h18"/></g>`, severity);
     }
     if (graph.edges.some((edge) => edge.uncertain)) {
@@ -710,7 +849,9 @@
     const style = document.createElementNS("http://www.w3.org/2000/svg", "style");
     // A file has no editor around it: the colours of this moment.
     const colours = getComputedStyle(document.documentElement);
-    const names = [...new Set(element("drawing").textContent.match(/--[a-z0-9]+(?=:)/g))].filter((name) => name !== "--line");
+    const names = [...new Set(element("drawing").textContent.match(/--[a-z0-9]+(?=:)/g))].filter(
+      (name) => name !== "--line",
+    );
     const rules = element("drawing").textContent.replace(/^:root \{[^}]*\}|^@media[^]*?\n\}\n|^:root\[[^}]*\}/gm, "");
     style.textContent = `:root { ${names.map((name) => `${name}: ${colours.getPropertyValue(name).trim()};`).join(" ")} }\n${rules}`;
     copy.prepend(style);
@@ -719,14 +860,27 @@
       editor.postMessage({ type: "save", svg: text });
       return;
     }
-    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "image/svg+xml" })), download: "graph.svg" });
+    const link = make("a", {
+      href: URL.createObjectURL(new Blob([text], { type: "image/svg+xml" })),
+      download: "graph.svg",
+    });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   }
 
   function remember() {
-    const boxes = Object.fromEntries(["show-topic", "show-service", "show-action", "problems", "builtin"].map((id) => [id, element(id).checked]));
-    editor?.setState({ ...editor.getState(), filter: filter.value, boxes, zoom, selected, left: canvas.scrollLeft, top: canvas.scrollTop });
+    const boxes = Object.fromEntries(
+      ["show-topic", "show-service", "show-action", "problems", "builtin"].map((id) => [id, element(id).checked]),
+    );
+    editor?.setState({
+      ...editor.getState(),
+      filter: filter.value,
+      boxes,
+      zoom,
+      selected,
+      left: canvas.scrollLeft,
+      top: canvas.scrollTop,
+    });
   }
 
   filter.addEventListener("input", () => {
@@ -766,7 +920,9 @@
   } else {
     element("theme").hidden = true;
     const theme = () => {
-      const isLight = document.body.classList.contains("vscode-light") || document.body.classList.contains("vscode-high-contrast-light");
+      const isLight =
+        document.body.classList.contains("vscode-light") ||
+        document.body.classList.contains("vscode-high-contrast-light");
       document.documentElement.dataset.theme = isLight ? "light" : "dark";
     };
     theme();
