@@ -10,10 +10,25 @@ local function command(name, module, act, options)
   end, options)
 end
 
-command('RosPreflightRoot', 'roots', 'select', { desc = 'Choose the launch file, with arguments, that a file is shown in' })
+command(
+  'RosPreflightRoot',
+  'roots',
+  'select',
+  { desc = 'Choose the launch file, with arguments, that a file is shown in' }
+)
 command('RosPreflightTree', 'tree', 'open', { desc = 'Show the nodes that the launch file starts' })
-command('RosPreflightGraph', 'graph', 'open', { bang = true, desc = 'Show who talks to whom; with ! also what every node has' })
-command('RosPreflightTrace', 'maintenance', 'trace', { bang = true, desc = 'Run the node at the cursor anew; with ! all nodes' })
+command(
+  'RosPreflightGraph',
+  'graph',
+  'open',
+  { bang = true, desc = 'Show who talks to whom; with ! also what every node has' }
+)
+command(
+  'RosPreflightTrace',
+  'maintenance',
+  'trace',
+  { bang = true, desc = 'Run the node at the cursor anew; with ! all nodes' }
+)
 command('RosPreflightDoctor', 'maintenance', 'doctor', { desc = 'Show what launch files and nodes are looked at with' })
 command('RosPreflightClearCache', 'maintenance', 'clear_cache', { desc = 'Forget what runs of nodes told' })
 command('RosPreflightRestart', 'maintenance', 'restart', { desc = 'Restart the server' })

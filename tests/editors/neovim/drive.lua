@@ -10,14 +10,18 @@ local function wait_for(what, condition)
     return value ~= nil and value ~= false
   end, 20)
   if not met then
-    local seen = vim.tbl_map(function(d) return d.message end, vim.diagnostic.get(0))
+    local seen = vim.tbl_map(function(d)
+      return d.message
+    end, vim.diagnostic.get(0))
     error(string.format('gave up waiting for %s; diagnostics: %s', what, vim.fn.json_encode(seen)), 0)
   end
   return value
 end
 
 local function diagnostics_with(text)
-  return vim.tbl_filter(function(d) return d.message:find(text, 1, true) ~= nil end, vim.diagnostic.get(0))
+  return vim.tbl_filter(function(d)
+    return d.message:find(text, 1, true) ~= nil
+  end, vim.diagnostic.get(0))
 end
 
 local function line_with(text)
@@ -154,7 +158,9 @@ end
 
 -- Nothing of a workspace that is not trusted is run, and the user is told why.
 function scenarios.untrusted()
-  local reason = wait_for('a diagnostic that speaks of trust', function() return diagnostics_with('not trusted')[1] end)
+  local reason = wait_for('a diagnostic that speaks of trust', function()
+    return diagnostics_with('not trusted')[1]
+  end)
   local hover = hover_on_node('name="listener"')
   return { reason = reason.message, chatter = #diagnostics_with('chatter'), hover = hover }
 end
@@ -169,10 +175,11 @@ function scenarios.root()
       return lens.command and lens.command.title or ''
     end, vim.lsp.codelens.get(vim.api.nvim_get_current_buf()))
   end
-  local result = { before = wait_for('lenses', function()
-    local found = titles()
-    return #found > 0 and found
-  end) }
+  local result =
+    { before = wait_for('lenses', function()
+      local found = titles()
+      return #found > 0 and found
+    end) }
   vim.ui.select = function(items, opts, on_choice)
     result.offered = vim.tbl_map(opts.format_item, items)
     on_choice(items[1], 1)
@@ -191,7 +198,9 @@ end
 
 -- A misspelt executable in a launch file of ROS 2: found, completed and mended by the quick fix.
 function scenarios.ros2()
-  local diagnostic = wait_for('the diagnostic', function() return diagnostics_with("'talkr'")[1] end)
+  local diagnostic = wait_for('the diagnostic', function()
+    return diagnostics_with("'talkr'")[1]
+  end)
   local result = { covered = covered_text(diagnostic), filetype = vim.bo.filetype, offered = {} }
   vim.api.nvim_win_set_cursor(0, { diagnostic.lnum + 1, diagnostic.col + 1 })
   local params = vim.lsp.util.make_position_params(0, 'utf-16')
@@ -220,8 +229,16 @@ function scenarios.tree()
   result.lines = wait_for_texts(tree, { 'listener.py  [1 warning]', '!being run', '!ended' })
   local colours = vim.api.nvim_get_namespaces().ros_preflight_view
   local function colour_of(text)
-    local marks = vim.api.nvim_buf_get_extmarks(tree, colours, { line_with(text), 0 }, { line_with(text), -1 }, { details = true })
-    return vim.tbl_map(function(mark) return mark[4].hl_group end, marks)
+    local marks = vim.api.nvim_buf_get_extmarks(
+      tree,
+      colours,
+      { line_with(text), 0 },
+      { line_with(text), -1 },
+      { details = true }
+    )
+    return vim.tbl_map(function(mark)
+      return mark[4].hl_group
+    end, marks)
   end
   result.colours = { colour_of('inner  '), colour_of('listener  ') }
 
@@ -263,7 +280,8 @@ function scenarios.graph()
   vim.cmd('RosPreflightGraph')
   local graph = vim.api.nvim_get_current_buf()
   local result = { filetype = vim.bo.filetype }
-  result.lines = wait_for_texts(graph, { 'warning: ', 'made in listener.py', 'made in talker.py', '!perhaps', '!being run' })
+  result.lines =
+    wait_for_texts(graph, { 'warning: ', 'made in listener.py', 'made in talker.py', '!perhaps', '!being run' })
   on_line_with('/front/listener')
   press('<CR>')
   result.launch = place()
@@ -307,7 +325,9 @@ function scenarios.maintenance()
   end
   local file = vim.api.nvim_get_current_buf()
   local result = {}
-  wait_for('the diagnostic', function() return diagnostics_with('chatter')[1] end)
+  wait_for('the diagnostic', function()
+    return diagnostics_with('chatter')[1]
+  end)
   on_line_with('name="talker"')
   vim.cmd('RosPreflightTrace')
   result.one = told_since(0)
@@ -329,7 +349,9 @@ function scenarios.maintenance()
   vim.cmd('RosPreflightClearCache')
   result.cleared = told_since(4)
   vim.cmd('RosPreflightDoctor')
-  wait_for('the page', function() return vim.bo.filetype == 'rospreflightdoctor' and vim.fn.line('$') > 1 end)
+  wait_for('the page', function()
+    return vim.bo.filetype == 'rospreflightdoctor' and vim.fn.line('$') > 1
+  end)
   result.doctor = lines_of(0)
   vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
 
@@ -343,7 +365,9 @@ function scenarios.maintenance()
   result.clients = #client.clients()
   result.old_is_gone = vim.lsp.get_client_by_id(before) == nil
   edit('to="chater"', 'to="chater2"')
-  wait_for('findings of the new server', function() return diagnostics_with('chater2')[1] end)
+  wait_for('findings of the new server', function()
+    return diagnostics_with('chater2')[1]
+  end)
   result.status = wait_for('its status', function()
     local status = client.status(vim.lsp.get_client_by_id(after))
     return status and status.state == 'idle' and require('ros_preflight').status(file)
@@ -395,7 +419,8 @@ end
 function scenarios.views_untrusted()
   local file = vim.api.nvim_get_current_buf()
   vim.cmd('RosPreflightTree')
-  local result = { tree = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'talker.py', 'listener.py' }) }
+  local result =
+    { tree = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'talker.py', 'listener.py' }) }
   vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
   vim.cmd('tab RosPreflightGraph')
   result.graph = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'info: ' })
@@ -404,7 +429,9 @@ function scenarios.views_untrusted()
     result.trace = message
   end
   vim.cmd('RosPreflightTrace!')
-  wait_for('a message', function() return result.trace end)
+  wait_for('a message', function()
+    return result.trace
+  end)
   result.status = require('ros_preflight').status(file)
   return result
 end

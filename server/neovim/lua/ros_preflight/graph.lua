@@ -129,7 +129,9 @@ end
 
 -- Nodes of which nobody can tell what they do.
 local function unknown_rows(rows, graph)
-  local found = vim.tbl_filter(function(node) return node.source == 'none' end, graph.nodes)
+  local found = vim.tbl_filter(function(node)
+    return node.source == 'none'
+  end, graph.nodes)
   if #found == 0 then
     return
   end

@@ -59,11 +59,13 @@ function M.clear_cache()
       return client.warn(err)
     end
     local results = cleared.entries == 1 and 'result' or 'results'
-    vim.notify(('ros-preflight: %d kept %s of runs (%d kB) removed'):format(
-      cleared.entries,
-      results,
-      math.ceil(cleared.bytes / 1000)
-    ))
+    vim.notify(
+      ('ros-preflight: %d kept %s of runs (%d kB) removed'):format(
+        cleared.entries,
+        results,
+        math.ceil(cleared.bytes / 1000)
+      )
+    )
   end)
 end
 
@@ -100,24 +102,35 @@ end
 function M.restart()
   local stopping = client.clients()
   local function stop(force)
-    vim.lsp.stop_client(vim.tbl_map(function(each) return each.id end, stopping), force)
+    vim.lsp.stop_client(
+      vim.tbl_map(function(each)
+        return each.id
+      end, stopping),
+      force
+    )
   end
   local ticks = 0
   local timer = (vim.uv or vim.loop).new_timer()
   stop(false)
-  timer:start(0, 50, vim.schedule_wrap(function()
-    if timer:is_closing() then
-      return
-    end
-    stopping = vim.tbl_filter(function(each) return vim.lsp.get_client_by_id(each.id) ~= nil end, stopping)
-    ticks = ticks + 1
-    if #stopping == 0 then
-      timer:close()
-      start()
-    elseif ticks == STOP_WITHIN_MS / 50 then
-      stop(true)
-    end
-  end))
+  timer:start(
+    0,
+    50,
+    vim.schedule_wrap(function()
+      if timer:is_closing() then
+        return
+      end
+      stopping = vim.tbl_filter(function(each)
+        return vim.lsp.get_client_by_id(each.id) ~= nil
+      end, stopping)
+      ticks = ticks + 1
+      if #stopping == 0 then
+        timer:close()
+        start()
+      elseif ticks == STOP_WITHIN_MS / 50 then
+        stop(true)
+      end
+    end)
+  )
 end
 
 return M

@@ -104,7 +104,10 @@ function KIND.rows(shown)
     {
       id = '#root',
       chunks = { { roots.label(tree.root), 'Title' }, { count, 'Quiet' } },
-      place = { uri = tree.root.uri, range = { start = { line = 0, character = 0 }, ['end'] = { line = 0, character = 0 } } },
+      place = {
+        uri = tree.root.uri,
+        range = { start = { line = 0, character = 0 }, ['end'] = { line = 0, character = 0 } },
+      },
     },
   }
   local not_run = view.status(shown).notRun

@@ -222,15 +222,21 @@ local function map_keys(view)
   end
   map('<CR>', to_line)
   map('<2-LeftMouse>', to_line)
-  map('gs', function(row) go(view, row.source, view.encoding) end)
+  map('gs', function(row)
+    go(view, row.source, view.encoding)
+  end)
   map('<Tab>', function(row)
     if row.folds ~= nil then
       view.folded[row.id] = not row.folds
       draw(view)
     end
   end)
-  map('r', function() refresh(view) end)
-  map('q', function() vim.cmd('bwipeout') end)
+  map('r', function()
+    refresh(view)
+  end)
+  map('q', function()
+    vim.cmd('bwipeout')
+  end)
 end
 
 -- Whether the rows below one are hidden, which they are at first if `usually`.
