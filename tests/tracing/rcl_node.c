@@ -23,14 +23,14 @@
 
 #define STRING ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String)
 #define SERVICE(package, name) ROSIDL_GET_SRV_TYPE_SUPPORT(package, srv, name)
-#define NEW(type, init) *(type *)memcpy(malloc(sizeof(type)), &(type[1]){init}, sizeof(type))
+#define NEW(type, init) *(type*)memcpy(malloc(sizeof(type)), &(type[1]){init}, sizeof(type))
 
 /* The libraries of PyPI's wheels are linked with those of the messages for Python, which look for these. */
 void *PyExc_RuntimeError, *_Py_TrueStruct;
 
 static rcl_context_t context;
 static rcl_node_t node;
-static rcl_service_t *own_service;
+static rcl_service_t* own_service;
 
 static void check(rcl_ret_t result) {
   if (result == RCL_RET_OK) return;
@@ -38,49 +38,49 @@ static void check(rcl_ret_t result) {
   exit(3);
 }
 
-static rcl_publisher_t *publish(const char *topic, rmw_qos_profile_t qos) {
-  rcl_publisher_t *made = &NEW(rcl_publisher_t, rcl_get_zero_initialized_publisher());
+static rcl_publisher_t* publish(const char* topic, rmw_qos_profile_t qos) {
+  rcl_publisher_t* made = &NEW(rcl_publisher_t, rcl_get_zero_initialized_publisher());
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
   options.qos = qos;
   check(rcl_publisher_init(made, &node, STRING, topic, &options));
   return made;
 }
 
-static rcl_subscription_t *subscribe(const char *topic, rmw_qos_profile_t qos) {
-  rcl_subscription_t *made = &NEW(rcl_subscription_t, rcl_get_zero_initialized_subscription());
+static rcl_subscription_t* subscribe(const char* topic, rmw_qos_profile_t qos) {
+  rcl_subscription_t* made = &NEW(rcl_subscription_t, rcl_get_zero_initialized_subscription());
   rcl_subscription_options_t options = rcl_subscription_get_default_options();
   options.qos = qos;
   check(rcl_subscription_init(made, &node, STRING, topic, &options));
   return made;
 }
 
-static rcl_client_t *client(const rosidl_service_type_support_t *type, const char *name) {
-  rcl_client_t *made = &NEW(rcl_client_t, rcl_get_zero_initialized_client());
+static rcl_client_t* client(const rosidl_service_type_support_t* type, const char* name) {
+  rcl_client_t* made = &NEW(rcl_client_t, rcl_get_zero_initialized_client());
   rcl_client_options_t options = rcl_client_get_default_options();
   check(rcl_client_init(made, &node, type, name, &options));
   return made;
 }
 
-static void serve(const rosidl_service_type_support_t *type, const char *name) {
-  rcl_service_t *made = &NEW(rcl_service_t, rcl_get_zero_initialized_service());
+static void serve(const rosidl_service_type_support_t* type, const char* name) {
+  rcl_service_t* made = &NEW(rcl_service_t, rcl_get_zero_initialized_service());
   rcl_service_options_t options = rcl_service_get_default_options();
   check(rcl_service_init(made, &node, type, name, &options));
   own_service = made;
 }
 
-static void start(int argc, char **argv, const char *name, const char *space) {
+static void start(int argc, char** argv, const char* name, const char* space) {
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rcl_init_options_t options = rcl_get_zero_initialized_init_options();
   check(rcl_init_options_init(&options, allocator));
   context = rcl_get_zero_initialized_context();
-  check(rcl_init(argc, (const char *const *)argv, &options, &context));
+  check(rcl_init(argc, (const char* const*)argv, &options, &context));
   node = rcl_get_zero_initialized_node();
   rcl_node_options_t given = rcl_node_get_default_options();
   check(rcl_node_init(&node, name, space, &context, &given));
 }
 
 /* One turn of an event loop, with the service or the client that may have work. */
-static void turn(const rcl_service_t *service, const rcl_client_t *asking, int64_t milliseconds) {
+static void turn(const rcl_service_t* service, const rcl_client_t* asking, int64_t milliseconds) {
   rcl_wait_set_t set = rcl_get_zero_initialized_wait_set();
   rcl_guard_condition_t never = rcl_get_zero_initialized_guard_condition();
   check(rcl_guard_condition_init(&never, &context, rcl_guard_condition_get_default_options()));
@@ -94,12 +94,12 @@ static void turn(const rcl_service_t *service, const rcl_client_t *asking, int64
   check(rcl_guard_condition_fini(&never));
 }
 
-static void *spin(void *unused) {
+static void* spin(void* unused) {
   (void)unused;
   for (;;) turn(own_service, NULL, -1);
 }
 
-static void *watch_graph(void *unused) {
+static void* watch_graph(void* unused) {
   (void)unused;
   for (;;) turn(NULL, NULL, -1);
 }
@@ -117,8 +117,8 @@ static void ends(void) {
 }
 
 /* Asks for a service until it is there, and goes on if it agrees. */
-static void wait_for(const char *service) {
-  rcl_client_t *asking = client(SERVICE(std_srvs, Trigger), service);
+static void wait_for(const char* service) {
+  rcl_client_t* asking = client(SERVICE(std_srvs, Trigger), service);
   for (bool there = false; !there; usleep(50000)) check(rcl_service_server_is_available(&node, asking, &there));
   std_srvs__srv__Trigger_Request request;
   std_srvs__srv__Trigger_Response response;
@@ -134,17 +134,17 @@ static void wait_for(const char *service) {
   publish(response.success ? "after" : "refused", rmw_qos_profile_default);
 }
 
-static void serve_action(const char *name) {
-  rcl_action_server_t *made = &NEW(rcl_action_server_t, rcl_action_get_zero_initialized_server());
+static void serve_action(const char* name) {
+  rcl_action_server_t* made = &NEW(rcl_action_server_t, rcl_action_get_zero_initialized_server());
   rcl_action_server_options_t options = rcl_action_server_get_default_options();
   rcl_allocator_t allocator = rcl_get_default_allocator();
-  rcl_clock_t *clock = malloc(sizeof(rcl_clock_t));
+  rcl_clock_t* clock = malloc(sizeof(rcl_clock_t));
   check(rcl_clock_init(RCL_STEADY_TIME, clock, &allocator));
   check(rcl_action_server_init(made, &node, clock, ROSIDL_GET_ACTION_TYPE_SUPPORT(fib, Fib), name, &options));
 }
 
-static void wait_for_action(const char *name) {
-  rcl_action_client_t *made = &NEW(rcl_action_client_t, rcl_action_get_zero_initialized_client());
+static void wait_for_action(const char* name) {
+  rcl_action_client_t* made = &NEW(rcl_action_client_t, rcl_action_get_zero_initialized_client());
   rcl_action_client_options_t options = rcl_action_client_get_default_options();
   check(rcl_action_client_init(made, &node, ROSIDL_GET_ACTION_TYPE_SUPPORT(fib, Fib), name, &options));
   for (bool there = false; !there; usleep(50000)) check(rcl_action_server_is_available(&node, made, &there));
@@ -158,7 +158,7 @@ static void managed(int fail) {
       SERVICE(lifecycle_msgs, ChangeState), SERVICE(lifecycle_msgs, GetState),
       SERVICE(lifecycle_msgs, GetAvailableStates), SERVICE(lifecycle_msgs, GetAvailableTransitions),
       SERVICE(lifecycle_msgs, GetAvailableTransitions), &options));
-  const rcl_service_t *change = &machine.com_interface.srv_change_state;
+  const rcl_service_t* change = &machine.com_interface.srv_change_state;
   for (;;) {
     turn(change, NULL, -1);
     lifecycle_msgs__srv__ChangeState_Request request;
@@ -172,14 +172,14 @@ static void managed(int fail) {
     if (configures) publish("made", rmw_qos_profile_default);
     if (!configures) subscribe("active", rmw_qos_profile_default);
     response.success = !fail;
-    const char *label = fail ? rcl_lifecycle_transition_failure_label : rcl_lifecycle_transition_success_label;
+    const char* label = fail ? rcl_lifecycle_transition_failure_label : rcl_lifecycle_transition_success_label;
     check(rcl_lifecycle_trigger_transition_by_label(&machine, label, true));
     check(rcl_send_response(change, &header, &response));
   }
 }
 
-static rcl_interfaces__msg__Parameter *add(rcl_interfaces__msg__ParameterEvent *event, const char *name, int type) {
-  rcl_interfaces__msg__Parameter *made = &event->new_parameters.data[event->new_parameters.size++];
+static rcl_interfaces__msg__Parameter* add(rcl_interfaces__msg__ParameterEvent* event, const char* name, int type) {
+  rcl_interfaces__msg__Parameter* made = &event->new_parameters.data[event->new_parameters.size++];
   rosidl_runtime_c__String__assign(&made->name, name);
   made->value.type = type;
   return made;
@@ -189,7 +189,7 @@ static rcl_interfaces__msg__Parameter *add(rcl_interfaces__msg__ParameterEvent *
 static void declare(void) {
   rcl_publisher_t publisher = rcl_get_zero_initialized_publisher();
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
-  const rosidl_message_type_support_t *type = ROSIDL_GET_MSG_TYPE_SUPPORT(rcl_interfaces, msg, ParameterEvent);
+  const rosidl_message_type_support_t* type = ROSIDL_GET_MSG_TYPE_SUPPORT(rcl_interfaces, msg, ParameterEvent);
   check(rcl_publisher_init(&publisher, &node, type, "/parameter_events", &options));
   rcl_interfaces__msg__ParameterEvent event;
   rcl_interfaces__msg__ParameterEvent__init(&event);
@@ -201,11 +201,11 @@ static void declare(void) {
   add(&event, "count", 2)->value.integer_value = -7;
   add(&event, "rate", 3)->value.double_value = 10.0;
   rosidl_runtime_c__String__assign(&add(&event, "frame.id", 4)->value.string_value, "a\"b");
-  rosidl_runtime_c__double__Sequence *gains = &add(&event, "gains", 8)->value.double_array_value;
+  rosidl_runtime_c__double__Sequence* gains = &add(&event, "gains", 8)->value.double_array_value;
   rosidl_runtime_c__double__Sequence__init(gains, 2);
   gains->data[0] = 0.25;
   gains->data[1] = 3;
-  rosidl_runtime_c__String__Sequence *frames = &add(&event, "frames", 9)->value.string_array_value;
+  rosidl_runtime_c__String__Sequence* frames = &add(&event, "frames", 9)->value.string_array_value;
   rosidl_runtime_c__String__Sequence__init(frames, 2);
   rosidl_runtime_c__String__assign(&frames->data[0], "map");
   rosidl_runtime_c__String__assign(&frames->data[1], "base");
@@ -214,8 +214,8 @@ static void declare(void) {
   check(rcl_publish(&publisher, &event, NULL));
 }
 
-int main(int argc, char **argv) {
-  const char *mode = argc > 1 ? argv[1] : "";
+int main(int argc, char** argv) {
+  const char* mode = argc > 1 ? argv[1] : "";
   if (strcmp(mode, "early") == 0) abort();
   start(argc, argv, "own", strcmp(mode, "elsewhere") == 0 ? "/there" : "");
   if (strcmp(mode, "wait") == 0) {

@@ -23,17 +23,17 @@ void check(rcl_ret_t result) {
 }
 
 template <typename Message>
-rcl_publisher_t *publish(const std::string &topic) {
-  auto *made = new rcl_publisher_t(rcl_get_zero_initialized_publisher());
+rcl_publisher_t* publish(const std::string& topic) {
+  auto* made = new rcl_publisher_t(rcl_get_zero_initialized_publisher());
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
-  auto *type = rosidl_typesupport_cpp::get_message_type_support_handle<Message>();
+  auto* type = rosidl_typesupport_cpp::get_message_type_support_handle<Message>();
   check(rcl_publisher_init(made, &node, type, topic.c_str(), &options));
   return made;
 }
 
 }  // namespace
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   rcl_init_options_t options = rcl_get_zero_initialized_init_options();
   check(rcl_init_options_init(&options, rcl_get_default_allocator()));
   rcl_context_t context = rcl_get_zero_initialized_context();
@@ -50,7 +50,7 @@ int main(int argc, char **argv) {
 
   rcl_client_t client = rcl_get_zero_initialized_client();
   rcl_client_options_t client_options = rcl_client_get_default_options();
-  auto *type = rosidl_typesupport_cpp::get_service_type_support_handle<std_srvs::srv::Trigger>();
+  auto* type = rosidl_typesupport_cpp::get_service_type_support_handle<std_srvs::srv::Trigger>();
   check(rcl_client_init(&client, &node, type, "start", &client_options));
   for (bool there = false; !there; usleep(50000)) check(rcl_service_server_is_available(&node, &client, &there));
   std_srvs::srv::Trigger::Request request;

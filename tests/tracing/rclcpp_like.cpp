@@ -1,5 +1,5 @@
-// Does on rcl what rclcpp 29 does, as far as a trace can tell: a client library is in no package index. Each argument up
-// to `--ros-args` is a step (see `main`), and the last of them is an event loop.
+// Does on rcl what rclcpp 29 does, as far as a trace can tell: a client library is in no package index. Each argument
+// up to `--ros-args` is a step (see `main`), and the last of them is an event loop.
 //
 // After rclcpp: the texts of exceptions, when a parameter event is published, which values override a default, what the
 // services of parameters answer, and under which name the QoS of a topic is overridden.
@@ -16,12 +16,12 @@
 #include <rcl/error_handling.h>
 #include <rcl/graph.h>
 #include <rcl/rcl.h>
+#include <rcl_yaml_param_parser/types.h>
+#include <rmw/qos_string_conversions.h>
 #include <rcl_interfaces/msg/parameter_event.hpp>
 #include <rcl_interfaces/srv/describe_parameters.hpp>
 #include <rcl_interfaces/srv/get_parameters.hpp>
 #include <rcl_interfaces/srv/list_parameters.hpp>
-#include <rcl_yaml_param_parser/types.h>
-#include <rmw/qos_string_conversions.h>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
 #include <rosidl_typesupport_cpp/service_type_support.hpp>
 #include <std_msgs/msg/string.hpp>
@@ -30,8 +30,10 @@ void *PyExc_RuntimeError, *_Py_TrueStruct;  // as in rcl_node.c
 
 namespace rclcpp {
 namespace exceptions {
-#define EXCEPTION(name) \
-  struct name : std::runtime_error { using std::runtime_error::runtime_error; }
+#define EXCEPTION(name)                      \
+  struct name : std::runtime_error {         \
+    using std::runtime_error::runtime_error; \
+  }
 EXCEPTION(InvalidParameterTypeException);
 EXCEPTION(InvalidParameterValueException);
 EXCEPTION(UninitializedStaticallyTypedParameterException);
@@ -46,7 +48,7 @@ using namespace rclcpp::exceptions;
 using rcl_interfaces::msg::ParameterDescriptor;
 using rcl_interfaces::msg::ParameterValue;
 
-constexpr const char *kTypes[] = {"not set", "bool",       "integer",       "double",       "string",
+constexpr const char* kTypes[] = {"not set",    "bool",       "integer",       "double",       "string",
                                   "byte_array", "bool_array", "integer_array", "double_array", "string_array"};
 
 rcl_context_t context = rcl_get_zero_initialized_context();
@@ -60,13 +62,13 @@ void check(rcl_ret_t result) {
 }
 
 template <typename Made>
-const rosidl_message_type_support_t *type() {
+const rosidl_message_type_support_t* type() {
   return rosidl_typesupport_cpp::get_message_type_support_handle<Made>();
 }
 
-ParameterValue value_of(const rcl_variant_t &given) {
+ParameterValue value_of(const rcl_variant_t& given) {
   ParameterValue value;
-  auto all = [](auto *from, auto &to) { to.assign(from->values, from->values + from->size); };
+  auto all = [](auto* from, auto& to) { to.assign(from->values, from->values + from->size); };
   if (given.bool_value) value.type = 1, value.bool_value = *given.bool_value;
   if (given.integer_value) value.type = 2, value.integer_value = *given.integer_value;
   if (given.double_value) value.type = 3, value.double_value = *given.double_value;
@@ -83,30 +85,30 @@ struct Parameter {
 
 class Node {
  public:
-  // `space` is the namespace that the code gives it; `local` whether name and namespace are arguments of the node's own,
-  // as Nav2 makes the node of a costmap.
-  Node(const std::string &name, const std::string &space, bool local) {
+  // `space` is the namespace that the code gives it; `local` whether name and namespace are arguments of the node's
+  // own, as Nav2 makes the node of a costmap.
+  Node(const std::string& name, const std::string& space, bool local) {
     rcl_node_options_t options = rcl_node_get_default_options();
     std::string node_rule = "__node:=" + name, space_rule = "__ns:=" + space;
-    const char *arguments[] = {"--ros-args", "-r", node_rule.c_str(), "-r", space_rule.c_str()};
+    const char* arguments[] = {"--ros-args", "-r", node_rule.c_str(), "-r", space_rule.c_str()};
     if (local) check(rcl_parse_arguments(5, arguments, rcl_get_default_allocator(), &options.arguments));
     check(rcl_node_init(&handle_, name.c_str(), space.c_str(), &context, &options));
     std::string own = rcl_node_get_name(&handle_);
-    serve<rcl_interfaces::srv::GetParameters>(own + "/get_parameters", [this](auto &request, auto &response) {
-      for (auto &name : request.names) response.values.push_back(parameters_.at(name).value);
+    serve<rcl_interfaces::srv::GetParameters>(own + "/get_parameters", [this](auto& request, auto& response) {
+      for (auto& name : request.names) response.values.push_back(parameters_.at(name).value);
     });
-    serve<rcl_interfaces::srv::DescribeParameters>(own + "/describe_parameters", [this](auto &request, auto &response) {
-      for (auto &name : request.names) response.descriptors.push_back(parameters_.at(name).descriptor);
+    serve<rcl_interfaces::srv::DescribeParameters>(own + "/describe_parameters", [this](auto& request, auto& response) {
+      for (auto& name : request.names) response.descriptors.push_back(parameters_.at(name).descriptor);
     });
-    serve<rcl_interfaces::srv::ListParameters>(own + "/list_parameters", [this](auto &request, auto &response) {
-      for (auto &each : parameters_) response.result.names.push_back(each.first);
+    serve<rcl_interfaces::srv::ListParameters>(own + "/list_parameters", [this](auto& request, auto& response) {
+      for (auto& each : parameters_) response.result.names.push_back(each.first);
     });
     if (event_publisher) {
       rcl_publisher_options_t event_options = rcl_publisher_get_default_options();
       check(rcl_publisher_init(&events_, &handle_, type<rcl_interfaces::msg::ParameterEvent>(), "/parameter_events",
                                &event_options));
     }
-    rcl_params_t *given = nullptr;
+    rcl_params_t* given = nullptr;
     check(rcl_arguments_get_param_overrides(&context.global_arguments, &given));
     for (size_t i = 0; given != nullptr && i < given->num_nodes; ++i) {
       std::string pattern = given->node_names[i];
@@ -120,30 +122,31 @@ class Node {
     declare("use_sim_time", {}, no);
   }
 
-  const rcl_node_t *handle() const { return &handle_; }
+  const rcl_node_t* handle() const { return &handle_; }
 
   // `declare_parameter`, with a default or with a type alone.
-  const ParameterValue &declare(const std::string &name, ParameterDescriptor descriptor, const ParameterValue &fallback) {
+  const ParameterValue& declare(const std::string& name, ParameterDescriptor descriptor,
+                                const ParameterValue& fallback) {
     if (descriptor.type == 0) descriptor.type = fallback.type;
     descriptor.name = name;
     auto given = overrides_.find(name);
-    const ParameterValue &value = given != overrides_.end() ? given->second : fallback;
+    const ParameterValue& value = given != overrides_.end() ? given->second : fallback;
     rcl_interfaces::msg::ParameterEvent event;
     event.node = rcl_node_get_fully_qualified_name(&handle_);
     if (value.type != 0) {
       if (!descriptor.dynamic_typing && value.type != descriptor.type) {
-        throw InvalidParameterTypeException("parameter '" + name + "' has invalid type: Wrong parameter type, parameter {" +
-                                            name + "} is of type {" + kTypes[descriptor.type] + "}, setting it to {" +
-                                            kTypes[value.type] + "} is not allowed.");
+        throw InvalidParameterTypeException(
+            "parameter '" + name + "' has invalid type: Wrong parameter type, parameter {" + name + "} is of type {" +
+            kTypes[descriptor.type] + "}, setting it to {" + kTypes[value.type] + "} is not allowed.");
       }
-      auto refused = [&](const char *kind) {
+      auto refused = [&](const char* kind) {
         throw InvalidParameterValueException("parameter '" + name + "' could not be set: Parameter {" + name +
                                              "} doesn't comply with " + kind + " range.");
       };
-      for (auto &range : descriptor.integer_range) {
+      for (auto& range : descriptor.integer_range) {
         if (value.integer_value < range.from_value || value.integer_value > range.to_value) refused("integer");
       }
-      for (auto &range : descriptor.floating_point_range) {
+      for (auto& range : descriptor.floating_point_range) {
         if (value.double_value < range.from_value || value.double_value > range.to_value) refused("floating point");
       }
       event.new_parameters.resize(1);
@@ -160,7 +163,7 @@ class Node {
   }
 
   // `declare_parameter<T>(name)`, which returns the value.
-  void declare_mandatory(const std::string &name, int type) {
+  void declare_mandatory(const std::string& name, int type) {
     ParameterDescriptor descriptor;
     descriptor.type = type;
     if (declare(name, descriptor, {}).type == 0) {
@@ -169,9 +172,9 @@ class Node {
     }
   }
 
-  void publish(const std::string &topic, bool overridable) {
+  void publish(const std::string& topic, bool overridable) {
     rcl_publisher_options_t options = rcl_publisher_get_default_options();
-    char *full = nullptr;
+    char* full = nullptr;
     check(rcl_node_resolve_name(&handle_, topic.c_str(), rcl_get_default_allocator(), false, false, &full));
     if (overridable) {
       ParameterValue reliable;
@@ -180,20 +183,20 @@ class Node {
       auto found = declare("qos_overrides." + std::string(full) + ".publisher.reliability", {}, reliable);
       options.qos.reliability = rmw_qos_reliability_policy_from_str(found.string_value.c_str());
     }
-    auto *made = new rcl_publisher_t(rcl_get_zero_initialized_publisher());
+    auto* made = new rcl_publisher_t(rcl_get_zero_initialized_publisher());
     check(rcl_publisher_init(made, &handle_, type<std_msgs::msg::String>(), topic.c_str(), &options));
   }
 
-  void subscribe(const std::string &topic) {
-    auto *made = new rcl_subscription_t(rcl_get_zero_initialized_subscription());
+  void subscribe(const std::string& topic) {
+    auto* made = new rcl_subscription_t(rcl_get_zero_initialized_subscription());
     rcl_subscription_options_t options = rcl_subscription_get_default_options();
     check(rcl_subscription_init(made, &handle_, type<std_msgs::msg::String>(), topic.c_str(), &options));
   }
 
   // As topic_tools' relay: once somebody publishes the topic.
-  void relay(const std::string &topic) {
+  void relay(const std::string& topic) {
     size_t publishers = 0;
-    char *full = nullptr;
+    char* full = nullptr;
     check(rcl_node_resolve_name(&handle_, topic.c_str(), rcl_get_default_allocator(), false, false, &full));
     check(rcl_count_publishers(&handle_, full, &publishers));
     if (publishers == 0) return;
@@ -203,22 +206,22 @@ class Node {
 
   size_t services() const { return services_.size(); }
 
-  void add_to(rcl_wait_set_t *set) {
-    for (auto &each : services_) check(rcl_wait_set_add_service(set, &each.first, nullptr));
+  void add_to(rcl_wait_set_t* set) {
+    for (auto& each : services_) check(rcl_wait_set_add_service(set, &each.first, nullptr));
   }
 
   void answer() {
-    for (auto &each : services_) each.second();
+    for (auto& each : services_) each.second();
   }
 
  private:
   template <typename Service, typename Answer>
-  void serve(const std::string &name, Answer answer) {
+  void serve(const std::string& name, Answer answer) {
     services_.emplace_back();
-    rcl_service_t *made = &services_.back().first;
+    rcl_service_t* made = &services_.back().first;
     *made = rcl_get_zero_initialized_service();
     rcl_service_options_t options = rcl_service_get_default_options();
-    auto *type = rosidl_typesupport_cpp::get_service_type_support_handle<Service>();
+    auto* type = rosidl_typesupport_cpp::get_service_type_support_handle<Service>();
     check(rcl_service_init(made, &handle_, type, name.c_str(), &options));
     services_.back().second = [made, answer] {
       typename Service::Request request;
@@ -242,19 +245,19 @@ std::list<Node> nodes;
 void spin() {
   for (;;) {
     size_t services = 0;
-    for (auto &node : nodes) services += node.services();
+    for (auto& node : nodes) services += node.services();
     rcl_wait_set_t set = rcl_get_zero_initialized_wait_set();
     check(rcl_wait_set_init(&set, 0, 0, 0, 0, services, 0, &context, rcl_get_default_allocator()));
-    for (auto &node : nodes) node.add_to(&set);
+    for (auto& node : nodes) node.add_to(&set);
     check(rcl_wait(&set, -1));
     check(rcl_wait_set_fini(&set));
-    for (auto &node : nodes) node.answer();
+    for (auto& node : nodes) node.answer();
   }
 }
 
 }  // namespace
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   rcl_init_options_t options = rcl_get_zero_initialized_init_options();
   check(rcl_init_options_init(&options, rcl_get_default_allocator()));
   check(rcl_init(argc, argv, &options, &context));
@@ -288,8 +291,10 @@ int main(int argc, char **argv) {
     }
     if (what == "error") rcl_node_get_name(nullptr);  // rcutils complains of an error that nobody took
     if (what == "invalid") {
-      throw InvalidTopicNameError("Invalid topic name: topic name must not contain characters other than "
-                                  "alphanumerics, '_', '~', '{', or '}':\n  '" + name + "'\n    ^\n");
+      throw InvalidTopicNameError(
+          "Invalid topic name: topic name must not contain characters other than "
+          "alphanumerics, '_', '~', '{', or '}':\n  '" +
+          name + "'\n    ^\n");
     }
   }
   spin();

@@ -111,8 +111,8 @@ int main(int argc, char** argv) {
     Client client("move", true);
     client.waitForServer();
     bool done = false;
-    client.sendGoal(actionlib::TestGoal(),
-                    [&](const actionlib::SimpleClientGoalState&, const actionlib::TestResultConstPtr&) { done = true; });
+    client.sendGoal(actionlib::TestGoal(), [&](const actionlib::SimpleClientGoalState&,
+                                               const actionlib::TestResultConstPtr&) { done = true; });
     if (mode == "result" && !client.waitForResult()) return 3;
     while (ros::ok() && !done) ros::WallDuration(0.02).sleep();
     if (client.getState() != actionlib::SimpleClientGoalState::SUCCEEDED) return 3;
@@ -122,8 +122,8 @@ int main(int argc, char** argv) {
     server.start();
     ros::spin();
   }
-  if (mode == "lookup" || mode == "can" || mode == "fixed" || mode == "poll" || mode == "poll_can" || mode == "own_tf" ||
-      mode == "no_listener") {
+  if (mode == "lookup" || mode == "can" || mode == "fixed" || mode == "poll" || mode == "poll_can" ||
+      mode == "own_tf" || mode == "no_listener") {
     tf2_ros::Buffer buffer;
     std::unique_ptr<tf2_ros::TransformListener> transforms;
     if (mode != "no_listener") transforms.reset(new tf2_ros::TransformListener(buffer));

@@ -153,16 +153,16 @@ Function* real_or_die(std::atomic<void*>& known, const char* symbol) {
   return function;
 }
 
-#define REAL(symbol, ...)                                                            \
-  ([]() {                                                                            \
-    static std::atomic<void*> known{nullptr};                                        \
-    return real_or_die<__VA_ARGS__>(known, symbol);                                  \
+#define REAL(symbol, ...)                           \
+  ([]() {                                           \
+    static std::atomic<void*> known{nullptr};       \
+    return real_or_die<__VA_ARGS__>(known, symbol); \
   }())
 
-#define REAL_IF_ANY(symbol, ...)                                                     \
-  ([]() {                                                                            \
-    static std::atomic<void*> known{nullptr};                                        \
-    return real<__VA_ARGS__>(known, symbol);                                         \
+#define REAL_IF_ANY(symbol, ...)              \
+  ([]() {                                     \
+    static std::atomic<void*> known{nullptr}; \
+    return real<__VA_ARGS__>(known, symbol);  \
   }())
 
 void tell_woven() {
@@ -236,46 +236,46 @@ void tell_opened(const char* path, int flags) noexcept {
   if ((flags & O_ACCMODE) == O_RDONLY && (flags & (O_CREAT | O_DIRECTORY)) == 0) tell_opened(path);
 }
 
-#define OPEN(id, symbol)                                                             \
-  HOOK int id(const char* path, int flags, ...) __asm__(symbol);                     \
-  HOOK int id(const char* path, int flags, ...) {                                    \
-    va_list rest;                                                                    \
-    va_start(rest, flags);                                                           \
-    mode_t mode = va_arg(rest, mode_t);                                              \
-    va_end(rest);                                                                    \
-    tell_opened(path, flags);                                                        \
-    return REAL(symbol, int(const char*, int, ...))(path, flags, mode);              \
+#define OPEN(id, symbol)                                                \
+  HOOK int id(const char* path, int flags, ...) __asm__(symbol);        \
+  HOOK int id(const char* path, int flags, ...) {                       \
+    va_list rest;                                                       \
+    va_start(rest, flags);                                              \
+    mode_t mode = va_arg(rest, mode_t);                                 \
+    va_end(rest);                                                       \
+    tell_opened(path, flags);                                           \
+    return REAL(symbol, int(const char*, int, ...))(path, flags, mode); \
   }
 OPEN(preflight_open, "open")
 OPEN(preflight_open64, "open64")
 
-#define OPEN_AT(id, symbol)                                                          \
-  HOOK int id(int folder, const char* path, int flags, ...) __asm__(symbol);         \
-  HOOK int id(int folder, const char* path, int flags, ...) {                        \
-    va_list rest;                                                                    \
-    va_start(rest, flags);                                                           \
-    mode_t mode = va_arg(rest, mode_t);                                              \
-    va_end(rest);                                                                    \
+#define OPEN_AT(id, symbol)                                                                  \
+  HOOK int id(int folder, const char* path, int flags, ...) __asm__(symbol);                 \
+  HOOK int id(int folder, const char* path, int flags, ...) {                                \
+    va_list rest;                                                                            \
+    va_start(rest, flags);                                                                   \
+    mode_t mode = va_arg(rest, mode_t);                                                      \
+    va_end(rest);                                                                            \
     if (folder == AT_FDCWD || (path != nullptr && path[0] == '/')) tell_opened(path, flags); \
-    return REAL(symbol, int(int, const char*, int, ...))(folder, path, flags, mode); \
+    return REAL(symbol, int(int, const char*, int, ...))(folder, path, flags, mode);         \
   }
 OPEN_AT(preflight_openat, "openat")
 OPEN_AT(preflight_openat64, "openat64")
 
-#define OPEN_2(id, symbol)                                                           \
-  HOOK int id(const char* path, int flags) __asm__(symbol);                          \
-  HOOK int id(const char* path, int flags) {                                         \
-    tell_opened(path, flags);                                                        \
-    return REAL(symbol, int(const char*, int))(path, flags);                         \
+#define OPEN_2(id, symbol)                                   \
+  HOOK int id(const char* path, int flags) __asm__(symbol);  \
+  HOOK int id(const char* path, int flags) {                 \
+    tell_opened(path, flags);                                \
+    return REAL(symbol, int(const char*, int))(path, flags); \
   }
 OPEN_2(preflight_open_2, "__open_2")
 OPEN_2(preflight_open64_2, "__open64_2")
 
-#define FOPEN(id, symbol)                                                            \
-  HOOK FILE* id(const char* path, const char* mode) __asm__(symbol);                 \
-  HOOK FILE* id(const char* path, const char* mode) {                                \
+#define FOPEN(id, symbol)                                                                     \
+  HOOK FILE* id(const char* path, const char* mode) __asm__(symbol);                          \
+  HOOK FILE* id(const char* path, const char* mode) {                                         \
     if (mode != nullptr && mode[0] == 'r' && strchr(mode, '+') == nullptr) tell_opened(path); \
-    return REAL(symbol, FILE*(const char*, const char*))(path, mode);                \
+    return REAL(symbol, FILE * (const char*, const char*))(path, mode);                       \
   }
 FOPEN(preflight_fopen, "fopen")
 FOPEN(preflight_fopen64, "fopen64")
@@ -293,12 +293,12 @@ void make_room(const char* path, struct statvfs* found) noexcept {
   if (found->f_bavail < blocks) found->f_blocks = found->f_bfree = found->f_bavail = blocks;
 }
 
-#define ROOM(id, symbol)                                                             \
-  HOOK int id(const char* path, struct statvfs* found) __asm__(symbol);              \
-  HOOK int id(const char* path, struct statvfs* found) {                             \
-    int result = REAL(symbol, int(const char*, struct statvfs*))(path, found);       \
-    if (result == 0) make_room(path, found);                                         \
-    return result;                                                                   \
+#define ROOM(id, symbol)                                                       \
+  HOOK int id(const char* path, struct statvfs* found) __asm__(symbol);        \
+  HOOK int id(const char* path, struct statvfs* found) {                       \
+    int result = REAL(symbol, int(const char*, struct statvfs*))(path, found); \
+    if (result == 0) make_room(path, found);                                   \
+    return result;                                                             \
   }
 ROOM(preflight_statvfs, "statvfs")
 ROOM(preflight_statvfs64, "statvfs64")
@@ -321,6 +321,8 @@ double now() {
   return static_cast<double>(time.tv_sec) + time.tv_nsec * 1e-9;
 }
 
-bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
 }  // namespace preflight

@@ -351,8 +351,15 @@ Value value_of(Reader& from) {
   auto string = [&] { return quoted(from.string()); };
   auto byte = [&] { return std::to_string(from.value<uint8_t>()); };
   uint8_t type = from.value<uint8_t>();
-  const std::string values[] = {"",              boolean(),          integer(),          number(),          string(),
-                                from.list(byte), from.list(boolean), from.list(integer), from.list(number),
+  const std::string values[] = {"",
+                                boolean(),
+                                integer(),
+                                number(),
+                                string(),
+                                from.list(byte),
+                                from.list(boolean),
+                                from.list(integer),
+                                from.list(number),
                                 from.list(string)};
   if (type >= sizeof values / sizeof *values) return {};
   return {kTypes[type], whole || (type != 3 && type != 8) ? values[type] : ""};
@@ -459,9 +466,10 @@ template <typename Step>
 bool while_up(const Handle* node, Step step) {
   bool there = false;
   return while_up([&] {
-    there = gone().count(node) == 0;
-    if (there) step();
-  }) && there;
+           there = gone().count(node) == 0;
+           if (there) step();
+         }) &&
+         there;
 }
 
 // Our own threads take no signals: those are the node's.
@@ -520,8 +528,8 @@ const ServiceMembers* members_of(const Support* support) {
   return nullptr;
 }
 
-// What a node that is up says of its parameters. Its own services tell what it does not publish: those that were declared
-// without a value, what else is declared with them, and all of a node that publishes no parameter events.
+// What a node that is up says of its parameters. Its own services tell what it does not publish: those that were
+// declared without a value, what else is declared with them, and all of a node that publishes no parameter events.
 
 // rosidl's strings and lists in C.
 struct CString {
@@ -544,7 +552,8 @@ class Asking {
  public:
   Asking(const Handle* node, const Support* service, const Support* response, const char* name)
       : response_(response), members_(members_of(service)) {
-    auto* make = REAL_IF_ANY("rcl_client_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
+    auto* make =
+        REAL_IF_ANY("rcl_client_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
     auto* options = REAL_IF_ANY("rcl_client_get_default_options", Options());
     if (make == nullptr || options == nullptr || members_ == nullptr || response == nullptr) return;
     Options given = options();
@@ -659,7 +668,8 @@ void ask_for_parameters() {
   }
   for (const Handle* node : nodes) {
     Asked asked{full_name_of(node), ASKING(node, "ListParameters", "list_parameters"),
-                ASKING(node, "DescribeParameters", "describe_parameters"), ASKING(node, "GetParameters", "get_parameters")};
+                ASKING(node, "DescribeParameters", "describe_parameters"),
+                ASKING(node, "GetParameters", "get_parameters")};
     ++busy;
     in_background([node, asked] {
       try {
@@ -769,8 +779,8 @@ void bring_up(const Handle* node, std::shared_ptr<Managed> managed) {
 }
 
 void manage(const Handle* node, const Machine* machine) {
-  auto* support = REAL_IF_ANY(
-      "rosidl_typesupport_c__get_service_type_support_handle__lifecycle_msgs__srv__ChangeState", const Support*());
+  auto* support = REAL_IF_ANY("rosidl_typesupport_c__get_service_type_support_handle__lifecycle_msgs__srv__ChangeState",
+                              const Support*());
   auto* make = REAL_IF_ANY("rcl_client_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
   auto* options = REAL_IF_ANY("rcl_client_get_default_options", Options());
   if (support == nullptr || make == nullptr || options == nullptr) return;
@@ -834,7 +844,8 @@ void serve(std::shared_ptr<Handle> service, const ServiceMembers* members, const
 
 // Makes the service that a client of the node waits for; whether that could be done.
 bool offer(const Wanted& wanted, const std::string& full) {
-  auto* make = REAL_IF_ANY("rcl_service_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
+  auto* make =
+      REAL_IF_ANY("rcl_service_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
   auto* options = REAL_IF_ANY("rcl_service_get_default_options", Options());
   const ServiceMembers* members = members_of(wanted.support);
   if (make == nullptr || options == nullptr || members == nullptr) return false;
@@ -942,14 +953,15 @@ HOOK int rcl_node_fini(Handle* self) {
   return REAL("rcl_node_fini", int(Handle*))(self);
 }
 
-#define ENDPOINT(function, role, qos_of)                                                                    \
-  HOOK int function(Handle* self, const Handle* node, const Support* support, const char* name,             \
-                    const Options* options) {                                                               \
-    using Make = int(Handle*, const Handle*, const Support*, const char*, const Options*);                  \
-    int result = REAL(#function, Make)(self, node, support, name, options);                                 \
-    if (result == kOk && depth == 0) quietly([&] { tell_endpoint(role, node, text(name), type_of(support), qos_of); }); \
-    quietly([&] { made(role, self, node, support, text(name), result); });                                  \
-    return result;                                                                                          \
+#define ENDPOINT(function, role, qos_of)                                                        \
+  HOOK int function(Handle* self, const Handle* node, const Support* support, const char* name, \
+                    const Options* options) {                                                   \
+    using Make = int(Handle*, const Handle*, const Support*, const char*, const Options*);      \
+    int result = REAL(#function, Make)(self, node, support, name, options);                     \
+    if (result == kOk && depth == 0)                                                            \
+      quietly([&] { tell_endpoint(role, node, text(name), type_of(support), qos_of); });        \
+    quietly([&] { made(role, self, node, support, text(name), result); });                      \
+    return result;                                                                              \
   }
 
 namespace preflight {
@@ -1037,16 +1049,16 @@ HOOK int rcl_client_fini(Handle* self, Handle* node) {
 
 // The ends of actions. The topics and services that they are made of are not told.
 
-#define ACTION(role, node, name, call)                                                    \
-  int result;                                                                             \
-  {                                                                                       \
-    Depth nested;                                                                         \
-    result = call;                                                                        \
-  }                                                                                       \
-  quietly([&] {                                                                           \
+#define ACTION(role, node, name, call)                                                             \
+  int result;                                                                                      \
+  {                                                                                                \
+    Depth nested;                                                                                  \
+    result = call;                                                                                 \
+  }                                                                                                \
+  quietly([&] {                                                                                    \
     if (result == kOk && depth == 1) tell_endpoint(role, node, text(name), goal_service, nullptr); \
-    if (depth == 1) goal_service.clear();                                                 \
-  });                                                                                     \
+    if (depth == 1) goal_service.clear();                                                          \
+  });                                                                                              \
   return result;
 
 HOOK int rcl_action_client_init(Handle* self, Handle* node, const void* support, const char* name,
@@ -1071,8 +1083,8 @@ HOOK int rcl_action_server_init2(Handle* self, Handle* node, const void* timer, 
 HOOK int rcl_lifecycle_state_machine_init(Machine* self, Handle* node, const void* notify, const void* change,
                                           const void* state, const void* states, const void* transitions,
                                           const void* graph, const void* options) {
-  using Make = int(Machine*, Handle*, const void*, const void*, const void*, const void*, const void*, const void*,
-                   const void*);
+  using Make =
+      int(Machine*, Handle*, const void*, const void*, const void*, const void*, const void*, const void*, const void*);
   auto* make = REAL("rcl_lifecycle_state_machine_init", Make);
   int result;
   {
@@ -1088,10 +1100,10 @@ HOOK int rcl_lifecycle_state_machine_init(Machine* self, Handle* node, const voi
 
 // Who looks at the graph may do more, or something else, once others are there.
 
-#define LOOKS(function, types, ...)                                                        \
-  quietly([&] {                                                                            \
-    if (depth == 1) Event("asked").add("what", std::string("graph")).send();               \
-  });                                                                                      \
+#define LOOKS(function, types, ...)                                          \
+  quietly([&] {                                                              \
+    if (depth == 1) Event("asked").add("what", std::string("graph")).send(); \
+  });                                                                        \
   return REAL(#function, int types)(__VA_ARGS__);
 
 HOOK int rcl_get_topic_names_and_types(const Handle* node, Allocator* memory, bool raw, void* found) {
@@ -1112,7 +1124,7 @@ HOOK int rcl_get_node_names_with_enclaves(const Handle* node, Allocator memory, 
         enclaves)
 }
 
-#define LOOKS_AT_TOPICS_OF(function)                                                                                  \
+#define LOOKS_AT_TOPICS_OF(function)                                                                                   \
   HOOK int function(const Handle* node, Allocator* memory, bool raw, const char* of, const char* space, void* found) { \
     LOOKS(function, (const Handle*, Allocator*, bool, const char*, const char*, void*), node, memory, raw, of, space,  \
           found)                                                                                                       \
@@ -1120,25 +1132,25 @@ HOOK int rcl_get_node_names_with_enclaves(const Handle* node, Allocator memory, 
 LOOKS_AT_TOPICS_OF(rcl_get_publisher_names_and_types_by_node)
 LOOKS_AT_TOPICS_OF(rcl_get_subscriber_names_and_types_by_node)
 
-#define LOOKS_AT_SERVICES_OF(function)                                                                      \
-  HOOK int function(const Handle* node, Allocator* memory, const char* of, const char* space, void* found) { \
+#define LOOKS_AT_SERVICES_OF(function)                                                                            \
+  HOOK int function(const Handle* node, Allocator* memory, const char* of, const char* space, void* found) {      \
     LOOKS(function, (const Handle*, Allocator*, const char*, const char*, void*), node, memory, of, space, found) \
   }
 LOOKS_AT_SERVICES_OF(rcl_get_service_names_and_types_by_node)
 LOOKS_AT_SERVICES_OF(rcl_get_client_names_and_types_by_node)
 
-#define COUNTS(function)                                                                    \
-  HOOK int function(const Handle* node, const char* name, size_t* count) {                  \
-    LOOKS(function, (const Handle*, const char*, size_t*), node, name, count)               \
+#define COUNTS(function)                                                      \
+  HOOK int function(const Handle* node, const char* name, size_t* count) {    \
+    LOOKS(function, (const Handle*, const char*, size_t*), node, name, count) \
   }
 COUNTS(rcl_count_publishers)
 COUNTS(rcl_count_subscribers)
 COUNTS(rcl_count_clients)
 COUNTS(rcl_count_services)
 
-#define LOOKS_AT_ENDS(function)                                                                             \
-  HOOK int function(const Handle* node, Allocator* memory, const char* name, bool raw, void* found) {       \
-    LOOKS(function, (const Handle*, Allocator*, const char*, bool, void*), node, memory, name, raw, found)  \
+#define LOOKS_AT_ENDS(function)                                                                            \
+  HOOK int function(const Handle* node, Allocator* memory, const char* name, bool raw, void* found) {      \
+    LOOKS(function, (const Handle*, Allocator*, const char*, bool, void*), node, memory, name, raw, found) \
   }
 LOOKS_AT_ENDS(rcl_get_publishers_info_by_topic)
 LOOKS_AT_ENDS(rcl_get_subscriptions_info_by_topic)

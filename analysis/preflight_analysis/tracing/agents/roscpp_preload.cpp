@@ -156,8 +156,7 @@ Names names_of(const NodeHandle* handle, const std::string& name) {
 }
 
 Names names_of(const std::string& name) {
-  auto* resolve =
-      REAL_IF_ANY("_ZN3ros5names7resolveE" STRING "b", std::string(const std::string&, bool));
+  auto* resolve = REAL_IF_ANY("_ZN3ros5names7resolveE" STRING "b", std::string(const std::string&, bool));
   return {name, resolve == nullptr ? "" : resolve(name, true)};
 }
 
@@ -180,7 +179,8 @@ void tell_topic(const char* role, const NodeHandle* handle, const TopicOptions& 
       bool latch = reinterpret_cast<const unsigned char*>(&options)[kLatchOffset] == 1;
       qos += std::string(",\"latch\":") + (latch ? "true" : "false");
       void* told_of_subscribers;
-      memcpy(&told_of_subscribers, reinterpret_cast<const char*>(&options) + kConnectOffset, sizeof told_of_subscribers);
+      memcpy(&told_of_subscribers, reinterpret_cast<const char*>(&options) + kConnectOffset,
+             sizeof told_of_subscribers);
       event.add("awaits", told_of_subscribers != nullptr);
     }
     event.add("type", options.type).raw("qos", qos + "}").send();
@@ -199,23 +199,23 @@ void asks(const char* what, void* place) {
   if (depth == 0 && !from_roscpp(place)) quietly([&] { tell_asked(what); });
 }
 
-#define ASKS(id, symbol, what)                                                       \
-  HOOK const void* id() __asm__(symbol);                                             \
-  HOOK const void* id() {                                                            \
-    asks(what, __builtin_return_address(0));                                         \
-    return REAL(symbol, const void*())();                                            \
+#define ASKS(id, symbol, what)               \
+  HOOK const void* id() __asm__(symbol);     \
+  HOOK const void* id() {                    \
+    asks(what, __builtin_return_address(0)); \
+    return REAL(symbol, const void*())();    \
   }
 ASKS(preflight_get_name, "_ZN3ros9this_node7getNameB5cxx11Ev", "name")
 ASKS(preflight_get_namespace, "_ZN3ros9this_node12getNamespaceB5cxx11Ev", "namespace")
 ASKS(preflight_get_remappings, "_ZN3ros5names13getRemappingsB5cxx11Ev", "remaps")
 ASKS(preflight_get_unresolved, "_ZN3ros5names23getUnresolvedRemappingsB5cxx11Ev", "remaps")
 
-#define RESOLVES(id, symbol, parameters, ...)                                        \
-  HOOK std::string id parameters __asm__(symbol);                                    \
-  HOOK std::string id parameters {                                                   \
-    asks("name", __builtin_return_address(0));                                       \
-    asks("remaps", __builtin_return_address(0));                                     \
-    return REAL(symbol, std::string parameters)(__VA_ARGS__);                        \
+#define RESOLVES(id, symbol, parameters, ...)                 \
+  HOOK std::string id parameters __asm__(symbol);             \
+  HOOK std::string id parameters {                            \
+    asks("name", __builtin_return_address(0));                \
+    asks("remaps", __builtin_return_address(0));              \
+    return REAL(symbol, std::string parameters)(__VA_ARGS__); \
   }
 RESOLVES(preflight_remap, "_ZN3ros5names5remapE" STRING, (const std::string& name), name)
 RESOLVES(preflight_resolve, "_ZN3ros5names7resolveE" STRING "b", (const std::string& name, bool remap), name, remap)
@@ -238,11 +238,11 @@ std::mutex lacks_mutex;
 struct Lacks {
   std::set<std::string> topics;  // that it subscribes to, under their final names
   std::set<std::string> fed;
-  std::set<std::string> asked;                              // parameters, with the kind of access
-  std::map<std::pair<std::string, void*>, double> polled;   // those that were not set, and since when from where
+  std::set<std::string> asked;                             // parameters, with the kind of access
+  std::map<std::pair<std::string, void*>, double> polled;  // those that were not set, and since when from where
   std::set<std::string> given;
-  std::set<std::string> there;  // services that it was told of, under their final names
-  std::set<std::pair<std::string, void*>> refused;          // other questions that were answered with no
+  std::set<std::string> there;                      // services that it was told of, under their final names
+  std::set<std::pair<std::string, void*>> refused;  // other questions that were answered with no
 };
 Lacks& lacks() {
   static auto* all = new Lacks;  // never destroyed: nodes end in any order
@@ -394,8 +394,8 @@ void tell_spin() {
 std::atomic<int> published{0};  // messages of the main thread
 
 // A loop of the main thread, as its sleeps and spinOnce show it. What comes twice from one place stands in a loop; a
-// single sleep (`seconds` is not negative) may be a pause before more endpoints are made. A loop that does nothing while
-// the node lacks messages may be waiting for them: it gets some.
+// single sleep (`seconds` is not negative) may be a pause before more endpoints are made. A loop that does nothing
+// while the node lacks messages may be waiting for them: it gets some.
 class Loop {
  public:
   void turn(void* place, double seconds) {
@@ -524,8 +524,8 @@ std::string name_of_client(void* client) {
   return service == nullptr ? "" : service(client);
 }
 
-// Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for rospy
-// (answers.py).
+// Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for
+// rospy (answers.py).
 bool wait_briefly(const std::string& name) {
   Wait told("service", name);
   if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace())) return true;
@@ -652,8 +652,7 @@ void look_at(const void* publisher, const Serializer& message) {
 
 // Transforms. The node's buffer is given the identity, so that whatever it does with it then works.
 
-#define SET_TRANSFORM                                                                                                 \
-  "_ZN3tf210BufferCore12setTransformERKN13geometry_msgs17TransformStamped_ISaIvEEE" STRING "b"
+#define SET_TRANSFORM "_ZN3tf210BufferCore12setTransformERKN13geometry_msgs17TransformStamped_ISaIvEEE" STRING "b"
 
 std::string frames(const std::string& target, const std::string& source) { return target + " <- " + source; }
 
@@ -724,9 +723,7 @@ HOOK Handle preflight_subscribe(NodeHandle* self, TopicOptions& options) {
 #define SERVICE "_ZN3ros10NodeHandle16advertiseServiceERNS_23AdvertiseServiceOptionsE"
 HOOK Handle preflight_advertise_service(NodeHandle* self, ServiceOptions& options) __asm__(SERVICE);
 HOOK Handle preflight_advertise_service(NodeHandle* self, ServiceOptions& options) {
-  quietly([&] {
-    endpoint("service", names_of(self, options.service), options.md5).add("type", options.type).send();
-  });
+  quietly([&] { endpoint("service", names_of(self, options.service), options.md5).add("type", options.type).send(); });
   return REAL(SERVICE, Handle(NodeHandle*, ServiceOptions&))(self, options);
 }
 
@@ -737,8 +734,8 @@ HOOK Handle preflight_service_client(NodeHandle* self, ClientOptions& options) {
   return REAL(CLIENT, Handle(NodeHandle*, ClientOptions&))(self, options);
 }
 
-// A node opens a socket of UDP at its start, whether a topic will be unreliable or not. A sandbox that has none leaves it
-// without.
+// A node opens a socket of UDP at its start, whether a topic will be unreliable or not. A sandbox that has none leaves
+// it without.
 
 #define INCOMING "_ZN3ros12TransportUDP14createIncomingEib"
 HOOK bool preflight_create_incoming(void* self, int port, bool server) __asm__(INCOMING);
@@ -755,41 +752,41 @@ HOOK bool preflight_create_incoming(void* self, int port, bool server) {
 #define JOIN(a, b) JOIN_(a, b)
 
 // `type` is what the value is.
-#define METHOD_(id, access, type, symbol)                                                                        \
-  HOOK bool id(const NodeHandle* self, const std::string& key, type* value) __asm__(symbol);                     \
-  HOOK bool id(const NodeHandle* self, const std::string& key, type* value) {                                    \
-    return ask_param(access, [=, &key] { return names_of(self, key); }, __builtin_return_address(0), value, [&] { \
-      return REAL(symbol, bool(const NodeHandle*, const std::string&, void*))(self, key, value);                 \
-    });                                                                                                          \
+#define METHOD_(id, access, type, symbol)                                                                    \
+  HOOK bool id(const NodeHandle* self, const std::string& key, type* value) __asm__(symbol);                 \
+  HOOK bool id(const NodeHandle* self, const std::string& key, type* value) {                                \
+    return ask_param(                                                                                        \
+        access, [=, &key] { return names_of(self, key); }, __builtin_return_address(0), value,               \
+        [&] { return REAL(symbol, bool(const NodeHandle*, const std::string&, void*))(self, key, value); }); \
   }
 #define METHOD(access, type, symbol) METHOD_(JOIN(preflight_method_, __COUNTER__), access, type, symbol)
 
-#define FUNCTION_(id, access, type, symbol)                                                              \
-  HOOK bool id(const std::string& key, type* value) __asm__(symbol);                                     \
-  HOOK bool id(const std::string& key, type* value) {                                                    \
-    return ask_param(access, [&key] { return names_of(key); }, __builtin_return_address(0), value, [&] { \
-      return REAL(symbol, bool(const std::string&, void*))(key, value);                                  \
-    });                                                                                                  \
+#define FUNCTION_(id, access, type, symbol)                                           \
+  HOOK bool id(const std::string& key, type* value) __asm__(symbol);                  \
+  HOOK bool id(const std::string& key, type* value) {                                 \
+    return ask_param(                                                                 \
+        access, [&key] { return names_of(key); }, __builtin_return_address(0), value, \
+        [&] { return REAL(symbol, bool(const std::string&, void*))(key, value); });   \
   }
 #define FUNCTION(access, type, symbol) FUNCTION_(JOIN(preflight_function_, __COUNTER__), access, type, symbol)
 
 #define MAP_OF(type) "RSt3mapIS6_" type "St4lessIS6_ESaISt4pairIS7_" type "EEE"
-#define EACH_TYPE(hook, start) \
+#define EACH_TYPE(hook, start)                       \
   hook("get", void, start "RN6XmlRpc11XmlRpcValueE") \
-  hook("get", void, start "RS6_") \
-  hook("get", bool, start "Rb") \
-  hook("get", double, start "Rd") \
-  hook("get", float, start "Rf") \
-  hook("get", int, start "Ri") \
-  hook("get", void, start "RSt6vectorIS6_SaIS6_EE") \
-  hook("get", void, start "RSt6vectorIbSaIbEE") \
-  hook("get", void, start "RSt6vectorIdSaIdEE") \
-  hook("get", void, start "RSt6vectorIfSaIfEE") \
-  hook("get", void, start "RSt6vectorIiSaIiEE") \
-  hook("get", void, start MAP_OF("S6_")) \
-  hook("get", void, start MAP_OF("b")) \
-  hook("get", void, start MAP_OF("d")) \
-  hook("get", void, start MAP_OF("f")) \
+  hook("get", void, start "RS6_")                    \
+  hook("get", bool, start "Rb")                      \
+  hook("get", double, start "Rd")                    \
+  hook("get", float, start "Rf")                     \
+  hook("get", int, start "Ri")                       \
+  hook("get", void, start "RSt6vectorIS6_SaIS6_EE")  \
+  hook("get", void, start "RSt6vectorIbSaIbEE")      \
+  hook("get", void, start "RSt6vectorIdSaIdEE")      \
+  hook("get", void, start "RSt6vectorIfSaIfEE")      \
+  hook("get", void, start "RSt6vectorIiSaIiEE")      \
+  hook("get", void, start MAP_OF("S6_"))             \
+  hook("get", void, start MAP_OF("b"))               \
+  hook("get", void, start MAP_OF("d"))               \
+  hook("get", void, start MAP_OF("f"))               \
   hook("get", void, start MAP_OF("i"))
 
 EACH_TYPE(METHOD, "_ZNK3ros10NodeHandle8getParamE" STRING)
@@ -843,22 +840,23 @@ HOOK void preflight_async_start(void* self) {
   REAL(ASYNC, void(void*))(self);
 }
 
-#define TIMER(id, symbol)                                                                                         \
-  HOOK Handle id(const NodeHandle* self, int64_t period, void* callback, bool once, bool start) __asm__(symbol);  \
-  HOOK Handle id(const NodeHandle* self, int64_t period, void* callback, bool once, bool start) {                 \
-    LibraryThreads counted;                                                                                       \
+#define TIMER(id, symbol)                                                                                            \
+  HOOK Handle id(const NodeHandle* self, int64_t period, void* callback, bool once, bool start) __asm__(symbol);     \
+  HOOK Handle id(const NodeHandle* self, int64_t period, void* callback, bool once, bool start) {                    \
+    LibraryThreads counted;                                                                                          \
     return REAL(symbol, Handle(const NodeHandle*, int64_t, void*, bool, bool))(self, period, callback, once, start); \
   }
 #define CALLBACK(event) "RKN5boost8functionIFvRKNS_" event "EEEEbb"
 TIMER(preflight_timer, "_ZNK3ros10NodeHandle11createTimerENS_8DurationE" CALLBACK("10TimerEvent"))
 TIMER(preflight_wall_timer, "_ZNK3ros10NodeHandle15createWallTimerENS_12WallDurationE" CALLBACK("14WallTimerEvent"))
-TIMER(preflight_steady_timer, "_ZNK3ros10NodeHandle17createSteadyTimerENS_12WallDurationE" CALLBACK("16SteadyTimerEvent"))
+TIMER(preflight_steady_timer,
+      "_ZNK3ros10NodeHandle17createSteadyTimerENS_12WallDurationE" CALLBACK("16SteadyTimerEvent"))
 
-#define TIMER_OPTIONS(id, symbol)                                            \
-  HOOK Handle id(const NodeHandle* self, void* options) __asm__(symbol);     \
-  HOOK Handle id(const NodeHandle* self, void* options) {                    \
-    LibraryThreads counted;                                                  \
-    return REAL(symbol, Handle(const NodeHandle*, void*))(self, options);    \
+#define TIMER_OPTIONS(id, symbol)                                         \
+  HOOK Handle id(const NodeHandle* self, void* options) __asm__(symbol);  \
+  HOOK Handle id(const NodeHandle* self, void* options) {                 \
+    LibraryThreads counted;                                               \
+    return REAL(symbol, Handle(const NodeHandle*, void*))(self, options); \
   }
 TIMER_OPTIONS(preflight_timer_options, "_ZNK3ros10NodeHandle11createTimerERNS_12TimerOptionsE")
 TIMER_OPTIONS(preflight_wall_timer_options, "_ZNK3ros10NodeHandle15createWallTimerERNS_16WallTimerOptionsE")
@@ -871,24 +869,24 @@ HOOK void preflight_spin_once() {
   REAL(SPIN_ONCE, void())();
 }
 
-#define RATE(id, simulated, symbol)                             \
-  HOOK bool id(void* self) __asm__(symbol);          \
-  HOOK bool id(void* self) {                         \
-    tell_turn(__builtin_return_address(0), -1);      \
-    if (simulated) give_time();                      \
-    Depth nested;                                    \
-    return REAL(symbol, bool(void*))(self);          \
+#define RATE(id, simulated, symbol)             \
+  HOOK bool id(void* self) __asm__(symbol);     \
+  HOOK bool id(void* self) {                    \
+    tell_turn(__builtin_return_address(0), -1); \
+    if (simulated) give_time();                 \
+    Depth nested;                               \
+    return REAL(symbol, bool(void*))(self);     \
   }
 RATE(preflight_rate, true, "_ZN3ros4Rate5sleepEv")
 RATE(preflight_wall_rate, false, "_ZN3ros8WallRate5sleepEv")
 
-#define SLEEP(id, simulated, symbol)                                                                     \
-  HOOK bool id(const int32_t* duration) __asm__(symbol);                                      \
-  HOOK bool id(const int32_t* duration) {                                                     \
+#define SLEEP(id, simulated, symbol)                                                            \
+  HOOK bool id(const int32_t* duration) __asm__(symbol);                                        \
+  HOOK bool id(const int32_t* duration) {                                                       \
     tell_turn(__builtin_return_address(0), duration[0] > 0 ? duration[0] : duration[1] * 1e-9); \
-    if (simulated) give_time();                                                               \
-    Depth nested;                                                                             \
-    return REAL(symbol, bool(const int32_t*))(duration);                                      \
+    if (simulated) give_time();                                                                 \
+    Depth nested;                                                                               \
+    return REAL(symbol, bool(const int32_t*))(duration);                                        \
   }
 SLEEP(preflight_duration, true, "_ZNK3ros8Duration5sleepEv")
 SLEEP(preflight_wall_duration, false, "_ZNK3ros12WallDuration5sleepEv")
@@ -950,8 +948,8 @@ HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) {
 
 #define MESSAGE \
   "_ZN3ros5topic18waitForMessageImplERNS_16SubscribeOptionsERKN5boost8functionIFbvEEERNS_10NodeHandleENS_8DurationE"
-HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle, int64_t timeout)
-    __asm__(MESSAGE);
+HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle,
+                                     int64_t timeout) __asm__(MESSAGE);
 HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHandle* handle, int64_t timeout) {
   auto* wait = REAL(MESSAGE, void(TopicOptions&, void*, NodeHandle*, int64_t));
   Names names;
@@ -1041,8 +1039,7 @@ HOOK bool preflight_can_wait(const void* self, const std::string& target, const 
   });
 }
 
-#define CAN_WAIT_FIXED                                                                                        \
-  "_ZNK7tf2_ros6Buffer12canTransformER" FRAME_PAIR "RKN3ros4TimeES8_SC_S8_NS9_8DurationEPS6_"
+#define CAN_WAIT_FIXED "_ZNK7tf2_ros6Buffer12canTransformER" FRAME_PAIR "RKN3ros4TimeES8_SC_S8_NS9_8DurationEPS6_"
 HOOK bool preflight_can_wait_fixed(const void* self, const std::string& target, const void* target_time,
                                    const std::string& source, const void* source_time, const std::string& fixed,
                                    int64_t timeout, void* error) __asm__(CAN_WAIT_FIXED);
@@ -1088,16 +1085,16 @@ HOOK Transform preflight_look_up(const void* self, const std::string& target, co
 
 // actionlib's clients. Which action one waits for, its result topic tells.
 
-#define MONITOR(id, symbol)                                                          \
-  HOOK void id(void* self, void* feedback, void* result) __asm__(symbol);            \
-  HOOK void id(void* self, void* feedback, void* result) {                           \
-    REAL(symbol, void(void*, void*, void*))(self, feedback, result);                 \
-    quietly([&] {                                                                    \
+#define MONITOR(id, symbol)                                                                    \
+  HOOK void id(void* self, void* feedback, void* result) __asm__(symbol);                      \
+  HOOK void id(void* self, void* feedback, void* result) {                                     \
+    REAL(symbol, void(void*, void*, void*))(self, feedback, result);                           \
+    quietly([&] {                                                                              \
       auto* topic = REAL_IF_ANY("_ZNK3ros10Subscriber8getTopicB5cxx11Ev", std::string(void*)); \
-      std::string name = topic == nullptr ? "" : topic(result);                      \
-      std::lock_guard<std::mutex> locked(monitors_mutex);                            \
-      monitors()[self] = name.substr(0, name.rfind('/'));                            \
-    });                                                                              \
+      std::string name = topic == nullptr ? "" : topic(result);                                \
+      std::lock_guard<std::mutex> locked(monitors_mutex);                                      \
+      monitors()[self] = name.substr(0, name.rfind('/'));                                      \
+    });                                                                                        \
   }
 MONITOR(preflight_monitor, "_ZN9actionlib17ConnectionMonitorC1ERN3ros10SubscriberES3_")
 
