@@ -1,3 +1,3 @@
 std = "luajit"
-read_globals = { "vim" }
+globals = { "vim" } -- options and handlers are set in it
 max_line_length = 120

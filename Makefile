@@ -6,7 +6,7 @@ READY := $(VENV)/.ready
 DEMO := fixtures/ros1/demo
 SIDE_BY_SIDE := --numprocesses=auto --dist=worksteal
 LINTERS := .ci/lint/node_modules
-JAVASCRIPT := $(LINTERS)/.bin
+BIOME = $(wildcard $(LINTERS)/@biomejs/*/biome)
 CPP = $(shell git ls-files '*.c' '*.cpp' '*.hpp' ':!fixtures')
 PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_preload.cpp rcl_preload.cpp)
 LUA = $(shell git ls-files '*.lua')
@@ -46,7 +46,7 @@ lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the ty
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
-	$(JAVASCRIPT)/biome check --error-on-warnings .
+	$(BIOME) check --error-on-warnings .
 	node .ci/lint/stylua.mjs --check $(LUA)
 	luacheck --quiet $(LUA)
 	$(BIN)/clang-format --dry-run --Werror $(CPP)
@@ -55,7 +55,7 @@ lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the ty
 format: $(READY) $(LINTERS)/.ready ## writes each file as its formatter has it
 	$(BIN)/ruff check --select I --fix .
 	$(BIN)/ruff format .
-	$(JAVASCRIPT)/biome check --write .
+	$(BIOME) check --write .
 	node .ci/lint/stylua.mjs $(LUA)
 	$(BIN)/clang-format -i $(CPP)
 

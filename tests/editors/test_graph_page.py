@@ -97,7 +97,7 @@ def test_a_click_shows_all_of_a_node_and_leads_on(seen: Mapping[str, Any]) -> No
     assert "navigation.launch:3" in text
     assert "remapped from scan" in text
     assert "did you mean '/scan'" in text
-    assert (seen["click"]["then"], seen["click"]["focused"]) == ("/map", "topic /map")
+    assert (seen["click"]["followed"], seen["click"]["focused"]) == ("/map", "topic /map")
 
 
 def test_the_graph_can_be_walked_by_keyboard(seen: Mapping[str, Any]) -> None:

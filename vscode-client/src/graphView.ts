@@ -16,7 +16,7 @@ import type { LanguageClient } from "vscode-languageclient/node";
 import { graphPage, utf16Column } from "./graphPage";
 import type { Live } from "./live";
 import { notice } from "./messages";
-import { keptUri, type PageMessage, pageMessage, type Place } from "./pageMessages";
+import { keptUri, type PageMessage, type Place, pageMessage } from "./pageMessages";
 import { type Graph, ShownPlaces } from "./shownPlaces";
 
 const VIEW_TYPE = "rosPreflight.graph";

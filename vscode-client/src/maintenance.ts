@@ -1,4 +1,4 @@
-import { commands, ConfigurationTarget, Position, type TextEditor, Uri, window, workspace } from "vscode";
+import { ConfigurationTarget, commands, type Position, type TextEditor, Uri, window, workspace } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { notice } from "./messages";
 import { pythons } from "./surroundings";

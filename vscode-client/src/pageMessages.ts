@@ -14,7 +14,7 @@ export type PageMessage =
 
 const LONGEST_PATH = 4096;
 const LARGEST_PICTURE = 64 * 1024 * 1024;
-const PICTURE = /^<\?xml version="1\.0" encoding="utf-8"\?>\n<svg [^]*<\/svg>\n$/;
+const PICTURE = /^<\?xml version="1\.0" encoding="utf-8"\?>\n<svg [\s\S]*<\/svg>\n$/;
 
 /** The message of the page, with what its kind has and no more; undefined for anything that the page does not send. */
 export function pageMessage(data: unknown): PageMessage | undefined {

@@ -5,19 +5,19 @@ import {
   type ExtensionContext,
   type LogOutputChannel,
   ProgressLocation,
+  type WorkspaceFolder,
   window,
   workspace,
-  type WorkspaceFolder,
 } from "vscode";
 import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
 import { createClient, workspaceTrust } from "./client";
 import { findServer, type ServerCommand, ServerNotFound } from "./findServer";
 import type { Live } from "./live";
 import { notice } from "./messages";
-import { install, installed, InstallFailed } from "./privateServer";
+import { InstallFailed, install, installed } from "./privateServer";
 import { RestartPolicy } from "./restartPolicy";
 import type { Life, ServerStatus } from "./serverStatus";
-import { SetupFailed, setupPaths, Setups } from "./setups";
+import { SetupFailed, Setups, setupPaths } from "./setups";
 import { isExecutable, pythons, surroundings } from "./surroundings";
 
 /** As README.md says; a test holds the two together. */

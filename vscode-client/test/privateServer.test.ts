@@ -3,7 +3,7 @@ import { chmodSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, w
 import { tmpdir } from "node:os";
 import * as path from "node:path";
 import { after, beforeEach, describe, it } from "node:test";
-import { install, installed, InstallFailed, type Installer } from "../src/privateServer";
+import { type Installer, InstallFailed, install, installed } from "../src/privateServer";
 import { isExecutable } from "./files";
 
 const folder = mkdtempSync(path.join(tmpdir(), "private-"));

@@ -3,7 +3,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { homedir, tmpdir } from "node:os";
 import * as path from "node:path";
 import { after, describe, it } from "node:test";
-import { parseEnvironment, SetupFailed, setupPaths, Setups } from "../src/setups";
+import { parseEnvironment, SetupFailed, Setups, setupPaths } from "../src/setups";
 
 const folder = mkdtempSync(path.join(tmpdir(), "setups-"));
 after(() => rmSync(folder, { recursive: true }));

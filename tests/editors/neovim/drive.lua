@@ -175,11 +175,11 @@ function scenarios.root()
       return lens.command and lens.command.title or ''
     end, vim.lsp.codelens.get(vim.api.nvim_get_current_buf()))
   end
-  local result =
-    { before = wait_for('lenses', function()
-      local found = titles()
-      return #found > 0 and found
-    end) }
+  local before = wait_for('lenses', function()
+    local found = titles()
+    return #found > 0 and found
+  end)
+  local result = { before = before }
   vim.ui.select = function(items, opts, on_choice)
     result.offered = vim.tbl_map(opts.format_item, items)
     on_choice(items[1], 1)

@@ -15,7 +15,8 @@ async function step(name, action) {
   current = name;
   const started = performance.now();
   const result = await action();
-  (seen.seconds ??= {})[name] = Math.round(performance.now() - started) / 1000;
+  seen.seconds ??= {};
+  seen.seconds[name] = Math.round(performance.now() - started) / 1000;
   return result;
 }
 

@@ -21,7 +21,8 @@ async function open(name, { colorScheme = "light", inEditor = false } = {}) {
   });
   context.setDefaultTimeout(PATIENCE);
   page = await context.newPage();
-  const wrong = (seen.wrong ??= []);
+  seen.wrong ??= [];
+  const { wrong } = seen;
   page.on("pageerror", (error) => wrong.push(`${name}: ${error}`));
   page.on("console", (message) => message.type() === "error" && wrong.push(`${name}: ${message.text()}`));
   page.on("dialog", (dialog) => wrong.push(`${name}: ${dialog.message()}`) && dialog.dismiss());
@@ -32,7 +33,8 @@ async function open(name, { colorScheme = "light", inEditor = false } = {}) {
   if (inEditor) {
     // What VS Code gives to a page in a webview.
     await page.addInitScript(() => {
-      const sent = (window.sent = []);
+      const sent = [];
+      window.sent = sent;
       let state;
       window.acquireVsCodeApi = () => ({
         getState: () => state,
@@ -149,7 +151,7 @@ try {
     await page.mouse.move(700, 760);
     await picture("graph-5-details");
     await page.locator("#details button.item", { hasText: "/map" }).click();
-    return { text, then: await page.locator("#details h2").innerText(), focused: await focused() };
+    return { text, followed: await page.locator("#details h2").innerText(), focused: await focused() };
   });
   await step("keyboard", async () => {
     const found = { closed: await press("Escape").then(() => page.locator("#details").isVisible()) };

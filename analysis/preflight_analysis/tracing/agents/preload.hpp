@@ -91,7 +91,7 @@ std::string quoted(const std::string& text) {
 // A flat JSON object, by and by.
 class Event {
  public:
-  explicit Event(const char* kind) : text_("{\"ev\":\"") { text_.append(kind).append("\""); }
+  explicit Event(const char* kind) : text_(R"({"ev":")") { text_.append(kind).append("\""); }
 
   Event& raw(const char* key, const std::string& value) {
     text_.append(",\"").append(key).append("\":").append(value);
@@ -217,7 +217,7 @@ void tell_opened(const char* path) noexcept {
   }
   if (!first_time(full)) return;
   char line[kMaxLine];
-  char* end = stpcpy(line, "{\"ev\":\"files\",\"paths\":[\"");
+  char* end = stpcpy(line, R"({"ev":"files","paths":[")");
   for (const char* at = full; *at != 0; ++at) {
     if (end > line + sizeof line - 16 || static_cast<unsigned char>(*at) < 0x20) return;
     if (*at == '"' || *at == '\\') *end++ = '\\';
@@ -309,7 +309,7 @@ int threads_now() {
   DIR* tasks = opendir("/proc/self/task");
   if (tasks == nullptr) return 0;
   int count = 0;
-  while (dirent* entry = readdir(tasks)) count += entry->d_name[0] != '.';
+  while (dirent* entry = readdir(tasks)) count += entry->d_name[0] != '.' ? 1 : 0;
   closedir(tasks);
   return count;
 }
@@ -318,7 +318,7 @@ int threads_now() {
 double now() {
   timespec time;
   clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + time.tv_nsec * 1e-9;
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
 bool starts_with(const std::string& text, const std::string& start) {

@@ -10,8 +10,9 @@
 // own client, so that whatever executor the node has sees it come. In the same way lifecycle nodes are asked to
 // configure and to activate.
 #include <pthread.h>
-#include <signal.h>
 
+#include <cmath>
+#include <csignal>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -78,7 +79,7 @@ struct Serialized {
 // What is returned by value and passed on unread. The real ones are smaller, and returned through a hidden pointer too.
 struct Options {
   Options(const Options& other) { memcpy(bytes, other.bytes, sizeof bytes); }
-  ~Options() {}
+  ~Options() {}  // NOLINT(modernize-use-equals-default): that one would be trivial
   alignas(16) unsigned char bytes[1024];
 };
 
@@ -115,7 +116,7 @@ struct Members {
   const void* rest[4];
 
   // Since Jazzy there is a flag before the rest, which is no address.
-  const void* const* tail() const { return rest + (reinterpret_cast<uintptr_t>(rest[0]) <= 1); }
+  const void* const* tail() const { return rest + (reinterpret_cast<uintptr_t>(rest[0]) <= 1 ? 1 : 0); }
 };
 
 // MessageMember of the same.
@@ -161,7 +162,7 @@ std::string type_of(const Support* support) {
   for (const char* identifier : kSupports) {
     const Support* special = found(support, identifier);
     if (special == nullptr || special->data == nullptr) continue;
-    auto* names = static_cast<const char* const*>(special->data);
+    const auto* names = static_cast<const char* const*>(special->data);
     std::string space = text(names[0]), name = text(names[1]);
     for (const char* between : {"::", "__"}) {
       size_t at = space.rfind(between);
@@ -307,15 +308,15 @@ class Reader {
   }
 
   std::string string() {
-    uint32_t length = value<uint32_t>();
-    auto* start = reinterpret_cast<const char*>(bytes(length));
+    auto length = value<uint32_t>();
+    const auto* start = reinterpret_cast<const char*>(bytes(length));
     return std::string(start, length == 0 ? 0 : length - 1);
   }
 
   template <typename Read>
   std::string list(Read read) {
     std::string made;
-    for (uint32_t left = value<uint32_t>(); left > 0; --left) made += (made.empty() ? "" : ",") + read();
+    for (auto left = value<uint32_t>(); left > 0; --left) made += (made.empty() ? "" : ",") + read();
     return "[" + made + "]";
   }
 
@@ -342,15 +343,15 @@ Value value_of(Reader& from) {
   auto boolean = [&] { return std::string(from.value<uint8_t>() != 0 ? "true" : "false"); };
   auto integer = [&] { return std::to_string(from.value<int64_t>()); };
   auto number = [&] {
-    double value = from.value<double>();
-    whole = whole && value - value == 0;
+    auto value = from.value<double>();
+    whole = whole && std::isfinite(value);
     char text[40];
     snprintf(text, sizeof text, "%.17g", value);
     return strpbrk(text, ".en") != nullptr ? std::string(text) : std::string(text) + ".0";
   };
   auto string = [&] { return quoted(from.string()); };
   auto byte = [&] { return std::to_string(from.value<uint8_t>()); };
-  uint8_t type = from.value<uint8_t>();
+  auto type = from.value<uint8_t>();
   const std::string values[] = {"",
                                 boolean(),
                                 integer(),
@@ -371,9 +372,9 @@ std::string json_of(Reader& from) {
   std::string made;
   for (int i = 0; i < 3; ++i) {
     char text[400] = "null";  // what JSON has not
-    double number = static_cast<double>(from.value<Number>());
-    const char* format = std::is_same<Number, double>::value ? "%.17g" : "%.0f";
-    if (number - number == 0) snprintf(text, sizeof text, format, number);
+    auto number = static_cast<double>(from.value<Number>());
+    const char* format = std::is_same_v<Number, double> ? "%.17g" : "%.0f";
+    if (std::isfinite(number)) snprintf(text, sizeof text, format, number);
     made += (made.empty() ? "" : ",") + std::string(text);
   }
   return "[" + made + "]";
@@ -430,7 +431,7 @@ void tell_declared(const void* message, const Support* support) {
   from.value<int32_t>();
   from.value<uint32_t>();
   std::string node = from.string();
-  for (uint32_t left = from.value<uint32_t>(); left > 0; --left) {
+  for (auto left = from.value<uint32_t>(); left > 0; --left) {
     std::string name = from.string();
     Value value = value_of(from);
     Event event = param_event(node, name, value);
@@ -465,11 +466,11 @@ std::set<const Handle*>& gone() {
 template <typename Step>
 bool while_up(const Handle* node, Step step) {
   bool there = false;
-  return while_up([&] {
-           there = gone().count(node) == 0;
-           if (there) step();
-         }) &&
-         there;
+  bool up = while_up([&] {
+    there = gone().count(node) == 0;
+    if (there) step();
+  });
+  return up && there;
 }
 
 // Our own threads take no signals: those are the node's.
@@ -481,7 +482,7 @@ void in_background(Work work) {
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   try {
-    std::thread([work] { quietly(work); }).detach();
+    std::thread([work = std::move(work)] { quietly(work); }).detach();
   } catch (...) {
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
@@ -505,7 +506,7 @@ class Message {
 
   // Yes to each yes or no: a service that fails leads nowhere.
   void agree() {
-    auto* member = static_cast<const Member*>(members_->tail()[0]);
+    const auto* member = static_cast<const Member*>(members_->tail()[0]);
     bool flagged = members_->tail() != members_->rest;
     for (uint32_t i = 0; i < members_->count; ++i, ++member) {
       if (member->type == kBoolean && !member->flags[flagged]) memory_[member->offset] = 1;
@@ -521,7 +522,7 @@ const ServiceMembers* members_of(const Support* support) {
   for (const char* identifier : {kSupports[2], kSupports[3]}) {
     // It has to be the language of the node's own: of the other one there is none.
     const Support* special = found(support, identifier);
-    auto* members = special == nullptr ? nullptr : static_cast<const ServiceMembers*>(special->data);
+    const auto* members = special == nullptr ? nullptr : static_cast<const ServiceMembers*>(special->data);
     constexpr size_t kMost = 1 << 20;
     if (members != nullptr && members->request->size < kMost && members->response->size < kMost) return members;
   }
@@ -610,9 +611,10 @@ void tell_parameters(const Handle* node, const Asked& asked) {
   double until = now() + 1.5;
   std::vector<std::string> names;
   bool listed = asked.list->ask(node, {}, until, [&](Reader& from) {
-    for (uint32_t left = from.value<uint32_t>(); left > 0; --left) names.push_back(from.string());
+    for (auto left = from.value<uint32_t>(); left > 0; --left) names.push_back(from.string());
   });
   std::vector<CString> strings;
+  strings.reserve(names.size());
   for (const std::string& name : names) strings.push_back({name.c_str(), name.size(), name.size() + 1});
   AskParameters request;
   request.names = {strings.data(), strings.size(), strings.size()};
@@ -620,14 +622,14 @@ void tell_parameters(const Handle* node, const Asked& asked) {
   if (!listed || names.empty()) return;
   // One that was declared without a value has none, and rclcpp answers nothing at all then.
   asked.get->ask(node, request, until, [&](Reader& from) {
-    for (uint32_t left = from.value<uint32_t>(); left > 0; --left) values.push_back(value_of(from));
+    for (auto left = from.value<uint32_t>(); left > 0; --left) values.push_back(value_of(from));
   });
   values.resize(names.size());
   asked.describe->ask(node, request, until, [&](Reader& from) {
-    uint32_t count = from.value<uint32_t>();
+    auto count = from.value<uint32_t>();
     for (uint32_t i = 0; i < count && i < names.size(); ++i) {
       std::string name = from.string();
-      uint8_t type = from.value<uint8_t>();
+      auto type = from.value<uint8_t>();
       from.string();
       from.string();
       bool read_only = from.value<uint8_t>() != 0, dynamic = from.value<uint8_t>() != 0;

@@ -32,7 +32,7 @@ struct NodeHandle {
 // A copy constructor and destructor of its own make it be returned through a hidden pointer, as the real ones are.
 struct Handle {
   Handle(const Handle& other) { memcpy(parts, other.parts, sizeof parts); }
-  ~Handle() {}
+  ~Handle() {}  // NOLINT(modernize-use-equals-default): that one would be trivial
   void* parts[2];
 };
 
@@ -71,7 +71,7 @@ struct Serializer {
 
   // The message; its memory is never freed.
   std::string operator()() const {
-    auto* found = reinterpret_cast<const Table*>(table & ~uintptr_t{1});
+    const auto* found = reinterpret_cast<const Table*>(table & ~uintptr_t{1});  // NOLINT(performance-no-int-to-ptr)
     if (found == nullptr) return "";
     Serialized made = found->invoke(&function);
     // Its length, of four bytes, stands before it.
@@ -138,7 +138,8 @@ struct Names {
 // Of `name`, `namespace` and `remaps`, each once: nodes resolve names in their loops.
 void tell_asked(const char* what) {
   static std::atomic<unsigned> asked{0};
-  const unsigned bit = what[0] == 'r' ? 1 : what[4] == 0 ? 2 : 4;
+  unsigned bit = 1;
+  if (what[0] == 'n') bit = what[4] == 0 ? 2 : 4;
   if ((asked.fetch_or(bit) & bit) == 0) Event("asked").add("what", std::string(what)).send();
 }
 
@@ -587,7 +588,8 @@ class Reader {
 std::mutex outgoing_mutex;
 std::atomic<bool> looks_at_messages{false};
 struct Outgoing {
-  std::set<std::string> transforms, frames;  // topics; what was told
+  std::set<std::string> transforms;                      // topics
+  std::set<std::pair<std::string, std::string>> frames;  // parents and children that were told
   int looked_at = 0;
 };
 Outgoing& outgoing() {
@@ -609,7 +611,7 @@ void tell_frames(const std::string& topic, const std::string& message) {
   for (uint32_t left = reader.number(); left > 0 && reader.good(); --left) {
     reader.skip(kStamp);
     std::string parent = reader.text(), child = reader.text();
-    if (!reader.skip(kTransform) || !outgoing().frames.insert(parent + "\n" + child).second) continue;
+    if (!reader.skip(kTransform) || !outgoing().frames.insert({parent, child}).second) continue;
     Event("frame").add("parent", parent).add("child", child).add("static", ends_with(topic, "/tf_static")).send();
   }
 }
@@ -954,7 +956,10 @@ HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHan
   auto* wait = REAL(MESSAGE, void(TopicOptions&, void*, NodeHandle*, int64_t));
   Names names;
   quietly([&] { names = names_of(handle, options.topic); });
-  if (depth > 0 || names.resolved.empty()) return wait(options, ready, handle, timeout);
+  if (depth > 0 || names.resolved.empty()) {
+    wait(options, ready, handle, timeout);
+    return;
+  }
   give_time();
   Wait told("message", names.given);
   std::string topic = options.topic;  // the library resolves it in its place

@@ -1,5 +1,5 @@
 // The page of `ros-preflight tree --format html`: a filter, and all branches opened or closed at once.
-"use strict";
+
 (() => {
   const element = (id) => document.getElementById(id);
   const filter = element("filter");

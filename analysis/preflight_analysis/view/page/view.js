@@ -1,6 +1,6 @@
 // Makes the picture of the graph one to walk in: filter, hover, keyboard, zoom. The same in the page of
 // `ros-preflight graph --format html`, which holds its data, and in an editor, which sends it.
-"use strict";
+
 (() => {
   /** Of a topic with more ends, the other ends are no neighbours: /tf would show everything. */
   const HUB = 12;
@@ -852,7 +852,10 @@
     const names = [...new Set(element("drawing").textContent.match(/--[a-z0-9]+(?=:)/g))].filter(
       (name) => name !== "--line",
     );
-    const rules = element("drawing").textContent.replace(/^:root \{[^}]*\}|^@media[^]*?\n\}\n|^:root\[[^}]*\}/gm, "");
+    const rules = element("drawing").textContent.replace(
+      /^:root \{[^}]*\}|^@media[\s\S]*?\n\}\n|^:root\[[^}]*\}/gm,
+      "",
+    );
     style.textContent = `:root { ${names.map((name) => `${name}: ${colours.getPropertyValue(name).trim()};`).join(" ")} }\n${rules}`;
     copy.prepend(style);
     const text = `<?xml version="1.0" encoding="utf-8"?>\n${new XMLSerializer().serializeToString(copy)}\n`;

@@ -12,7 +12,8 @@ function M.setup(given)
   end
 end
 
--- For a status line: what the server of the buffer does, or why it runs no nodes or not all; empty when there is nothing to say.
+-- For a status line: what the server of the buffer does, or why it runs no nodes or not all; empty when there is
+-- nothing to say.
 function M.status(bufnr)
   local client = require('ros_preflight.client')
   local told = client.status(client.clients(bufnr or vim.api.nvim_get_current_buf())[1])

@@ -1,9 +1,9 @@
 -- Scratch buffers that show what the server knows of a launch: one for each kind, asked for anew when there is news.
 --
 -- A kind is a table with `name`, `filetype`, `ask(view, server, done)`, which gives the data to `done` or nil and why
--- there is none, and `rows(view)`, which makes lines of `view.data`. A row has `id`, which stays the same while the data
--- changes, `chunks`, pairs of text and colour, and may have `place` (the line of the launch file to go to), `source`
--- (that of the node's source), `node` (a full name), and `folds` (it has rows below that can be hidden).
+-- there is none, and `rows(view)`, which makes lines of `view.data`. A row has `id`, which stays the same while the
+-- data changes, `chunks`, pairs of text and colour, and may have `place` (the line of the launch file to go to),
+-- `source` (that of the node's source), `node` (a full name), and `folds` (it has rows below that can be hidden).
 local client = require('ros_preflight.client')
 
 local M = {}
@@ -109,8 +109,8 @@ end
 -- What is true of all that is shown: that it is not the newest, or that nodes are not run.
 local function header(view)
   local rows = { { id = '#keys', chunks = { { view.kind.keys, 'Quiet' } } } }
-  local function say(text, colour)
-    table.insert(rows, { id = '#' .. #rows, chunks = { { text, colour } } })
+  local function say(text, highlight)
+    table.insert(rows, { id = '#' .. #rows, chunks = { { text, highlight } } })
   end
   if view.problem then
     say(view.problem, 'Warning')
