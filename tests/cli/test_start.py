@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.interface import Interface, Outcome
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.sandbox import SandboxStatus
+from preflight_analysis.tracing.trace import Tracer
+from preflight_server.cli.main import main
 
+DEMO = Path(__file__).parents[2] / "fixtures/ros1/demo"
 HEAVY = (
     "preflight_analysis.evaluation",
     "preflight_analysis.rules",
@@ -40,3 +48,26 @@ def test_a_verb_imports_what_it_needs() -> None:
     modules = imported("rules", "TOP001")
     assert "preflight_analysis.rules.registry" in modules
     assert not modules.intersection({"preflight_server.cli.check", "pygls"})
+
+
+def test_the_sandbox_is_not_tried_where_every_trace_is_known(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked: list[str] = []
+
+    def lookup(self: Tracer, request: TraceRequest) -> Interface | None:
+        return Interface("trace", Outcome("spinning")) if request.node in known else None
+
+    def probe() -> SandboxStatus:
+        asked.append("probe")
+        return SandboxStatus(False, "there is no sandbox")
+
+    monkeypatch.setattr(Tracer, "lookup", lookup)
+    monkeypatch.setattr(sandbox, "probe", probe)
+    arguments = ["check", str(DEMO / "launch/talker_listener.launch"), "--package-path", str(DEMO)]
+    known = {"/talker", "/listener"}
+    main(arguments)
+    assert (asked, "2 of them traced" in capsys.readouterr().out) == ([], True)
+    known = {"/talker"}
+    main(arguments)
+    assert (asked, "1 of them traced" in capsys.readouterr().out) == (["probe"], True)

@@ -6,6 +6,7 @@ import re
 from xml.parsers import expat
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
+from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.documents.xml_scanner import NAME, Scan, scan
@@ -13,11 +14,11 @@ from preflight_analysis.documents.xml_scanner import NAME, Scan, scan
 MAX_PROBLEMS = 100
 """A text that is no XML at all has one per character or so; nobody reads them."""
 
-_WORD = re.compile(f"</?(?:{NAME})?|{NAME}|[^ \t\r\n]")
+_WORD = lazy_pattern(f"</?(?:{NAME})?|{NAME}|[^ \t\r\n]")
 _DECLARATION = re.compile("\ufeff?<\\?xml[ \t\r\n][^>]*")
 _ENCODING = re.compile("[ \t\r\n]encoding[ \t\r\n]*=[ \t\r\n]*(?:\"([^\"]*)\"|'([^']*)')")
 _CONTINUATION_BYTES = bytes(range(0x80, 0xC0))
-_PARAMETER_REFERENCE = re.compile(f"%{NAME};")
+_PARAMETER_REFERENCE = lazy_pattern(f"%{NAME};")
 
 
 def parse_xml(path: str, text: str, encoding: str | None = "utf-8") -> Document:

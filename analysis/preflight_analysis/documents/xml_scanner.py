@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from rapidfuzz.distance import OSA
 
 from preflight_analysis.documents.document import Attribute, Comment, Element, Node, SpannedText, SyntaxProblem, Text
+from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.span import LineIndex, Span
 
 # The names of XML 1.0, fifth edition; those of the fourth, which expat knows, are among them.
@@ -28,30 +29,30 @@ NAME = f"[{_NAME_START}][{_NAME_START}\\-.0-9\xb7\u0300-\u036f\u203f-\u2040]*"
 
 _BLANK = " \t\r\n"
 _S = "[ \t\r\n]"
-_ATTRIBUTE = re.compile(f"{_S}+({NAME}){_S}*={_S}*(?:\"([^<\"]*)\"|'([^<']*)')")
-_START_TAG = re.compile(f"<({NAME})((?:{_S}+{NAME}{_S}*={_S}*(?:\"[^<\"]*\"|'[^<']*'))*){_S}*(/?)>")
-_END_TAG = re.compile(f"</({NAME}){_S}*>")
-_TAG_MARK = re.compile(f"<(/?)({NAME})(?:[^<>\"']|\"[^\"<]*\"|'[^'<]*')*?(/?)>")
+_ATTRIBUTE = lazy_pattern(f"{_S}+({NAME}){_S}*={_S}*(?:\"([^<\"]*)\"|'([^<']*)')")
+_START_TAG = lazy_pattern(f"<({NAME})((?:{_S}+{NAME}{_S}*={_S}*(?:\"[^<\"]*\"|'[^<']*'))*){_S}*(/?)>")
+_END_TAG = lazy_pattern(f"</({NAME}){_S}*>")
+_TAG_MARK = lazy_pattern(f"<(/?)({NAME})(?:[^<>\"']|\"[^\"<]*\"|'[^'<]*')*?(/?)>")
 _SPACE = re.compile(f"{_S}*")
-_NAME = re.compile(NAME)
-_NAME_EQUALS = re.compile(f"{NAME}{_S}*=")
+_NAME = lazy_pattern(NAME)
+_NAME_EQUALS = lazy_pattern(f"{NAME}{_S}*=")
 _UNQUOTED = re.compile(r"""(?:\$\([^()<>"'\n]*\)|[^ \t\r\n<>"'/$]|/(?!>)|\$)+""")
-_TAG_LIKE = re.compile(f"<[/!?]?[{_NAME_START}]|<!--|</")
-_JUNK = re.compile(f"[^{_NAME_START} \t\r\n<>/\"'=]+")
-_TEXT_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?")
-_VALUE_SPECIAL = re.compile(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?|[\n\t]")
+_TAG_LIKE = lazy_pattern(f"<[/!?]?[{_NAME_START}]|<!--|</")
+_JUNK = lazy_pattern(f"[^{_NAME_START} \t\r\n<>/\"'=]+")
+_TEXT_SPECIAL = lazy_pattern(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?")
+_VALUE_SPECIAL = lazy_pattern(f"&(?:#[0-9]+;|#x[0-9A-Fa-f]+;|{NAME};)?|\r\n?|[\n\t]")
 _TO_DECODE = re.compile("[&\r\n\t]")
 _MISSPELT_COMMENT = re.compile(r"<!?--?(?=[ \t\r\n])")
-_SPACED_TAG = re.compile(f"<[ \t]+({NAME})(?={_S}+{NAME}{_S}*=|{_S}*/?>)")
+_SPACED_TAG = lazy_pattern(f"<[ \t]+({NAME})(?={_S}+{NAME}{_S}*=|{_S}*/?>)")
 _CONFLICT = re.compile(r"<{7}(?=[ \r\n])")
-_AFTER_COMMENT = re.compile(f"{_S}*(?:{NAME}{_S}*=|/?>)")
+_AFTER_COMMENT = lazy_pattern(f"{_S}*(?:{NAME}{_S}*=|/?>)")
 _UNFINISHED_REFERENCE = re.compile("&(?:lt|gt|amp|quot|apos)(?![A-Za-z0-9])")
-_TEXT_OF_TAG = re.compile(f"(?<![\\w<])({NAME}){_S}+{NAME}{_S}*=")
+_TEXT_OF_TAG = lazy_pattern(f"(?<![\\w<])({NAME}){_S}+{NAME}{_S}*=")
 _STRAIGHT_END = re.compile("[^<>\"'= \t\r\n]*[\"'](?=[ \t\r\n/>])")
 _COMMENT_MARK = re.compile("<!--|-->")
 _NOT_A_CHARACTER = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]+")
-_ENTITY_DECLARATION = re.compile(f"<!ENTITY{_S}+({NAME}){_S}")
-_EXTERNAL = re.compile(f"<!DOCTYPE{_S}+{NAME}{_S}+(?:SYSTEM|PUBLIC)\\b|%{NAME};")
+_ENTITY_DECLARATION = lazy_pattern(f"<!ENTITY{_S}+({NAME}){_S}")
+_EXTERNAL = lazy_pattern(f"<!DOCTYPE{_S}+{NAME}{_S}+(?:SYSTEM|PUBLIC)\\b|%{NAME};")
 _SUBSET_MARK = re.compile("<!--|<\\?|[\"'\\[\\]<>]")
 _PREDEFINED = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
 _CURLY_QUOTES = "\u201c\u201d\u201e\u2018\u2019"

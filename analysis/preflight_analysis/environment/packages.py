@@ -89,7 +89,7 @@ def walk_unignored(top: str, skip: Collection[str] = ()) -> Iterator[tuple[str, 
             continue
         if by_colcon:
             marked += (os.path.join(folder, ""),)
-        yield folder, folders, files, os.path.join(folder, "").startswith(marked)
+        yield folder, folders, files, bool(marked) and os.path.join(folder, "").startswith(marked)
 
 
 def _read_manifest(folder: str, path: str, metapackages: bool, problems: list[str]) -> Package | None:

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-_TOML: Any = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+_TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"
 
 Read = Callable[[str], "str | None"]
 """The text of a file, None if there is none that can be read."""
@@ -116,7 +116,7 @@ def _from_toml(text: str) -> dict[str, str]:
     if len(text) > _MAX_TEXT or any(line.count(".") > _MAX_DOTS for line in text.splitlines()):
         return {}
     try:
-        scripts: Any = _TOML.loads(text).get("project", {}).get("scripts", {})
+        scripts: Any = importlib.import_module(_TOML).loads(text).get("project", {}).get("scripts", {})
     except (ValueError, AttributeError, RecursionError):
         return {}
     if not isinstance(scripts, dict):

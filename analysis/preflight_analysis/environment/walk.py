@@ -66,8 +66,9 @@ def walk(top: str, skip: Collection[str] = ()) -> Iterator[tuple[str, list[str],
             continue
         skipped = frozenset()
         yield folder, folders, files
+        above = os.path.join(folder, "")
         for name in reversed(folders):
-            path = os.path.join(folder, name)
+            path = above + name
             if path not in NOT_ON_DISK:
                 pending.append((path, links.get(name, is_outside)))
 

@@ -10,7 +10,6 @@ from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.ros1.memo import Memo
-from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2
 from preflight_analysis.evaluation.tree import LaunchTree
 
 
@@ -27,5 +26,8 @@ def evaluate_launch(
     """What launching `path` with `name:=value...` would start; see `evaluate` and `evaluate_ros2`."""
     found = files.launch_file(path)
     if not isinstance(found, Unreadable) and found.generation == 2:
+        # Who has launch files of ROS 1 alone starts faster without.
+        from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
+
         return evaluate_ros2(path, args, files, executables, environment, cwd, commands)
     return evaluate(path, args, files, executables, environment, cwd, commands, memo)

@@ -17,12 +17,12 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from xml.sax.saxutils import quoteattr
 
 from preflight_analysis.documents.document import Document, Element, SpannedText
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, MARK
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.documents.xml_text import quoted_attribute
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
@@ -346,4 +346,4 @@ def _quoted(value: str) -> str:
     # A comment of XML must not hold two hyphens in a row; a line break or another control character would end what
     # begins with a hash, or be no XML at all. No legal name or type has any of them, but a node may send what it likes.
     shown = "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in value)
-    return quoteattr(shown, {'"': "&quot;", "--": "-&#45;"})
+    return quoted_attribute(shown, {'"': "&quot;", "--": "-&#45;"})

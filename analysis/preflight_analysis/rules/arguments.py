@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from xml.sax.saxutils import quoteattr
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.xml_text import quoted_attribute
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import insert_child, remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
@@ -46,7 +46,7 @@ def declare(context: Context, file: str, name: str) -> tuple[Fix, ...]:
     launch_file = context.launch_files.get(file)
     if launch_file is None or launch_file.root is None or launch_file.document.problems:
         return ()
-    edit = insert_child(launch_file.root, launch_file.document, f"<arg name={quoteattr(name)}/>")
+    edit = insert_child(launch_file.root, launch_file.document, f"<arg name={quoted_attribute(name)}/>")
     return (Fix(f"Declare argument '{name}'", (edit,)),)
 
 
@@ -59,6 +59,6 @@ def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:
         return ()
     known = name in declarations(launch_file)
     value = f"$(arg {name})" if known else ""
-    child = f'<arg name={quoteattr(name)} value="{value}"/>'
+    child = f'<arg name={quoted_attribute(name)} value="{value}"/>'
     edit = insert_child(action, launch_file.document, child)
     return (Fix(f"Pass argument '{name}'" + (" on" if known else ""), (edit,), known),)

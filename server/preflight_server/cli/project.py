@@ -15,7 +15,6 @@ from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import Interface
-from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
@@ -111,41 +110,33 @@ def run_nodes(
     """
     analysis = project.analysis
     nodes = analysis.tree.nodes
-    why = _why_not(args.no_run)
     tracer = Tracer(project.environment, TraceCache())
-    requests = project.workspace.requests(analysis)
-    chosen = [i for i, r in enumerate(requests) if r is not None and only in (None, nodes[i].name)]
+    requests = {
+        index: request
+        for index, request in enumerate(project.workspace.requests(analysis))
+        if request is not None and only in (None, nodes[index].name)
+    }
+    found = {index: hit for index, request in requests.items() if (hit := tracer.lookup(request)) is not None}
+    missing = [index for index in requests if index not in found]
+    # Trying the sandbox starts processes: not where nothing is left to be run.
+    why = _why_not(args.no_run) if missing or not found else None
     if why is not None:
-        return _without_runs(project, tracer, {i: r for i in chosen if (r := requests[i]) is not None}, why)
-    found: dict[int, Interface] = {}
+        interfaces = [found.get(index) or not_run(node, why) for index, node in enumerate(nodes)]
+        return project.workspace.with_interfaces(analysis, interfaces, None if found else why)
     cancel = threading.Event()
 
     def done(index: int, interface: Interface) -> None:
-        found[chosen[index]] = interface
-        report(len(found), len(chosen))
+        found[missing[index]] = interface
+        report(len(found), len(requests))
 
     try:
-        trace_all(
-            tracer,
-            [request for i in chosen if (request := requests[i]) is not None],
-            workers=args.jobs,
-            on_done=done,
-            cancel=cancel,
-        )
+        trace_all(tracer, [requests[index] for index in missing], workers=args.jobs, on_done=done, cancel=cancel)
     except KeyboardInterrupt:
         cancel.set()
         raise
     reason = project.workspace.cannot_run(analysis.tree) or "it was not asked for"
-    interfaces = [found.get(i) or not_run(node, reason) for i, node in enumerate(nodes)]
+    interfaces = [found.get(index) or not_run(node, reason) for index, node in enumerate(nodes)]
     return project.workspace.with_interfaces(analysis, interfaces, None)
-
-
-def _without_runs(project: Project, tracer: Tracer, requests: Mapping[int, TraceRequest], why: str) -> Analysis:
-    """The analysis with what earlier runs told that still holds."""
-    analysis = project.analysis
-    known = {i: hit for i, request in requests.items() if (hit := tracer.lookup(request)) is not None}
-    interfaces = [known.get(i) or not_run(node, why) for i, node in enumerate(analysis.tree.nodes)]
-    return project.workspace.with_interfaces(analysis, interfaces, None if known else why)
 
 
 def _why_not(no_run: bool) -> str | None:
