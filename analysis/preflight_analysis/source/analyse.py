@@ -62,6 +62,9 @@ class SourceInterface:
     """ROS 2: those that the process makes; empty where it is not known which."""
 
 
+_NOTHING = SourceInterface()
+
+
 @dataclass(frozen=True, slots=True)
 class _Remembered:
     files: Mapping[str, str]
@@ -94,7 +97,7 @@ class SourceAnalysis:
                 self._remembered[key] = known
                 if len(self._remembered) > _MAX_REMEMBERED:
                     del self._remembered[next(iter(self._remembered))]
-        return known.found if known.found != SourceInterface() else None
+        return known.found if known.found != _NOTHING else None
 
     def _is_valid(self, known: _Remembered, params: LaunchParams, digests: dict[str, str]) -> bool:
         for path, digest in known.files.items():

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Interface, ParamUse
@@ -35,13 +36,14 @@ class Fallback:
         self._lock = threading.Lock()
         self._filled: dict[tuple[str, str | None], _Filled] = {}
 
-    def fill_in(self, tree: LaunchTree, interfaces: Sequence[Interface]) -> tuple[Interface, ...]:
+    def fill_in(self, tree: LaunchTree, interfaces: Sequence[Interface], kept: Kept) -> tuple[Interface, ...]:
         """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end is added what a run of
         the same executable elsewhere told, or else its source.
 
         A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
         """
-        lacking = [_lacks(node, interface) for node, interface in zip(tree.nodes, interfaces, strict=True)]
+        annotated = kept.each(_is_annotated, tree.nodes)
+        lacking = [not has and _lacks(each) for has, each in zip(annotated, interfaces, strict=True)]
         nodes = tuple(zip(lacking, tree.nodes, interfaces, strict=True))
         placeless = [not lacks and _placeless(tree, each) for lacks, _, each in nodes]
         later = [not lacks and _may_declare_later(tree, node, each) for lacks, node, each in nodes]
@@ -81,10 +83,14 @@ class Fallback:
                 del self._filled[next(iter(self._filled))]
 
 
-def _lacks(node: LaunchNode, interface: Interface) -> bool:
+def _is_annotated(node: LaunchNode) -> bool:
+    return read_annotation(node.action)[0] is not None
+
+
+def _lacks(interface: Interface) -> bool:
     outcome = interface.outcome
     ended_well = outcome.status == "exited" and outcome.exit_code == 0
-    return not (interface.complete or ended_well or interface.pending) and read_annotation(node.action)[0] is None
+    return not (interface.complete or ended_well or interface.pending)
 
 
 def _placeless(tree: LaunchTree, interface: Interface) -> bool:

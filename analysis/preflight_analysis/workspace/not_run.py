@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing.interface import Interface, Outcome
 
@@ -15,4 +17,10 @@ def not_run(node: LaunchNode, reason: str | None = None) -> Interface:
         reason = f"'{node.resolved.not_executable[0]}' is not executable"
     elif node.resolved.path is None:
         reason = f"there is no executable {node.executable!r} in package {node.package!r}"
+    return _not_run(reason)
+
+
+@lru_cache(maxsize=1024)
+def _not_run(reason: str | None) -> Interface:
+    # The same object for the same reason, so that what was made of it is found again.
     return Interface("none", Outcome("not-run", reason=reason))

@@ -299,11 +299,11 @@ class Workspace:
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
         project = self._project_settings()
-        whole = self._filled_in(tree, interfaces, project)
+        whole = self._filled_in(tree, interfaces, project, kept)
         of_source = with_own_names(tree, whole, analysis.documents)
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
-            whole = self._filled_in(of_source, interfaces, project)
+            whole = self._filled_in(of_source, interfaces, project, kept)
         graph = build_graph(
             analysis.tree, whole, project.external_topics, self.environment.distro, analysis.documents, kept
         )
@@ -335,12 +335,12 @@ class Workspace:
         return known[1]
 
     def _filled_in(
-        self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings
+        self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings, kept: Kept
     ) -> Sequence[Interface]:
         """The interfaces with what is known beside runs."""
         interfaces = from_settings(tree, interfaces, project.nodes)
         view = self._view(tree.file)
-        return view.fallback.fill_in(tree, view.nodl.fill_in(tree, interfaces))
+        return view.fallback.fill_in(tree, view.nodl.fill_in(tree, interfaces), kept)
 
     def _project_settings(self) -> ProjectSettings:
         """The settings file of the workspace as it is now."""
