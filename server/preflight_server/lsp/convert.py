@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 from lsprotocol import types
 from preflight_analysis.documents.document import Document
@@ -45,22 +46,49 @@ SYMBOL_KINDS: Mapping[str, types.SymbolKind] = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class _Made:
+    """A diagnostic, and the files whose lines it names."""
+
+    finding: Finding
+    files: frozenset[str]
+    diagnostic: types.Diagnostic
+
+
 class Converter:
     """Converts what speaks of files by path. `documents` are the texts the spans were computed on.
 
     A text that is neither there nor open is read from disk (YAML files, node sources), so use it off the event loop.
+    Diagnostics that `before` made of the same findings, in texts that have not changed, are the same objects again:
+    to make thousands, and to compare them with what was published, takes longer than a keystroke may.
     """
 
-    def __init__(self, texts: TextStore, documents: Mapping[str, Document], *, related: bool = True) -> None:
+    def __init__(
+        self,
+        texts: TextStore,
+        documents: Mapping[str, Document],
+        *,
+        related: bool = True,
+        before: Converter | None = None,
+    ) -> None:
         self._texts = texts
         self._documents = documents
         self._related = related
         self._positions: dict[str, Positions] = {}
+        self._uris: dict[str, str] = {}
+        self._made: dict[int, _Made] = {}
+        """By the id of the finding."""
+        usable = before is not None and before._related == related
+        self._before = before if usable else None
+        self._unchanged: dict[str, bool] = {}
 
     def uri(self, path: str) -> str:
         """The URI as the editor spelled it, if the file is open there."""
-        document = self._texts.by_path(path)
-        return document.uri if document else to_uri(path)
+        found = self._uris.get(path)
+        if found is None:
+            document = self._texts.by_path(path)
+            found = self._uris[path] = document.uri if document else to_uri(path)
+        return found
 
     def positions(self, path: str) -> Positions:
         """Conversion for the text of a file."""
@@ -112,7 +140,29 @@ class Converter:
 
     def diagnostics(self, findings: Iterable[Finding]) -> list[types.Diagnostic]:
         """The findings of one file."""
-        return [self.diagnostic(f) for f in findings]
+        return [self._again(finding) for finding in findings]
+
+    def _again(self, finding: Finding) -> types.Diagnostic:
+        known = self._before._made.get(id(finding)) if self._before is not None else None
+        if known is None or known.finding is not finding or not all(map(self._is_unchanged, known.files)):
+            files = frozenset((finding.location.file, *(related.location.file for related in finding.related)))
+            known = _Made(finding, files, self.diagnostic(finding))
+        self._made[id(finding)] = known
+        return known.diagnostic
+
+    def _is_unchanged(self, path: str) -> bool:
+        """Whether a file's text and URI are those that the converter before this one had."""
+        found = self._unchanged.get(path)
+        if found is None:
+            known = self._before._positions.get(path) if self._before is not None else None
+            same = known is not None and self.positions(path).are_those_of(known)
+            found = same and self._before is not None and self._before.uri(path) == self.uri(path)
+            self._unchanged[path] = found
+        return found
+
+    def end(self) -> None:
+        """All diagnostics are made: let go of those that were not made again."""
+        self._before = None
 
     def workspace_edit(self, edits: Iterable[Edit], *, versioned: bool = False) -> types.WorkspaceEdit:
         """Edits of any number of files, as every client understands them; `versioned` for those that check that the

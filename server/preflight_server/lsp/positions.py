@@ -28,6 +28,10 @@ class Positions:
         self._same = encoding == PositionEncodingKind.Utf32 or text.isascii()
         self._marks: dict[int, list[int]] = {}
 
+    def are_those_of(self, other: Positions) -> bool:
+        """Whether both convert the same text."""
+        return self._text == other._text and self._encoding == other._encoding
+
     def offset(self, position: Position) -> int:
         """The offset of `position`; past the end of a line its end, past the last line the end of the text."""
         if position.line >= len(self._lines):

@@ -71,6 +71,8 @@ class _Round:
     analyses: Mapping[Root, Analysis]
     findings: Mapping[str, tuple[Finding, ...]]
     diagnostics: Mapping[str, list[types.Diagnostic]]
+    converter: Converter
+    """What made them, for the next round."""
 
 
 class Session:
@@ -97,6 +99,7 @@ class Session:
         self._workspace: Workspace | None = None
         self._analyses: dict[Root, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}
+        self._converter: Converter | None = None
         self._focus: list[str] = []
         """Paths of open launch files, and of what may be a parameter file, the one that was last opened or edited
         first."""
@@ -456,12 +459,13 @@ class Session:
         known, why = (self.runs.known(root), self.runs.why_not_run) if root is not None else ({}, None)
         stale = frozenset(self._dirty) - {root}
         explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)
+        before = self._converter
 
         def work() -> _Round:
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
                 analyses[root] = with_known(workspace, static, known, why, analyses.get(root))
-            return self._merge(analyses, stale, explicit, selected)
+            return self._merge(analyses, stale, explicit, selected, before)
 
         try:
             return await self.in_pool(work)
@@ -475,6 +479,7 @@ class Session:
         stale: Collection[Root],
         explicit: Collection[Root],
         selected: Mapping[str, Root],
+        before: Converter | None,
     ) -> _Round:
         """The findings of all roots by file, of a file for which the user chose a root those in that one. Runs in a
         thread: files that are not open are read for their lines."""
@@ -490,8 +495,10 @@ class Session:
                 alone = by_file([reports[root]], self._every_root)
                 findings[path] = alone.get(path, ())
         documents = {path: document for a in kept.values() for path, document in a.documents.items()}
-        converter = Converter(self._server.texts, documents, related=self._shows_related)
-        return _Round(analyses, findings, {path: converter.diagnostics(found) for path, found in findings.items()})
+        converter = Converter(self._server.texts, documents, related=self._shows_related, before=before)
+        diagnostics = {path: converter.diagnostics(found) for path, found in findings.items()}
+        converter.end()
+        return _Round(analyses, findings, diagnostics, converter)
 
     def _report(self, root: Root, analysis: Analysis, stale: bool) -> RootFindings:
         """The findings of one root. Those of an earlier text say nothing of files that changed since."""
@@ -509,6 +516,7 @@ class Session:
         self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
         self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
         self._findings = round_.findings
+        self._converter = round_.converter
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
         self._server.publisher.update(self, {**clean, **round_.diagnostics}, self._edited)
