@@ -3,7 +3,8 @@ from contextlib import suppress
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+from preflight_analysis.evaluation import yaml_params
+from preflight_analysis.evaluation.yaml_params import YamlError, YamlValue, load_yaml
 
 
 def test_keys_have_their_places() -> None:
@@ -47,3 +48,16 @@ def test_what_cannot_be_loaded_is_an_error_with_a_message(text: str) -> None:
 def test_nothing_but_its_own_error_comes_out(text: str) -> None:
     with suppress(YamlError):
         load_yaml(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["a: rad(pi/2)\nb: [deg(90), {c: 0x10}]\n", "a: !degrees 90\n", "- 1_000\n- 2001-01-01\n"]
+)
+def test_values_and_places_are_pyyamls_whichever_parser_makes_the_nodes(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fast = yaml_params._load(text)
+    monkeypatch.setattr(yaml_params, "_LibyamlLoader", yaml_params._Loader)
+    slow = yaml_params._load(text)
+    assert isinstance(fast, YamlValue) and isinstance(slow, YamlValue)
+    assert (fast.value, fast.keys, fast.twice) == (slow.value, slow.keys, slow.twice)

@@ -21,7 +21,8 @@ _BOTH_AGREE = re.compile(r"(?!.*(?:[?!]|[|>]#))[\n -~\xa0-\u2027\u202a-\ud7ff\ue
 `!`, a comment right after `|` or `>`, byte order marks and unusual line breaks. Found by a comparison of two hundred
 thousand damaged parameter files; `tests/documents/test_yaml.py` repeats some of it."""
 
-_LIBYAML: type[yaml.SafeLoader] | type[yaml.CSafeLoader] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+LIBYAML: type[yaml.SafeLoader] | type[yaml.CSafeLoader] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+"""PyYAML's binding of libyaml; where it was built without, its own."""
 _DEPTH_OF_LIBYAML = 2_000
 """libyaml's composer recurses on the stack of the thread, of which a level takes less than 500 bytes."""
 _DEPTH_ON_A_LINE = 200
@@ -48,10 +49,10 @@ def _integer(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> int:
 PlainLoader.add_constructor("tag:yaml.org,2002:int", _integer)
 
 
-def compose(text: str) -> yaml.Node | None:
+def compose(text: str, loader: type[yaml.SafeLoader] = yaml.SafeLoader) -> yaml.Node | None:
     """What `yaml.compose` with a SafeLoader gives. Raises one of `CONSTRUCTION_ERRORS`."""
     refuse_deep(text)
-    return yaml.compose(text, Loader=yaml.SafeLoader)
+    return yaml.compose(text, Loader=loader)
 
 
 def refuse_deep(text: str) -> None:
@@ -97,7 +98,7 @@ def parse_yaml(path: str, text: str) -> YamlDocument:
     attempt = text
     for _ in range(MAX_REPAIRS):
         try:
-            node = _compose(attempt)
+            node = compose_fast(attempt)
         except yaml.YAMLError as error:
             problem, at = _problem(error, attempt)
             if not problems:
@@ -118,18 +119,22 @@ def parse_yaml(path: str, text: str) -> YamlDocument:
     return YamlDocument(node, Document(path, text, digest(text), comments, tuple(problems), lines))
 
 
-def _compose(text: str) -> yaml.Node | None:
-    """What `yaml.compose` with a SafeLoader gives or raises, as launch has it; by libyaml, which is eight times faster,
-    where the two are known to agree."""
+def compose_fast(
+    text: str,
+    loader: type[yaml.SafeLoader] = yaml.SafeLoader,
+    libyaml: type[yaml.SafeLoader] | type[yaml.CSafeLoader] = LIBYAML,
+) -> yaml.Node | None:
+    """What `yaml.compose` with `loader` gives or raises, but for what is nested too deeply, as launch has it; by
+    `libyaml`, which resolves tags alike and is eight times faster, where the two are known to agree."""
     depth = text.count("[") + text.count("{") + max(map(len, text.splitlines()), default=0)  # each level takes a sign
     if depth < _DEPTH_OF_LIBYAML and _BOTH_AGREE.fullmatch(text):
         try:
-            node = yaml.compose(text, Loader=_LIBYAML)
+            node = yaml.compose(text, Loader=libyaml)
         except yaml.YAMLError:
             node = None  # PyYAML says it in its own words, and takes a few texts that libyaml does not
         if node is not None and (depth < _DEPTH_OF_PYYAML or _depth(node) < _DEPTH_OF_PYYAML):
             return node
-    return compose(text)
+    return compose(text, loader)
 
 
 def _depth(root: yaml.Node) -> int:

@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, refuse_deep
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, LIBYAML, PlainLoader, compose_fast
 from preflight_analysis.evaluation.expression import EvaluationError, evaluate_arithmetic
 
 MAX_VALUES = 200_000
@@ -44,6 +44,10 @@ class _Loader(PlainLoader):
     """YAML 1.1 with ROS's additions; its own class, so that nobody else's loader changes."""
 
 
+class _LibyamlLoader(LIBYAML):  # type: ignore[misc,valid-type]
+    """The same additions to what makes the nodes; values are made by `_Loader`."""
+
+
 def _inner(loader: yaml.SafeLoader, node: yaml.Node, name: str) -> str:
     text = str(loader.construct_scalar(node)).strip()  # type: ignore[arg-type]
     return text[len(name) + 1 : -1] if text.startswith(name + "(") else text
@@ -67,8 +71,9 @@ def _degrees(loader: yaml.SafeLoader, node: yaml.Node) -> float:
 
 _Loader.add_constructor("!radians", _radians)
 _Loader.add_constructor("!degrees", _degrees)
-_Loader.add_implicit_resolver("!radians", re.compile(r"^rad\([^\)]*\)$"), ["r"])
-_Loader.add_implicit_resolver("!degrees", re.compile(r"^deg\([^\)]*\)$"), ["d"])
+for _each in (_Loader, _LibyamlLoader):
+    _each.add_implicit_resolver("!radians", re.compile(r"^rad\([^\)]*\)$"), ["r"])
+    _each.add_implicit_resolver("!degrees", re.compile(r"^deg\([^\)]*\)$"), ["d"])
 
 
 def load_yaml(text: str) -> YamlValue:
@@ -97,16 +102,11 @@ _long = lru_cache(maxsize=64)(_load)
 
 def _parse(text: str) -> YamlValue:
     try:
-        refuse_deep(text)
-        loader = _Loader(text)
-        try:
-            node = loader.get_single_node()
-            keys: dict[tuple[str, ...], Span] = {}
-            twice: list[tuple[str, Span, Span]] = []
-            _collect_keys(node, (), keys, [0], twice)
-            value = loader.construct_document(node) if node is not None else None
-        finally:
-            loader.dispose()
+        node = compose_fast(text, _Loader, _LibyamlLoader)
+        keys: dict[tuple[str, ...], Span] = {}
+        twice: list[tuple[str, Span, Span]] = []
+        _collect_keys(node, (), keys, [0], twice)
+        value = _Loader("").construct_document(node) if node is not None else None
     except YamlError:
         raise
     except yaml.MarkedYAMLError as error:

@@ -20,12 +20,11 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.remaps import overrides_qos
 from preflight_analysis.tracing import nodelets
-from preflight_analysis.tracing.agents.params import ParamTree
 from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, MadeNode, Outcome, ParamUse, Range
 from preflight_analysis.tracing.observation import Dependencies, ParamDependency
+from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.run import encode_params
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, digest_of, fingerprint, listing
 
 SCHEMA = "ros-preflight/trace-cache/5"
@@ -163,6 +162,7 @@ class TraceCache(Store):
         return self._folder_of(_executable_digest(generation, package, executable, plugin))
 
     def _place(self, recipe: Recipe, request: TraceRequest) -> Place:
+        given = request.given_to(None) if request.generation == 2 else {}
         named = {
             "executable": os.path.realpath(request.executable),
             "given": request.executable,
@@ -175,7 +175,7 @@ class TraceCache(Store):
             "named": request.named,
             "renames": request.renames,
             "each": request.each,
-            "qos": sorted([name, value] for name, value in request.given_to(None).items() if overrides_qos(name)),
+            "qos": sorted([name, value] for name, value in given.items() if overrides_qos(name)),
             "env": dict(recipe.stable),
             "cwd": recipe.cwd,
             "workspaces": list(recipe.workspaces),
@@ -190,9 +190,8 @@ class _View:
     def __init__(self, request: TraceRequest, remapped: bool) -> None:
         self._node = request.node
         self._remaps = names.resolve_remaps(request.remaps, request.node) if remapped else {}
-        self._tree = ParamTree()
-        for name, value in encode_params(request.params):
-            self._tree.set(name, value)
+        params = request.params
+        self._tree = (params if isinstance(params, SharedParams) else SharedParams(params)).tree
 
     def look(self, dependency: ParamDependency) -> str:
         """A digest of the parameter server's answer; "" for nothing there."""

@@ -13,7 +13,8 @@ from preflight_analysis.evaluation.ros2.remaps import before_remaps, renames_nod
 
 @dataclass(frozen=True, slots=True)
 class TraceRequest:
-    """A run. `params` is the parameter server of the whole launch by full name, private parameters included."""
+    """A run. `params` is the parameter server of the whole launch by full name, private parameters included; best
+    `SharedParams`, as what is asked of them in the cache is then made once."""
 
     node: str
     """Full name."""

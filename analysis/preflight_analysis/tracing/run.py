@@ -21,6 +21,7 @@ from typing import IO, Any
 from preflight_analysis.tracing import backend, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
+from preflight_analysis.tracing.parameter_server import encode_params
 
 WALL_SECONDS = 5.0
 """From exec to the end, at most, but for the time in which it waits for a processor that others have."""
@@ -212,35 +213,6 @@ def _end(process: subprocess.Popen[bytes], leash: IO[bytes] | None) -> None:
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(_LEASH_SECONDS)
     process.kill()
-
-
-def encode_params(params: Mapping[str, Any]) -> list[list[Any]]:
-    """As `[name, value]` pairs in JSON; what the parameter server cannot hold (None, unknown values) is left out."""
-    pairs = []
-    for name, value in params.items():
-        try:
-            pairs.append([name, _encode(value)])
-        except TypeError:
-            continue
-    return pairs
-
-
-def _encode(value: Any) -> Any:
-    if isinstance(value, (bool, str, float)):
-        return value
-    if isinstance(value, int):
-        if not -(2**31) <= value < 2**31:
-            raise TypeError("XML-RPC integers have 32 bits")
-        return value
-    if isinstance(value, bytes):
-        import base64  # noqa: PLC0415
-
-        return {"$binary": base64.b64encode(value).decode()}
-    if isinstance(value, Mapping):
-        return {str(key): _encode(below) for key, below in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_encode(item) for item in value]
-    raise TypeError(type(value).__name__)
 
 
 def _own_process_count() -> bool:

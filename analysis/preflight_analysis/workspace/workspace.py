@@ -34,6 +34,7 @@ from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import Fallback
 from preflight_analysis.tracing import preload
 from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
@@ -248,7 +249,8 @@ class Workspace:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
         if analysis.tree.generation == 2:
             return tuple(self._ros2_request(node, analysis.documents) for node in analysis.tree.nodes)
-        params = {p.name: p.value for p in analysis.tree.params.values() if not isinstance(p.value, CommandValue)}
+        values = analysis.tree.params.values()
+        params = SharedParams({p.name: p.value for p in values if not isinstance(p.value, CommandValue)})
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
     def cannot_run(self, tree: LaunchTree) -> str | None:
