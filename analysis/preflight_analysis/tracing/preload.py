@@ -27,7 +27,6 @@ from pathlib import Path
 from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 from preflight_analysis.tracing.preload_compile import (
-    COMMON,
     FLAGS,
     MACHINES,
     RCL,
@@ -154,7 +153,7 @@ class Library:
         with contextlib.suppress(OSError):
             info = os.stat(compiler)
             named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *FLAGS)
-            made_of = self._watched.source.read_bytes() + COMMON.read_bytes() + exports(self._watched).encode()
+            made_of = b"".join(file.read_bytes() for file in self._watched.files) + exports(self._watched).encode()
             return self._at(hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + made_of).hexdigest())
         return Preload(None, "the C++ compiler or our own source cannot be read")
 

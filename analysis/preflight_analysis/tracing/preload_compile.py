@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 _AGENTS = Path(__file__).parent / "agents"
-COMMON = _AGENTS / "preload.hpp"
+_COMMON = _AGENTS / "preload.hpp"
 """What both of them include."""
 
 
@@ -24,6 +24,12 @@ class Watched:
     name: str
     source: Path
     exports: str
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """All that it is compiled of: the source has the functions that are intercepted, the headers in the folder of
+        its name what they do."""
+        return (self.source, _COMMON, *sorted(self.source.with_suffix("").glob("*.hpp")))
 
     @property
     def prebuilt(self) -> Path:

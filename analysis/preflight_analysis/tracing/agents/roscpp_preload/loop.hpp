@@ -1,0 +1,120 @@
+// The event loop, and loops of the main thread.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "lacks.hpp"
+#include "parameters.hpp"
+#include "threads.hpp"
+
+namespace preflight {
+
+void tell_spin() {
+  if (depth > 0) return;
+  quietly([] {
+    static std::atomic<bool> done{false};
+    if (!in_main_thread() || done.exchange(true)) return;
+    int own = threads_now() - 1 - library_threads;
+    Event("state").add("state", std::string("spin")).raw("threads", std::to_string(own > 0 ? own : 0)).send();
+  });
+}
+
+std::atomic<int> published{0};  // messages of the main thread
+
+// A loop of the main thread, as its sleeps and spinOnce show it. What comes twice from one place stands in a loop; a
+// single sleep (`seconds` is not negative) may be a pause before more endpoints are made. A loop that does nothing
+// while the node lacks messages may be waiting for them: it gets some.
+class Loop {
+ public:
+  void turn(void* place, double seconds) {
+    Place* known = find(place);
+    bool again = known != nullptr && known->turns++ > 0;
+    double period = 0;
+    if (known != nullptr) {
+      works_ = works_ || (again && published > known->published);
+      known->published = published;
+      period = again ? now() - known->at : 0;
+      known->at = now();
+    }
+    if (works_ && starving_told_) {
+      starving_told_ = false;
+      Event("state").add("state", std::string("busy")).send();
+    }
+    if (told_looped_ && !starving_told_) return;
+    bool starving = !works_ && (polls_params() || needs_time() || !starved().empty());
+    if (again && starving && now() - last_new >= kQuiet && feed(period)) return;
+    tell(again, seconds, starving);
+  }
+
+ private:
+  static constexpr double kQuiet = 0.25;
+  struct Place {
+    void* place;
+    int turns, published;
+    double at;
+  };
+
+  Place* find(void* place) {
+    for (int i = 0; i < count_; ++i) {
+      if (places_[i].place == place) return &places_[i];
+    }
+    if (count_ == 64) return nullptr;
+    places_[count_] = {place, 0, published, now()};
+    return &places_[count_++];
+  }
+
+  void tell(bool again, double seconds, bool starving) {
+    if (!again && seconds >= 0) {
+      Event("state").add("state", std::string("sleep")).raw("seconds", std::to_string(seconds)).send();
+    } else if (again ? !told_looped_ || (starving_told_ && !starving) : !told_idle_) {
+      (again ? told_looped_ : told_idle_) = true;
+      starving_told_ = starving;
+      int own = threads_now() - 1 - library_threads;
+      Event("state")
+          .add("state", std::string(again ? "looped" : "idle"))
+          .raw("threads", std::to_string(own > 0 ? own : 0))
+          .add("starving", starving)
+          .send();
+    }
+  }
+
+  bool feed(double period) {
+    std::set<std::string> topics;
+    if (!give_time()) {
+      topics = starved();
+      if (topics.empty()) return false;
+    }
+    for (const auto& topic : topics) {
+      tell_answered("poll", topic);
+      ask_for_food(topic);
+    }
+    {
+      std::lock_guard<std::mutex> locked(lacks_mutex);
+      lacks().fed.insert(topics.begin(), topics.end());
+    }
+    // It may leave the loop now, and has to show another one.
+    count_ = 0;
+    told_idle_ = told_looped_ = starving_told_ = works_ = false;
+    last_new = now();
+    // Another turn takes the messages, the next one may go on.
+    Event("state").add("state", std::string("fed")).raw("seconds", std::to_string(2.5 * period)).send();
+    return true;
+  }
+
+  Place places_[64];
+  int count_ = 0;
+  bool told_idle_ = false, told_looped_ = false, starving_told_ = false, works_ = false;
+};
+
+void tell_turn(void* place, double seconds) {
+  if (depth > 0) return;
+  quietly([&] {
+    static Loop loop;
+    if (in_main_thread() && !from_roscpp(place)) loop.turn(place, seconds);
+  });
+}
+
+}  // namespace preflight

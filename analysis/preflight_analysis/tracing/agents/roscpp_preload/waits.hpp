@@ -1,0 +1,57 @@
+// Waits for somebody else.
+#pragma once
+
+#include <string>
+
+#include "lacks.hpp"
+
+namespace preflight {
+
+// From construction to destruction the node waits for somebody else.
+class Wait {
+ public:
+  Wait(const char* kind, const std::string& name) : outermost_(depth == 0) {
+    quietly([&] {
+      kind_ = kind;
+      name_ = name;
+      tell("wait");
+    });
+    ++depth;
+  }
+  ~Wait() {
+    --depth;
+    quietly([&] { tell("resume"); });
+  }
+
+ private:
+  void tell(const char* state) {
+    if (!outermost_) return;
+    Event("state")
+        .add("state", std::string(state))
+        .add("kind", kind_)
+        .add("name", name_)
+        .add("main", in_main_thread())
+        .send();
+  }
+
+  bool outermost_;
+  std::string kind_, name_;
+};
+
+#define WAIT_INT "_ZN3ros7service14waitForServiceE" STRING "i"
+
+std::string name_of_client(void* client) {
+  auto* service = REAL_IF_ANY("_ZN3ros13ServiceClient10getServiceB5cxx11Ev", std::string(void*));
+  return service == nullptr ? "" : service(client);
+}
+
+// Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for
+// rospy (answers.py).
+bool wait_briefly(const std::string& name) {
+  Wait told("service", name);
+  if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace())) return true;
+  quietly([&] { tell_answered("service", name); });
+  return true;
+}
+
+}  // namespace preflight
