@@ -47,6 +47,7 @@ lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the ty
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 	$(BIOME) check --error-on-warnings .
+	$(LINTERS)/.bin/tsc --project tsconfig.json
 	node .ci/lint/stylua.mjs --check $(LUA)
 	luacheck --quiet $(LUA)
 	$(BIN)/clang-format --dry-run --Werror $(CPP)

@@ -1,5 +1,5 @@
 // Bundles the extension into dist/extension.js, with the page of the graph view in dist/view and the licences of what is bundled in dist/THIRD_PARTY_NOTICES.txt.
-import { cpSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
 const { metafile } = await build({
@@ -29,7 +29,12 @@ const notices = [...packages].sort().map((folder) => {
 writeFileSync("dist/THIRD_PARTY_NOTICES.txt", notices.join(`\n${"-".repeat(80)}\n\n`));
 
 // The same page as that of `ros-preflight graph --format html`.
-cpSync("../analysis/preflight_analysis/view/page", "dist/view", { recursive: true });
+const page = "../analysis/preflight_analysis/view/page";
+mkdirSync("dist/view", { recursive: true });
+for (const file of ["page.html", "drawing.css", "view.css"]) {
+  cpSync(`${page}/${file}`, `dist/view/${file}`);
+}
+await build({ entryPoints: [`${page}/view.js`], outfile: "dist/view/view.js", bundle: true, format: "iife" });
 
 // The page in the editor: its pictures are found in the repository alone.
 writeFileSync("dist/README.md", readFileSync("README.md", "utf8").replaceAll(/^!\[.*\]\(images\/.*\)\n\n/gm, ""));

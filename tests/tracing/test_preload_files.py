@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 
 import pytest
-
 from preflight_analysis.tracing.preload_compile import WATCHED, Watched
 
 

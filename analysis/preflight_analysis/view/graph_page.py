@@ -10,7 +10,7 @@ from typing import Any
 from preflight_analysis.findings.report import printable, relative
 from preflight_analysis.view.layout import lay_out
 from preflight_analysis.view.model import GraphView
-from preflight_analysis.view.page_parts import part, policy, template
+from preflight_analysis.view.page_parts import part, policy, script, template
 from preflight_analysis.view.view_json import view_json
 
 
@@ -22,16 +22,16 @@ def graph_page(view: GraphView, base: str | None) -> str:
         "plain": view_json(plain, lay_out(plain), base),
         "builtin": view_json(view, lay_out(view), base) if has_builtin else None,
     }
-    drawing, style, script = part("drawing.css"), part("view.css"), part("view.js")
+    drawing, style, code = part("drawing.css"), part("view.css"), script("view.js")
     return template(
         "page.html",
         {
-            "POLICY": policy((drawing, style), (script,)),
+            "POLICY": policy((drawing, style), (code,)),
             "TITLE": escape(printable(f"{relative(view.root, base)} – ROS graph")),
             "NONCE": "",
             "DRAWING": drawing,
             "STYLE": style,
-            "SCRIPT": script,
+            "SCRIPT": code,
             "DATA": _script_json(data),
         },
     )

@@ -150,7 +150,7 @@ def _route(view: GraphView, index: int, points: Sequence[Point], edges: Iterable
 
 
 def outline(points: Sequence[Point]) -> tuple[str, str]:
-    """The paths of a line with rounded corners, and of the arrow at its end. The page does the same in `view.js`."""
+    """The paths of a line with rounded corners, and of the arrow at its end. The page does the same in `outline.js`."""
     (x, y), tip = points[-2], points[-1]
     length = hypot(tip[0] - x, tip[1] - y) or 1.0
     dx, dy = (tip[0] - x) / length, (tip[1] - y) / length

@@ -8,7 +8,7 @@ from html import escape
 from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.report import place, printable, relative
 from preflight_analysis.queries.node_tree import Item, NodeTree
-from preflight_analysis.view.page_parts import part, policy, template
+from preflight_analysis.view.page_parts import part, policy, script, template
 from preflight_analysis.view.svg import COLOURS
 
 _OPEN = ("namespace", "section")
@@ -20,13 +20,13 @@ _MANY = 40
 
 def tree_page(tree: NodeTree, documents: Mapping[str, Document], base: str | None) -> str:
     """The page of a tree. `documents` has the texts that its places are in."""
-    drawing, style, script = part("drawing.css"), part("view.css"), part("tree.js")
+    drawing, style, code = part("drawing.css"), part("view.css"), script("tree.js")
     writer = _Writer({file: i % COLOURS for i, file in enumerate(tree.files)}, documents, base)
     root = _text(relative(tree.files[0], base) if tree.files else "")
     return template(
         "tree.html",
         {
-            "POLICY": policy((drawing, style), (script,)),
+            "POLICY": policy((drawing, style), (code,)),
             "TITLE": f"{root} – ROS launch",
             "DRAWING": drawing,
             "STYLE": style,
@@ -37,7 +37,7 @@ def tree_page(tree: NodeTree, documents: Mapping[str, Document], base: str | Non
                 for i, file in enumerate(tree.files)
             ),
             "COUNT": f"{tree.nodes} node{'' if tree.nodes == 1 else 's'}",
-            "SCRIPT": script,
+            "SCRIPT": code,
         },
     )
 

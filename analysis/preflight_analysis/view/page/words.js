@@ -1,0 +1,177 @@
+// What is said of nodes, channels and lines: in the hint, and at length beside the picture.
+/** @import {Edge, GraphNode, Place, Role} from "./data.js" */
+import { channelKey, channelOf, edgesOf, isNode, nodeKey, nodeOf, routeOf, TOWARDS } from "./graph.js";
+import { liveShown } from "./live.js";
+import { details, editor, go, hint, make, state } from "./page.js";
+
+/** @type {Record<Role, string>} */
+const DOES = {
+  publisher: "publishes",
+  subscriber: "subscribes",
+  service: "serves",
+  client: "calls",
+  action_server: "serves",
+  action_client: "calls",
+};
+
+/** @type {[Role, string][]} */
+const SECTIONS = [
+  ["publisher", "Publishes"],
+  ["subscriber", "Subscribes to"],
+  ["service", "Services"],
+  ["client", "Calls"],
+  ["action_server", "Actions"],
+  ["action_client", "Client of actions"],
+];
+
+const ENDS = {
+  topic: ["Publishers", "Subscribers"],
+  service: ["Clients", "Servers"],
+  action: ["Clients", "Servers"],
+};
+
+/** @param {number[]} indices */
+const findingsShown = (indices) =>
+  indices.map((i) => {
+    const { rule, severity, message } = state.graph.findings[i];
+    const head = make("b", { className: severity }, `${severity} ${rule}`);
+    return make("p", { className: `finding ${severity}` }, head, ` ${message}`);
+  });
+
+/** @param {Record<string, unknown>} qos */
+const qosShown = (qos) =>
+  Object.entries(qos)
+    .map(([policy, value]) => `${policy} ${typeof value === "string" ? value : JSON.stringify(value)}`)
+    .join(", ");
+
+/** @param {GraphNode} node */
+function nodeShown(node) {
+  const what = [node.package, node.executable].filter(Boolean).join("/");
+  const how =
+    node.source === "none"
+      ? "what it does is not known"
+      : `known by ${node.source === "similar" ? "a similar run" : `its ${node.source}`}`;
+  return [
+    make("p", { className: "dim" }, `${node.kind} ${what}, from ${state.graph.files[node.file].shown}`),
+    make("p", { className: "dim" }, `${how}; ${node.outcome}${node.reason ? `: ${node.reason}` : ""}`),
+  ];
+}
+
+/** @param {Edge} edge */
+const edgeShown = (edge) =>
+  [
+    edge.type ?? "type not known",
+    qosShown(edge.qos),
+    edge.from && `remapped from ${edge.from}`,
+    edge.uncertain && "not sure",
+  ]
+    .filter(Boolean)
+    .join(" · ");
+
+/** @param {SVGElement} part */
+function said(part) {
+  const { graph } = state;
+  if (isNode(part)) {
+    const node = nodeOf(part);
+    return [make("b", {}, node.name), ...liveShown(part), ...nodeShown(node), ...findingsShown(node.findings)];
+  }
+  if (part.dataset.channel !== undefined) {
+    const channel = channelOf(part);
+    const ends = edgesOf(part);
+    const lines = ends.slice(0, 10).map((edge) => {
+      const how = make("span", { className: "dim" }, edgeShown(edge));
+      return make("p", {}, `${graph.nodes[edge.node].name} ${DOES[edge.role]} `, how);
+    });
+    const more = ends.length > 10 ? [make("p", { className: "dim" }, `and ${ends.length - 10} more`)] : [];
+    const head = make("b", {}, `${channel.kind} ${channel.name}`);
+    return [head, ...liveShown(part), ...lines, ...more, ...findingsShown(channel.findings)];
+  }
+  const edges = routeOf(part).edges.map((i) => graph.edges[i]);
+  const lines = edges.map((edge) =>
+    make(
+      "p",
+      {},
+      make("b", {}, graph.nodes[edge.node].name),
+      ` ${DOES[edge.role]} `,
+      make("b", {}, graph.channels[edge.channel].name),
+      " ",
+      make("span", { className: "dim" }, edgeShown(edge)),
+    ),
+  );
+  return [...lines, ...findingsShown([...new Set(edges.flatMap((edge) => edge.findings))])];
+}
+
+/**
+ * @param {SVGElement} part
+ * @param {number} x where the pointer is
+ * @param {number} y
+ */
+export function explain(part, x, y) {
+  hint.replaceChildren(...said(part));
+  hint.hidden = false;
+  const box = hint.getBoundingClientRect();
+  hint.style.left = `${Math.max(4, Math.min(x + 14, innerWidth - box.width - 6))}px`;
+  hint.style.top = `${y + 18 + box.height > innerHeight ? Math.max(4, y - box.height - 10) : y + 18}px`;
+}
+
+/** @param {Place[]} list */
+const places = (list) =>
+  list.map((place) => {
+    const text = `${place.shown}:${place.line}`;
+    return editor === undefined
+      ? make("p", { className: "dim" }, text)
+      : make("p", {}, make("button", { type: "button", className: "place", onclick: () => go(place) }, text));
+  });
+
+/**
+ * @param {string} title
+ * @param {Edge[]} edges
+ * @param {"node" | "channel"} other which end of them is named
+ * @param {(key: string) => void} onJump
+ */
+function section(title, edges, other, onJump) {
+  const rows = edges.map((edge) => {
+    const key = other === "node" ? nodeKey(edge.node) : channelKey(edge.channel);
+    const { name } = other === "node" ? state.graph.nodes[edge.node] : state.graph.channels[edge.channel];
+    const jump = make("button", { type: "button", className: "item", onclick: () => onJump(key) }, name);
+    const how = make("p", { className: "dim" }, edgeShown(edge));
+    return make("li", {}, jump, how, ...places(edge.places), ...findingsShown(edge.findings));
+  });
+  return rows.length === 0 ? [] : [make("h3", {}, `${title} (${rows.length})`), make("ul", {}, ...rows)];
+}
+
+/**
+ * Fills the details beside the picture.
+ * @param {SVGElement} item
+ * @param {{close: () => void, jump: (key: string) => void}} on
+ */
+export function detail(item, on) {
+  const close = make("button", { type: "button", className: "close", onclick: on.close }, "✕");
+  close.setAttribute("aria-label", "Close the details");
+  /** @type {HTMLElement[]} */
+  const parts = [close];
+  const edges = edgesOf(item);
+  if (isNode(item)) {
+    const node = nodeOf(item);
+    parts.push(make("h2", {}, node.name), ...nodeShown(node), ...findingsShown(node.findings));
+    parts.push(make("h3", {}, "Launched at"), ...places(node.places));
+    for (const [role, title] of SECTIONS) {
+      const own = edges.filter((edge) => edge.role === role);
+      parts.push(...section(title, own, "channel", on.jump));
+    }
+  } else {
+    const channel = channelOf(item);
+    const [first, second] = ENDS[channel.kind];
+    const from = channel.external ? ", used from outside of the launch" : "";
+    parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${from}`));
+    parts.push(...channel.types.map((type) => make("p", {}, type)), ...findingsShown(channel.findings));
+    for (const [title, isFirst] of /** @type {[string, boolean][]} */ ([
+      [first, true],
+      [second, false],
+    ])) {
+      const own = edges.filter((edge) => TOWARDS.has(edge.role) === isFirst);
+      parts.push(...section(title, own, "node", on.jump));
+    }
+  }
+  details.replaceChildren(...parts);
+}
