@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from hypothesis import given
+from hypothesis import strategies as st
 from preflight_analysis.incremental.kept import Kept
 
 CALLS: list[tuple[object, ...]] = []
@@ -53,10 +55,25 @@ def test_of_many_items_only_other_objects_are_looked_at() -> None:
     assert first.each(described, items, 1) == ["['a'] 1", "['b'] 1", "['c'] 1"]
     items[1] = ["d"]
     second = Kept(first)
-    assert second.each(described, [*items, items[0]], 1) == ["['a'] 1", "['d'] 1", "['c'] 1", "['a'] 1"]
+    assert second.each(described, items, 1) == ["['a'] 1", "['d'] 1", "['c'] 1"]
     assert len(CALLS) == 4
-    assert Kept(second).each(described, items, 2) == ["['a'] 2", "['d'] 2", "['c'] 2"]
-    assert len(CALLS) == 7
+    items.insert(1, ["e"])
+    third = Kept(second)
+    assert third.each(described, items, 1) == ["['a'] 1", "['e'] 1", "['d'] 1", "['c'] 1"]
+    assert len(CALLS) == 5
+    assert Kept(third).each(described, items, 2) == ["['a'] 2", "['e'] 2", "['d'] 2", "['c'] 2"]
+    assert len(CALLS) == 9
+
+
+@given(st.lists(st.lists(st.integers(0, 7), max_size=9), max_size=5))
+def test_many_items_in_any_order_have_their_own_results(rounds: list[list[int]]) -> None:
+    pool = [[number] for number in range(8)]
+    kept = Kept()
+    for numbers in rounds:
+        kept = Kept(kept)
+        found = kept.each(described, [pool[number] for number in numbers])
+        assert found == [f"[{number}]" for number in numbers]
+        found.clear()  # the list is the caller's
 
 
 def test_equal_objects_are_not_the_same() -> None:

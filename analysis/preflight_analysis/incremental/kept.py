@@ -4,7 +4,9 @@ said of that one is made again."""
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from itertools import compress
+from operator import is_not
+from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -35,20 +37,15 @@ class Kept:
         **none: P.kwargs,
     ) -> list[V]:
         """`[function(item, *shared) for item in items]`, for many items: those that are the same objects as last time
-        are not looked at, if what they share is equal."""
+        are not looked at, if what they share is equal. Ask once for each function and what is shared."""
+        now = list(items)
         before = self._each_before.get(function)
-        known = before[1] if before is not None and before[0] == shared else {}
-        already = self._each_now.get(function)
-        now = already[1] if already is not None and already[0] == shared else {}
-        results: list[V] = []
-        for item in items:
-            pair = known.get(id(item))  # the item is held, so nothing else can have its id
-            if pair is None:
-                pair = item, function(item, *shared, **none)
-            now[id(item)] = pair
-            results.append(pair[1])
-        self._each_now[function] = shared, now
-        return results
+        if before is None or before.shared != shared:
+            results = [function(item, *shared, **none) for item in now]
+        else:
+            results = _taken_over(before, now, lambda item: function(item, *shared, **none))
+        self._each_now[function] = _Round(shared, now, results)
+        return results.copy()
 
     def get(self, function: Callable[P, V], key: Hashable, /, *arguments: P.args, **none: P.kwargs) -> V:
         """`function(*arguments)`, or what it gave last time for the same arguments: the same objects, equal scalars, or
@@ -85,5 +82,34 @@ def _same(some: tuple[Any, ...], others: tuple[Any, ...]) -> bool:
 
 
 _SCALARS = frozenset({str, bytes, int, float, bool})
-_Round = tuple[tuple[Any, ...], dict[int, tuple[Any, Any]]]
-"""What was shared, and for each item by its id the item itself and what was made of it."""
+
+
+class _Round(NamedTuple):
+    """What was shared, and the items with what was made of each. They are held, so nothing else can have their ids."""
+
+    shared: tuple[Any, ...]
+    items: list[Any]
+    results: list[Any]
+
+
+def _taken_over(before: _Round, items: list[T], make: Callable[[T], V]) -> list[V]:
+    # Thousands of items, of which a handful is new: what is done for each of them is done without a line of Python.
+    old, results = before.items, before.results
+    if len(old) == len(items):
+        places = list(compress(range(len(old)), map(is_not, old, items)))
+        known = {id(old[at]): results[at] for at in places}
+        made = results.copy()
+        for at in places:
+            item = items[at]
+            made[at] = known[id(item)] if id(item) in known else make(item)
+        return made
+    start = _alike(old, items, min(len(old), len(items)))
+    end = _alike(reversed(old), reversed(items), min(len(old), len(items)) - start)
+    known = {id(old[at]): results[at] for at in range(start, len(old) - end)}
+    middle = [known[id(i)] if id(i) in known else make(i) for i in items[start : len(items) - end]]
+    return [*results[:start], *middle, *results[len(old) - end :]]
+
+
+def _alike(some: Iterable[object], others: Iterable[object], most: int) -> int:
+    """How many at the beginning are the same objects."""
+    return next(compress(range(most), map(is_not, some, others)), most)
