@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import pytest
-from preflight_analysis.documents.span import Location, Span
+from places import location
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
 
 
 def finding(rule: str, file: str, at: int = 0, message: str = "m") -> Finding:
-    return Finding(rule, "name", "warning", "certain", message, Location(file, Span(at, at + 1)))
+    return Finding(rule, "name", "warning", "certain", message, location(file, at, at + 1))
 
 
 def shown(

@@ -8,7 +8,8 @@ import xml.etree.ElementTree as ET
 from typing import Any
 
 import jsonschema
-from preflight_analysis.documents.span import Location, Span
+from places import location
+from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.findings.fingerprint import fingerprints
@@ -27,7 +28,7 @@ def at(file: str, text: str, what: str, nth: int = 0) -> Location:
     start = -1
     for _ in range(nth + 1):
         start = text.index(what, start + 1)
-    return Location(file, Span(start, start + len(what)))
+    return location(file, start, start + len(what))
 
 
 def report(base: str = "/ws", main: str = MAIN) -> Report:
@@ -45,8 +46,8 @@ def report(base: str = "/ws", main: str = MAIN) -> Report:
         ),
         Finding("TOP001", "subscribed-not-published", "info", "certain", "again", at(file, main, "chater", 1)),
         Finding("LCH013", "include-not-found", "error", "certain", "gone", at(other, OTHER, "<launch/>")),
-        Finding("LCH021", "hard-coded-path", "hint", "possible", "of several lines", Location(file, Span(0, 12))),
-        Finding("PRM003", "parameter-file-unreadable", "error", "certain", "no text", Location("/x.yaml", Span(3, 9))),
+        Finding("LCH021", "hard-coded-path", "hint", "possible", "of several lines", location(file, 0, 12)),
+        Finding("PRM003", "parameter-file-unreadable", "error", "certain", "no text", location("/x.yaml", 3, 9)),
     ]
     return Report(findings, documents, 2, 2, 1)
 
@@ -96,7 +97,7 @@ def test_sarif_of_nothing() -> None:
 
 def test_a_file_whose_name_is_no_utf_8() -> None:
     file = os.fsdecode(b"/ws/\xff.launch")
-    finding = Finding("LCH013", "include-not-found", "error", "certain", "gone", Location(file, Span(0, 1)))
+    finding = Finding("LCH013", "include-not-found", "error", "certain", "gone", location(file, 0, 1))
     of = Report([finding], {}, 1, 0, 0)
     place = sarif(of)["runs"][0]["results"][0]["locations"][0]["physicalLocation"]
     assert place["artifactLocation"]["uri"] == "%FF.launch"
@@ -105,7 +106,7 @@ def test_a_file_whose_name_is_no_utf_8() -> None:
 
 
 def test_every_rule_can_be_described() -> None:
-    findings = [Finding(r.id, r.name, r.severity, "certain", "m", Location("/a", Span(0, 0))) for r in all_rules()]
+    findings = [Finding(r.id, r.name, r.severity, "certain", "m", location("/a", 0, 0)) for r in all_rules()]
     assert len(sarif(Report(findings, {}, 1, 0, 0))["runs"][0]["tool"]["driver"]["rules"]) == len(all_rules())
 
 

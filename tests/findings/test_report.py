@@ -2,7 +2,7 @@
 
 import json
 
-from preflight_analysis.documents.span import Location, Span
+from places import location
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.findings.report import Report, to_json, to_text
@@ -69,7 +69,7 @@ def test_json() -> None:
 
 def one(text: str, start: int, end: int, message: str = "m") -> Report:
     document = parse_xml("/a.launch", text)
-    finding = Finding("LCH001", "n", "error", "certain", message, Location("/a.launch", Span(start, end)))
+    finding = Finding("LCH001", "n", "error", "certain", message, location("/a.launch", start, end))
     return Report([finding], {"/a.launch": document}, 1, 0, 0)
 
 
@@ -94,7 +94,7 @@ def test_control_characters_do_not_reach_the_terminal() -> None:
 
 
 def test_a_place_in_a_file_without_text_still_has_a_place() -> None:
-    there = Location("/gone.yaml", Span(5, 9))
+    there = location("/gone.yaml", 5, 9)
     finding = Finding(
         "PRM001", "n", "hint", "possible", "m", there, (Related("r", there),), (Fix("f", (Edit(there, ""),)),)
     )
@@ -106,6 +106,6 @@ def test_a_place_in_a_file_without_text_still_has_a_place() -> None:
 def test_colour_and_hints_are_a_choice() -> None:
     report = one("<a/>", 0, 4)
     assert "\x1b[31merror" in to_text(report, colour=True)
-    hint = Finding("TOP002", "n", "hint", "likely", "m", Location("/a.launch", Span(0, 1)))
+    hint = Finding("TOP002", "n", "hint", "likely", "m", location("/a.launch", 0, 1))
     quiet = Report([hint], report.documents, 1, 0, 0)
     assert to_text(quiet, show_hints=False) == "1 hint in 1 file, 0 nodes, 0 of them traced\n"

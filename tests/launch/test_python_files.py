@@ -31,7 +31,7 @@ def generate_launch_description():
 
 
 def _read(text: str) -> tuple[Action, ...]:
-    found = read_ros2_python(Text("/a.launch.py", text, "digest"))
+    found = read_ros2_python(Text.of("/a.launch.py", text))
     assert found.partial
     assert found.root is not None
     return found.root.children

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from preflight_analysis.documents.span import Location, Span
+from places import location
 from preflight_analysis.queries.workspace_symbols import LIMIT, workspace_symbols
 from preflight_analysis.workspace.facts import FileFacts
 from preflight_analysis.workspace.index import NodeEntry, Root, RootEntry, WorkspaceIndex
 
 
 def index_of(*names: str, files: tuple[str, ...] = ("/w/p/launch/main.launch",)) -> WorkspaceIndex:
-    nodes = tuple(NodeEntry(name, "p", "t.py", Location(files[0], Span(n, n + 1))) for n, name in enumerate(names))
+    nodes = tuple(NodeEntry(name, "p", "t.py", location(files[0], n, n + 1)) for n, name in enumerate(names))
     entries = {Root(path): RootEntry(Root(path), files, {}, (), nodes) for path in (files[0], "/w/other.launch")}
     return WorkspaceIndex({path: FileFacts(path, "", (), (), True) for path in files}, entries, (), True)
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from preflight_analysis.documents.span import Location, Span
+from places import location
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.registry import all_rules, unique
@@ -94,9 +94,9 @@ def test_what_differs_from_include_to_include_is_told_of() -> None:
 
 
 def test_the_graver_of_two_contexts_is_shown() -> None:
-    place = Location("/inc.launch", Span(0, 1))
+    place = location("/inc.launch", 0, 1)
     finding = Finding("LCH013", "", "hint", "certain", "mild", place)
-    chains = [(Related("included here", Location("/main.launch", Span(at, at))),) for at in (1, 2)]
+    chains = [(Related("included here", location("/main.launch", at, at)),) for at in (1, 2)]
     said = [
         replace(finding, related=chains[0]),
         replace(finding, related=chains[1], severity="error", message="grave"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.span import Span, common_prefix, common_suffix
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +25,6 @@ class Change:
 
 def change(old: str, new: str) -> Change:
     """What has to be replaced to make one text of another."""
-    shorter = min(len(old), len(new))
-    start = next((at for at in range(shorter) if old[at] != new[at]), shorter)
-    room = shorter - start
-    behind = next((at for at in range(room) if old[-1 - at] != new[-1 - at]), room)
+    start = common_prefix(old, new)
+    behind = common_suffix(old[start:], new[start:])
     return Change(Span(start, len(old) - behind), Span(start, len(new) - behind))

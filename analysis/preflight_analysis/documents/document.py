@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from preflight_analysis.documents.span import LineIndex, Span
+from preflight_analysis.documents.span import LineIndex, Location, Span, version
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +89,8 @@ Node = Element | Comment | Text
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """One file's text and what it parses to. `digest` names the text; equal digests mean equal documents.
+    """One file's text and what it parses to. `digest` names the text; those with equal ones differ in their lines at
+    most.
 
     `root` is the first top-level element, None in a file that has none yet. `entities` are the references, with
     their places, to entities that the file's DOCTYPE declares: they are never expanded, and stand as written
@@ -101,8 +102,17 @@ class Document:
     digest: str
     children: tuple[Node, ...]
     problems: tuple[SyntaxProblem, ...]
-    lines: LineIndex = field(compare=False, repr=False)
+    lines: LineIndex = field(repr=False)
     entities: tuple[tuple[str, Span], ...] = ()
+
+    @property
+    def version(self) -> str:
+        """Names text and lines: while it is the same, locations in the file are right."""
+        return version(self.digest, self.lines)
+
+    def location(self, span: Span) -> Location:
+        """The location of a span of this text."""
+        return self.lines.location(self.path, span)
 
     @property
     def root(self) -> Element | None:

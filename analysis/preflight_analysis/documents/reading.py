@@ -7,8 +7,10 @@ import hashlib
 import os
 import re
 import stat
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
+
+from preflight_analysis.documents.span import LineIndex, version
 
 SIZE_LIMIT = 4 * 1024 * 1024
 """In bytes. The largest launch file of some 3,400 public ones is 200 times smaller."""
@@ -37,10 +39,22 @@ class Text:
     path: str
     text: str
     digest: str
+    lines: LineIndex = field(repr=False)
+    """Those of all that is read from it."""
     plain: bool = True
     """Whether it is UTF-8 without a mark and says nothing else: what a program that knows nothing of XML reads."""
     encoding: str | None = "utf-8"
     """Of the file; None where an editor has decoded it."""
+
+    @classmethod
+    def of(cls, path: str, text: str) -> Text:
+        """A text by itself."""
+        return cls(path, text, digest(text), LineIndex(text))
+
+    @property
+    def version(self) -> str:
+        """Names text and lines: while it is the same, locations in the file are right."""
+        return version(self.digest, self.lines)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,4 +145,4 @@ def _decode(path: str, data: bytes) -> Text | Unreadable:
         return Unreadable(path, f"is not a text file in {encoding.upper()} ({what})", "not-text")
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
-    return Text(path, text, digest(text), not marked and not declared, encoding)
+    return Text(path, text, digest(text), LineIndex(text), not marked and not declared, encoding)

@@ -1,13 +1,15 @@
 """Places in a text. Offsets are code points, counted from 0; only the server converts them to an editor's units.
 
-They are named tuples, not data classes, as is all of which a keystroke makes thousands: those are made three times as
-fast.
+A span is of one text; a location follows its text through edits. They are named tuples, not data classes, as is all of
+which a keystroke makes thousands: those are made three times as fast.
 """
 
 from __future__ import annotations
 
+import itertools
 import re
-from bisect import bisect_right
+import threading
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import NamedTuple
@@ -26,11 +28,51 @@ class Span(NamedTuple):
         return self.start <= offset <= self.end
 
 
+class Line:
+    """A line of a file, whatever stands above it: as others come and go, it stays the same object. `start` is its
+    offset in the text as it is now."""
+
+    __slots__ = ("start",)
+
+    def __init__(self, start: int) -> None:
+        self.start = start
+
+    def __lt__(self, other: Line) -> bool:
+        return self.start < other.start
+
+    def __repr__(self) -> str:
+        return f"Line({self.start})"
+
+
+_FIRST = Line(0)
+
+
 class Location(NamedTuple):
-    """A span of a file; `file` is an absolute path."""
+    """A part of the text of a file. Made by `LineIndex.location`; it follows its lines where others come or go.
+
+    Two are equal if they are in the same columns of the same lines, wherever those are. They sort by file and span.
+    `file` is an absolute path, columns are offsets from the start of their line. The last line is that of the last
+    character, so that what is inserted behind a whole line is no part of it.
+    """
 
     file: str
-    span: Span
+    line: Line
+    column: int
+    last_line: Line
+    end_column: int
+
+    @classmethod
+    def of_file(cls, path: str) -> Location:
+        """The start of a file of which no text is at hand: it may not be read, or not be one."""
+        return cls(path, _FIRST, 0, _FIRST, 0)
+
+    @property
+    def span(self) -> Span:
+        """Where it is in the text as it is now. Of a line that is gone: where that was last."""
+        return Span(self.line.start + self.column, self.last_line.start + self.end_column)
+
+    def __repr__(self) -> str:
+        return f"Location({self.file!r}, {self.span})"
 
 
 Origin = tuple[Location, ...]
@@ -38,32 +80,126 @@ Origin = tuple[Location, ...]
 
 
 class LineIndex:
-    r"""Offsets to lines and columns and back. Lines end at `\n`, `\r\n` or `\r` and nowhere else, as LSP says."""
+    r"""Offsets of one text to lines and columns and back. Lines end at `\n`, `\r\n` or `\r` and nowhere else, as LSP
+    says. Two are equal if their lines are the same ones: locations made by one are right for the other."""
 
-    __slots__ = ("_length", "_starts")
+    __slots__ = ("_lines", "_starts", "number", "text")
 
     def __init__(self, text: str) -> None:
         starts = [0]
         starts.extend(found.end() for found in _LINE_END.finditer(text))
         self._starts = starts
-        self._length = len(text)
+        self._lines: list[Line] | None = None
+        """Made when the first location is: of most files there is none."""
+        self.text = text
+        self.number = next(_NUMBERS)
+        """Differs from that of all other indexes of this process."""
 
     def __len__(self) -> int:
         return len(self._starts)
 
+    def edited(self, text: str) -> LineIndex:
+        """The index of what this text has become, this one if it is the same. From here on, locations that this one
+        made show where their lines are in the new text.
+
+        Lines in front of the first change and behind the last one are the same; those between are in order as far as
+        there are as many, so that an edit within a line leaves it.
+        """
+        if text == self.text:
+            return self
+        new = LineIndex(text)
+        with _LINES:
+            if (lines := self._lines) is None:
+                return new
+            old_starts, starts = self._starts, new._starts
+            same = bisect_right(old_starts, common_prefix(self.text, text)) - 1
+            # A line may start where the common part ends: `\r` ends one, and with `\n` behind it another one.
+            while same and (same >= len(starts) or starts[same] != old_starts[same]):
+                same -= 1
+            first = starts[same]
+            behind = common_suffix(self.text[first:], text[first:])
+            moved = len(text) - len(self.text)
+            after = len(lines) - bisect_left(old_starts, len(self.text) - behind)
+            while after and (after > len(starts) - same or starts[-after] != old_starts[-after] + moved):
+                after -= 1
+            room = len(starts) - same - after
+            between = lines[same : min(same + room, len(lines) - after)]
+            between += (Line(0) for _ in range(room - len(between)))
+            new._lines = lines[:same] + between + lines[len(lines) - after :]
+            for line, start in zip(new._lines[same:], starts[same:], strict=True):
+                line.start = start
+        return new
+
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of `offset`, both counted from 0, the column in code points."""
-        offset = max(0, min(offset, self._length))
+        offset = max(0, min(offset, len(self.text)))
         line = bisect_right(self._starts, offset) - 1
         return line, offset - self._starts[line]
 
     def line_start(self, line: int) -> int:
         """Offset of the first character of `line`, counted from 0; the end of the text for lines past it."""
-        return self._starts[line] if 0 <= line < len(self._starts) else self._length
+        return self._starts[line] if 0 <= line < len(self._starts) else len(self.text)
 
     def line_span(self, line: int) -> Span:
         """The whole line, its line break included."""
         return Span(self.line_start(line), self.line_start(line + 1))
+
+    def location(self, path: str, span: Span) -> Location:
+        """The location of a span of this text, which is that of the file at `path`."""
+        start, end = span
+        starts, lines = self._starts, self._lines or self._with_lines()
+        number = last = bisect_right(starts, start) - 1
+        if number + 1 < len(starts) and end > starts[number + 1]:
+            last = bisect_right(starts, end - 1) - 1
+        return Location(path, lines[number], start - starts[number], lines[last], end - starts[last])
+
+    def _with_lines(self) -> list[Line]:
+        with _LINES:
+            if self._lines is None:
+                self._lines = [Line(start) for start in self._starts]
+            return self._lines
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, LineIndex):
+            return NotImplemented
+        return self is other or (self._lines is not None and self._lines == other._lines and self.text == other.text)
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+
+_NUMBERS = itertools.count()
+_LINES = threading.Lock()
+"""Whoever makes or moves lines has it."""
+
+
+def version(digest: str, lines: LineIndex) -> str:
+    """Names a text, by its digest, and its lines."""
+    return f"{digest}.{lines.number}"
+
+
+def common_prefix(one: str, other: str) -> int:
+    """How many characters two texts begin with that are the same."""
+    low, high = 0, min(len(one), len(other))
+    while low < high:
+        middle = (low + high + 1) // 2
+        if one[low:middle] == other[low:middle]:
+            low = middle
+        else:
+            high = middle - 1
+    return low
+
+
+def common_suffix(one: str, other: str) -> int:
+    """How many characters two texts end with that are the same."""
+    low, high = 0, min(len(one), len(other))
+    while low < high:
+        middle = (low + high + 1) // 2
+        if one[len(one) - middle : len(one) - low] == other[len(other) - middle : len(other) - low]:
+            low = middle
+        else:
+            high = middle - 1
+    return low
 
 
 class ByteOffsets:

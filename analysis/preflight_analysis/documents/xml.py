@@ -21,15 +21,15 @@ _CONTINUATION_BYTES = bytes(range(0x80, 0xC0))
 _PARAMETER_REFERENCE = lazy_pattern(f"%{NAME};")
 
 
-def parse_xml(path: str, text: str, encoding: str | None = "utf-8") -> Document:
+def parse_xml(path: str, text: str, encoding: str | None = "utf-8", lines: LineIndex | None = None) -> Document:
     """Parse the text of an XML file, whatever it looks like, in time linear in its length. Never raises.
 
-    `encoding` is that of the file, None if it is not known. `problems` is empty exactly when expat, the parser that
-    roslaunch uses through minidom, takes the text and the encoding that it declares (an empty text aside: it has no
-    root and no problem). Values are decoded and normalised as XML says. The entities of a DOCTYPE are not expanded, so
-    what is wrong inside of their replacement text is not seen.
+    `encoding` is that of the file, None if it is not known; `lines` are those of the text, where somebody has them.
+    `problems` is empty exactly when expat, the parser that roslaunch uses through minidom, takes the text and the
+    encoding that it declares (an empty text aside: it has no root and no problem). Values are decoded and normalised as
+    XML says. The entities of a DOCTYPE are not expanded, so what is wrong inside of their replacement text is not seen.
     """
-    lines = LineIndex(text)
+    lines = lines or LineIndex(text)
     scanned = scan(text, lines)
     complaint = _expat_complaint(text, scanned) or _encoding_complaint(text, (encoding or "").lower())
     if complaint is None:

@@ -90,9 +90,12 @@ class YamlDocument:
     document: Document
 
 
-def parse_yaml(path: str, text: str) -> YamlDocument:
-    """Parse the text of a YAML file, whatever it looks like. Never raises; no tag makes anything but plain data."""
-    lines = LineIndex(text)
+def parse_yaml(path: str, text: str, lines: LineIndex | None = None) -> YamlDocument:
+    """Parse the text of a YAML file, whatever it looks like. Never raises; no tag makes anything but plain data.
+
+    `lines` are those of the text, where somebody has them.
+    """
+    lines = lines or LineIndex(text)
     problems: list[SyntaxProblem] = []
     node: yaml.Node | None = None
     attempt = text

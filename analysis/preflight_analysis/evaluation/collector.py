@@ -6,7 +6,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
@@ -112,6 +112,11 @@ class Collector:
         """A launch file, noted as an input."""
         self.inputs[path] = self.digest(path)
         return self.files.launch_file(path, self.generation)
+
+    def location(self, path: str, span: Span) -> Location:
+        """A place in a launch file that was read."""
+        found = self.files.launch_file(path, self.generation)
+        return Location.of_file(path) if isinstance(found, Unreadable) else found.document.location(span)
 
     def read_text(self, path: str) -> Document | Unreadable:
         """A text file, noted as an input."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.launch.model import LaunchFile
 
@@ -15,7 +14,7 @@ def report_undeclared(state: Collector, root: LaunchFile, given: Iterable[str], 
     roslaunch's own (`__ns`)."""
     if root.root is None:
         return
-    at = (Location(root.path, root.root.kind_span),)
+    at = (root.document.location(root.root.kind_span),)
     used = {use.name for use in state.uses if use.kind == "arg"}
     for name in given:
         if name not in names and name not in used and not name.startswith("__"):

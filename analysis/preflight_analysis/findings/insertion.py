@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.launch.model import Action, ActionAttribute
 
@@ -31,9 +31,9 @@ def insert_child(action: Action, document: Document, child: str) -> Edit:
         blank = end - 2
         while text[blank - 1] in " \t":
             blank -= 1
-        return Edit(Location(document.path, Span(blank, end)), f">{body}{newline}{base}</{action.kind}>")
+        return Edit(document.location(Span(blank, end)), f">{body}{newline}{base}</{action.kind}>")
     tail = "" if _REST_IS_BLANK.match(text, end) else newline + base
-    return Edit(Location(document.path, Span(end, end)), body + tail)
+    return Edit(document.location(Span(end, end)), body + tail)
 
 
 def insert_comment_above(action: Action, document: Document, comment: str) -> Edit:
@@ -45,13 +45,13 @@ def insert_comment_above(action: Action, document: Document, comment: str) -> Ed
     blanks = _BLANKS.match(text, start)
     indent = blanks.group() if blanks is not None else ""
     body = "".join(f"{indent}{part}{newline}" for part in comment.split("\n"))
-    return Edit(Location(document.path, Span(start, start)), body)
+    return Edit(document.location(Span(start, start)), body)
 
 
 def insert_attribute(action: Action, document: Document, name: str, value: str = "") -> Edit:
     """The edit that gives the tag another attribute, behind those that it has."""
     end = action.attributes[-1].span.end if action.attributes else action.kind_span.end
-    return Edit(Location(document.path, Span(end, end)), f' {name}="{value}"')
+    return Edit(document.location(Span(end, end)), f' {name}="{value}"')
 
 
 def remove_attribute(attribute: ActionAttribute, document: Document) -> Edit:
@@ -59,7 +59,7 @@ def remove_attribute(attribute: ActionAttribute, document: Document) -> Edit:
     start = attribute.span.start
     while start > 0 and document.text[start - 1].isspace():
         start -= 1
-    return Edit(Location(document.path, Span(start, attribute.span.end)), "")
+    return Edit(document.location(Span(start, attribute.span.end)), "")
 
 
 def remove_tag(document: Document, span: Span) -> Edit:
@@ -70,5 +70,5 @@ def remove_tag(document: Document, span: Span) -> Edit:
     rest = _REST_IS_BLANK.match(text, span.end)
     if not text[start : span.start].strip(" \t") and rest is not None:
         end_line, _ = document.lines.position(span.end)
-        return Edit(Location(document.path, Span(start, document.lines.line_start(end_line + 1))), "")
-    return Edit(Location(document.path, span), "")
+        return Edit(document.location(Span(start, document.lines.line_start(end_line + 1))), "")
+    return Edit(document.location(span), "")

@@ -55,7 +55,7 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
         for mark in marks:
             ids = list(re.finditer(r"[^\s,]+", mark["ids"] or ""))
             if not ids:
-                malformed.append(Malformed(Location(document.path, content.slice_span(*mark.span()))))
+                malformed.append(Malformed(document.location(content.slice_span(*mark.span()))))
             first, _ = document.lines.position(comment.span.start)
             last, _ = document.lines.position(comment.span.end)
             # Behind something else on its line a comment speaks of that, not of the next line.
@@ -67,10 +67,10 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
                 if len(ids) > 1:
                     # With the comma that parts it from the next one, or from the one before.
                     ends = (each.start(), ids[at + 1].start()) if at + 1 < len(ids) else (ids[at - 1].end(), each.end())
-                    removal = Edit(Location(document.path, content.slice_span(base + ends[0], base + ends[1])), "")
+                    removal = Edit(document.location(content.slice_span(base + ends[0], base + ends[1])), "")
                 elif len(marks) > 1:
-                    removal = Edit(Location(document.path, content.slice_span(*mark.span())), "")
-                place = Location(document.path, span)
+                    removal = Edit(document.location(content.slice_span(*mark.span())), "")
+                place = document.location(span)
                 found.append(Suppression(each.group(), place, removal, first, last + alone))
     return tuple(found), tuple(malformed)
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
@@ -153,7 +153,7 @@ def _missing(
 def bring_up_to_date(outdated: Outdated, document: Document) -> tuple[Edit, ...]:
     """The edits that correct the types and add what is missing. What only the annotation has stays: it may come later.
     So do order, layout and comments."""
-    edits = [Edit(Location(document.path, item.values["type"]), type_) for item, type_ in outdated.conflicts]
+    edits = [Edit(document.location(item.values["type"]), type_) for item, type_ in outdated.conflicts]
     more: dict[str, list[str]] = {}
     for what in outdated.missing:
         name, text = written(what)
@@ -177,7 +177,7 @@ def _extended(group: AnnotatedGroup, items: Sequence[str], document: Document) -
         at = group.elements[-1].end
         indent = _indent(group.elements[-1].start, document)
         before = newline + indent if indent is not None else ""
-        return Edit(Location(document.path, Span(at, at)), "".join(before + item for item in items))
+        return Edit(document.location(Span(at, at)), "".join(before + item for item in items))
     indent = _indent(group.head.start, document)
     if indent is None:
         body = "".join(items)
@@ -187,11 +187,11 @@ def _extended(group: AnnotatedGroup, items: Sequence[str], document: Document) -
     start, end = group.head
     if document.text[start:end].endswith("/>"):
         opened = document.text[start : end - 2].rstrip() + ">"
-        return Edit(Location(document.path, Span(start, end)), f"{opened}{body}</{group.name}>")
+        return Edit(document.location(Span(start, end)), f"{opened}{body}</{group.name}>")
     # What stands between the tags are blanks or a comment, which stays.
     between = document.text[end : group.span.end].rpartition("</")[0]
     stop = end if between.strip() else end + len(between)
-    return Edit(Location(document.path, Span(end, stop)), body)
+    return Edit(document.location(Span(end, stop)), body)
 
 
 def _new_groups(last: AnnotatedGroup, lines: Sequence[str], document: Document) -> Edit:
@@ -203,7 +203,7 @@ def _new_groups(last: AnnotatedGroup, lines: Sequence[str], document: Document) 
     else:
         unit = _unit(document, indent)
         text = "".join(_newline(document) + indent + line.replace("\t", unit) for line in lines)
-    return Edit(Location(document.path, Span(at, at)), text)
+    return Edit(document.location(Span(at, at)), text)
 
 
 def _indent(offset: int, document: Document) -> str | None:

@@ -58,8 +58,8 @@ def read_launch(source: Text, generation: int | None = None, undecided: int = 1)
     if path.endswith(PYTHON_SUFFIX):
         return read_ros2_python(source)
     if path.endswith(YAML_SUFFIXES):
-        return read_ros2_yaml(parse_yaml(path, text))
-    document = parse_xml(path, text, source.encoding)
+        return read_ros2_yaml(parse_yaml(path, text, source.lines))
+    document = parse_xml(path, text, source.encoding, source.lines)
     return read_ros2_xml(document) if (generation or generation_of(path, text, undecided)) == 2 else read_ros1(document)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
 from preflight_analysis.documents.reading import Text
-from preflight_analysis.documents.span import LineIndex, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_source import PythonSource, last_name
@@ -67,10 +67,9 @@ _FIRST = {
 
 def read_ros2_python(source: Text) -> LaunchFile:
     """What the text says of the launch file. Any text gives one."""
-    lines = LineIndex(source.text)
-    python = PythonSource(source.text, lines)
+    python = PythonSource(source.text, source.lines)
     problems = (SyntaxProblem(*python.problem),) if python.problem is not None else ()
-    document = Document(source.path, source.text, source.digest, (), problems, lines)
+    document = Document(source.path, source.text, source.digest, (), problems, source.lines)
     whole = Span(0, len(source.text))
     reader = _Reader(python)
     children = actions_of(reader.actions(), python, whole)

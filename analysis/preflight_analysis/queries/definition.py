@@ -35,7 +35,7 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
     name that it replaces to the node's own; from a finding to its related places."""
     analysis, file = scene.analyses[0], scene.path
     if is_param_file(analysis, file):
-        return tuple(Target(place, Location(file, span)) for place, span in from_param_file(scene, offset))
+        return tuple(Target(place, scene.location(file, span)) for place, span in from_param_file(scene, offset))
     if targets := _targets_of_param(scene, offset):
         return targets
     use = use_at(analysis.tree, file, offset)
@@ -52,7 +52,7 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
     action = action_at(launch_file, offset) if launch_file else None
     if action is not None and action.kind in ("remap", "set_remap"):
         value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
-        if targets := _targets(_other_ends(scene, analysis, action), Location(file, value)):
+        if targets := _targets(_other_ends(scene, analysis, action), scene.location(file, value)):
             return targets
     for finding in findings:
         if finding.location.file == file and finding.location.span.contains(offset) and finding.related:
@@ -84,16 +84,16 @@ def _targets(places: Iterable[Location], source: Location) -> tuple[Target, ...]
 
 
 def _of_subject(scene: Scene, subject: Subject) -> tuple[Target, ...]:
-    source = Location(scene.path, subject.span)
+    source = scene.location(scene.path, subject.span)
     match subject.kind:
         case "arg":
-            declared = (shared_arguments.declared_at(scene.current, subject.files, name) for name in subject.names)
+            declared = (shared_arguments.declared_at(scene, subject.files, name) for name in subject.names)
             return _targets((place for places in declared for place in places), source)
         case "file" if all(path != scene.path for path in subject.files):
-            return _targets((Location(path, Span(0, 0)) for path in subject.files), source)
+            return _targets((Location.of_file(path) for path in subject.files), source)
         case "package":
             packages = map(scene.workspace.environment.packages.get, subject.names)
-            return _targets((Location(p.manifest, Span(0, 0)) for p in packages if p is not None), source)
+            return _targets((Location.of_file(p.manifest) for p in packages if p is not None), source)
         case "executable":
             return _targets(_executables(scene, subject), source)
         case "component":
@@ -126,7 +126,7 @@ def _executables(scene: Scene, subject: Subject) -> Iterator[Location]:
             if made_there is not None:
                 yield scene.line(made_there.file, made_there.line)
             elif scene.document(path) is not None:
-                yield Location(path, Span(0, 0))
+                yield Location.of_file(path)
         if (target := _build_target(scene, package, executable)) is not None:
             yield target
 
@@ -137,7 +137,7 @@ def _build_target(scene: Scene, package: str, executable: str) -> Location | Non
     document = scene.document(path) if found else None
     for call in re.finditer(r"^\s*add_executable\s*\(\s*([^\s()]+)", document.text if document else "", re.MULTILINE):
         if call[1].replace("${PROJECT_NAME}", package) == executable:
-            return Location(path, Span(*call.span(1)))
+            return scene.location(path, Span(*call.span(1)))
     return None
 
 
@@ -150,7 +150,7 @@ def _readers(scene: Scene, subject: Subject) -> Iterator[Location]:
 
 def _own_ends(scene: Scene, subject: Subject) -> Iterator[Location]:
     """From the name that a remap replaces, to where the nodes themselves give it."""
-    source = Location(scene.path, subject.span)
+    source = scene.location(scene.path, subject.span)
     for analysis in scene.analyses:
         for end, _ in connections(analysis.graph, subject.names) if analysis.graph else ():
             if end.remap is not None and end.remap.source_location == source:

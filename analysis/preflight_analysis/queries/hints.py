@@ -31,8 +31,8 @@ def hints(analyses: Sequence[Analysis], file: str, within: Span) -> tuple[Hint, 
     launch_file = analyses[0].launch_files.get(file) if analyses else None
     if launch_file is None or launch_file.root is None:
         return ()
-    current = launch_file.document.digest
-    same_text = [a for a in analyses if file in a.documents and a.documents[file].digest == current]
+    current = launch_file.document.version
+    same_text = [a for a in analyses if file in a.documents and a.documents[file].version == current]
     known = _known(same_text, file, within)
     found = []
     for attribute in _attributes(launch_file.root, within):

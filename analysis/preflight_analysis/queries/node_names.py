@@ -35,7 +35,7 @@ def tags_of(scene: Scene, tags: Iterable[Location]) -> Iterator[Location]:
         facts = scene.facts(tag.file)
         for mention in facts.mentions if facts else ():
             if mention.kind == "node" and mention.action == tag.span:
-                yield Location(tag.file, mention.span)
+                yield scene.location(tag.file, mention.span)
 
 
 def mentions_of(scene: Scene, trees: Iterable[LaunchTree], wanted: frozenset[str]) -> Iterator[NodeMention]:
@@ -50,7 +50,7 @@ def mentions_of(scene: Scene, trees: Iterable[LaunchTree], wanted: frozenset[str
                 yield NodeMention(place, _moved(_part(scene.text(place), full, node), place.span.start))
         for owner in tree.nodes:
             yield from _in_annotation(scene, owner, wanted)
-            yield from _in_arguments(owner, wanted)
+            yield from _in_arguments(scene, owner, wanted)
             if owner.name in wanted:
                 yield from _in_parameter_files(scene, tree, owner, wanted)
             if owner.container and owner.container_location is not None:
@@ -116,7 +116,7 @@ def _of_key(scene: Scene, param: Param, full: str, node: str, place: Location, b
     for depth in range(1, len(path) + 1):
         above = f"{base}/{'/'.join(path[:depth])}"
         if above == node and (key := keys.get(path[:depth])) is not None:
-            written = Location(place.file, Span(start + key.start, start + key.end))
+            written = scene.location(place.file, Span(start + key.start, start + key.end))
             return NodeMention(written, _moved(_part(scene.text(written), above, node), written.span.start))
     return _of_namespace(scene, param, base, node) or NodeMention(place, None)
 
@@ -134,7 +134,7 @@ def _of_namespace(scene: Scene, param: Param, base: str, node: str) -> NodeMenti
             return None
         below = f"/{leaf.text}" if ns is not None and leaf is not None else ""
         span = _part(value.text, base.removesuffix(below), node) if value.is_literal else None
-        return NodeMention(Location(tag.file, value.span), _moved(span, value.span.start))
+        return NodeMention(scene.location(tag.file, value.span), _moved(span, value.span.start))
     return None
 
 
@@ -144,7 +144,7 @@ def _in_annotation(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> I
             full = names.resolve(name, owner.name)
             for node in _above(full, wanted):
                 found = _part(name, full, node)
-                yield NodeMention(Location(owner.location.file, span), _moved(found, span.start))
+                yield NodeMention(scene.location(owner.location.file, span), _moved(found, span.start))
 
 
 def _in_parameter_files(
@@ -164,10 +164,11 @@ def _in_parameter_files(
             key = section.spans[-1]
             written = document.text[key.start : key.end] if document is not None else ""
             exact = written == name or written.endswith(f"/{name}")
-            yield NodeMention(Location(path, key), Span(key.end - len(name), key.end) if exact and not others else None)
+            last = Span(key.end - len(name), key.end) if exact and not others else None
+            yield NodeMention(scene.location(path, key), last)
 
 
-def _in_arguments(owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
+def _in_arguments(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
     """The manager that a nodelet is loaded into."""
     value = owner.action.value("args")
     words = owner.args.split()
@@ -176,7 +177,7 @@ def _in_arguments(owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMen
     full = names.resolve(words[2], owner.name)
     if full not in wanted:
         return
-    place = Location(owner.location.file, value.span)
+    place = scene.location(owner.location.file, value.span)
     written = list(_WORD.finditer(value.text))
     plain = value.is_literal and value.span.end - value.span.start == len(value.text) and len(written) > 2
     found = _part(words[2], full, full) if plain else None

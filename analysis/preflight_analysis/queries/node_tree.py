@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.tree import CommandValue, Include, LaunchNode, LaunchTree, NotTaken, Param
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.launch.model import NODE_KINDS, Action
@@ -74,7 +74,7 @@ def node_tree(analysis: Analysis, findings: Mapping[str, Sequence[Finding]]) -> 
     if shared := by_owner.get("", ()):
         items.append(Item("section", "Shared parameters", str(len(shared)), children=_listed(shared, "")))
     if tree.not_taken:
-        left_out = tuple(_not_taken(each) for each in tree.not_taken)
+        left_out = tuple(_not_taken(analysis, each) for each in tree.not_taken)
         items.append(Item("section", "Not started", str(len(left_out)), children=left_out))
     return NodeTree(tree.files, len(tree.nodes), tuple(items))
 
@@ -97,11 +97,11 @@ class _Marks:
         self._found = {path: sorted(found, key=_start) for path, found in findings.items()}
         self._starts = {path: [_start(f) for f in found] for path, found in self._found.items()}
 
-    def within(self, location: Location) -> tuple[Severity | None, int]:
+    def within(self, path: str, span: Span) -> tuple[Severity | None, int]:
         """The worst severity and how many there are, hints left out."""
-        starts = self._starts.get(location.file, [])
-        first, last = bisect_left(starts, location.span.start), bisect_left(starts, location.span.end)
-        severities = [f.severity for f in self._found[location.file][first:last]] if first < last else []
+        starts = self._starts.get(path, [])
+        first, last = bisect_left(starts, span.start), bisect_left(starts, span.end)
+        severities = [f.severity for f in self._found[path][first:last]] if first < last else []
         told = [severity for severity in severities if severity != "hint"]
         return max(told, key=SEVERITIES.index, default=None), len(told)
 
@@ -124,7 +124,7 @@ def _node(
         Item("remap", f"{remap.source} → {remap.target}", location=remap.origin[-1], file=remap.origin[-1].file)
         for remap in node.remaps
     ]
-    worst, count = marks.within(Location(node.location.file, node.action.span))
+    worst, count = marks.within(node.location.file, node.action.span)
     return Item(
         "node",
         node.name.rpartition("/")[2],
@@ -234,26 +234,26 @@ def _is_within(include: Include, outer: Include) -> bool:
 # What a condition leaves out
 
 
-def _not_taken(left_out: NotTaken) -> Item:
+def _not_taken(analysis: Analysis, left_out: NotTaken) -> Item:
     condition = left_out.condition
     written = " ".join(condition.value.text.split())
     said = f" is {left_out.value.strip()}" if written != left_out.value.strip() else ""
     note = f"left out: {condition.name} {written}{said}"
-    return _written(left_out.action, left_out.origin[-1].file, note)
+    return _written(analysis, left_out.action, left_out.origin[-1].file, note)
 
 
-def _written(action: Action, file: str, note: str) -> Item:
+def _written(analysis: Analysis, action: Action, file: str, note: str) -> Item:
     """A tag that was not evaluated, in its own words, with what is in it."""
     named = next((a for name in _WRITTEN_NAME if (a := action.attribute(name)) and a.value.text.strip()), None)
     label = " ".join(named.value.text.split()) if named is not None else action.kind
     inside = (child for child in action.children if child.kind in NODE_KINDS | {"group", "include", "executable"})
-    children: Iterable[Item] = (_written(child, file, "") for child in inside)
+    children: Iterable[Item] = (_written(analysis, child, file, "") for child in inside)
     detail = note.removeprefix("left out: ")
     return Item(
         "not-taken",
         label if action.kind in NODE_KINDS or named is None else f"{action.kind} {label}",
         detail,
-        location=Location(file, action.head_span),
+        location=analysis.context.location(file, action.head_span),
         file=file,
         note=note,
         children=tuple(children),

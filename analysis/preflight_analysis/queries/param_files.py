@@ -98,7 +98,7 @@ def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -
         made = f" — {link(use.source_file, use.source_line)}" if use.source_file else ""
         text = f"{code(reader.node.name)} declares it: {default_text(use)}{made}"
     effective = next((p for p in reader.node.params if p.name == param.name), None)
-    own = Location(path, param.name_span)
+    own = analysis.context.location(path, param.name_span)
     if effective is not None and effective.name_location != own:
         where = place(analysis, effective.name_location or effective.origin[-1])
         text += f"; it gets {value_text(effective.value)} from {where}"

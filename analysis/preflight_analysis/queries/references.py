@@ -41,9 +41,9 @@ def references(scene: Scene, offset: int) -> tuple[Reference, ...]:
 def _arguments(scene: Scene, subject: Subject) -> Iterator[Reference]:
     for name in subject.names:
         files = shared_arguments.sharing(scene.current, subject.files, name)
-        yield from _all(shared_arguments.declared_at(scene.current, files, name), declare=True)
+        yield from _all(shared_arguments.declared_at(scene, files, name), declare=True)
         yield from _all(shared_arguments.used_at(scene, files, name))
-        yield from _all(shared_arguments.given_at(scene.current, files, name))
+        yield from _all(shared_arguments.given_at(scene, files, name))
 
 
 def _files(scene: Scene, subject: Subject) -> Iterator[Reference]:
@@ -51,7 +51,7 @@ def _files(scene: Scene, subject: Subject) -> Iterator[Reference]:
     for path in subject.files:
         launch_file = scene.launch_file(path)
         head = launch_file.root.head_span if launch_file and launch_file.root else Span(0, 0)
-        yield Reference(Location(path, head), True)
+        yield Reference(scene.location(path, head), True)
         yield from _all(inclusion.place for inclusion in scene.current.includers(path))
 
 
@@ -59,7 +59,7 @@ def _packages(scene: Scene, subject: Subject) -> Iterator[Reference]:
     packages = scene.workspace.environment.packages
     for name in subject.names:
         if (package := packages.get(name)) is not None:
-            yield Reference(Location(package.manifest, Span(0, 0)), True)
+            yield Reference(Location.of_file(package.manifest), True)
         yield from _mentioned(scene, "package", name)
 
 
@@ -67,9 +67,7 @@ def _executables(scene: Scene, subject: Subject) -> Iterator[Reference]:
     for name in subject.names:
         for tree in scene.trees:
             paths = (n.resolved.path for n in tree.nodes if f"{n.package}/{n.executable}" == name)
-            yield from _all(
-                (Location(p, Span(0, 0)) for p in paths if p is not None and scene.document(p)), declare=True
-            )
+            yield from _all((Location.of_file(p) for p in paths if p is not None and scene.document(p)), declare=True)
         yield from _mentioned(scene, "executable", name)
 
 
@@ -92,7 +90,7 @@ def _nodes(scene: Scene, subject: Subject) -> Iterator[Reference]:
     yield from _all(tags_of(scene, dict.fromkeys((*tags, *_own_tags(scene, subject)))), declare=True)
     for mention in mentions_of(scene, scene.trees, subject.names):
         if mention.span is not None:
-            yield Reference(Location(mention.value.file, mention.span), False)
+            yield Reference(scene.location(mention.value.file, mention.span), False)
 
 
 def _own_tags(scene: Scene, subject: Subject) -> Iterator[Location]:
@@ -132,7 +130,7 @@ def _annotations(
     for node in nodes:
         for kind, span, full in annotated(node):
             if full in subject.names and (kind == "param") == parameters:
-                yield Reference(Location(node.location.file, span), False)
+                yield Reference(scene.location(node.location.file, span), False)
 
 
 def _variables(scene: Scene, subject: Subject) -> Iterator[Reference]:
@@ -144,7 +142,7 @@ def _machines(scene: Scene, subject: Subject) -> Iterator[Reference]:
     for name in subject.names:
         declared = {tree.machines[name].origin[-1] for tree in scene.trees if name in tree.machines}
         for path, mention in scene.current.mentions("machine", name):
-            yield Reference(Location(path, mention.span), Location(path, mention.action) in declared)
+            yield Reference(scene.location(path, mention.span), scene.location(path, mention.action) in declared)
 
 
 _FINDERS: Mapping[Kind, Callable[[Scene, Subject], Iterator[Reference]]] = {
@@ -179,7 +177,7 @@ def made_at(scene: Scene, what: Endpoint | ParamUse) -> Location | None:
 
 def _mentioned(scene: Scene, kind: facts.Kind, name: str) -> Iterator[Reference]:
     for path, mention in scene.current.mentions(kind, name):
-        yield Reference(Location(path, mention.span), False)
+        yield Reference(scene.location(path, mention.span), False)
 
 
 def _all(places: Iterable[Location], *, declare: bool = False) -> Iterator[Reference]:

@@ -53,7 +53,7 @@ def prepare(scene: Scene, offset: int) -> Renamed | None:
         _argument_places(scene, subject, name)
         return Renamed(name, subject.span)
     if subject.kind == "node":
-        name = scene.text(Location(scene.path, subject.span))
+        name = scene.text(scene.location(scene.path, subject.span))
         _node_places(scene, subject, name)
         return Renamed(name, subject.span)
     raise RenameRefusedError(f"This is {_WHAT[subject.kind]}: only arguments and nodes can be renamed here")
@@ -105,9 +105,9 @@ def _argument_places(scene: Scene, subject: Subject, name: str) -> frozenset[Loc
             )
     return frozenset(
         (
-            *shared_arguments.declared_at(index, files, name),
+            *shared_arguments.declared_at(scene, files, name),
             *shared_arguments.used_at(scene, files, name),
-            *shared_arguments.given_at(index, files, name),
+            *shared_arguments.given_at(scene, files, name),
         )
     )
 
@@ -119,9 +119,9 @@ def _check_argument(scene: Scene, subject: Subject, name: str, new: str) -> None
         raise RenameRefusedError(f"'{new}' is no name for an argument: it means something else in $(eval ...)")
     index = scene.current
     files = shared_arguments.sharing(index, subject.files, name, by_tag=True)
-    taken = (*shared_arguments.declared_at(index, files, new), *shared_arguments.used_at(scene, files, new))
-    same_tag = {tag for place in shared_arguments.given_at(index, files, name) for tag in _tags(scene, place, name)}
-    given = (p for p in shared_arguments.given_at(index, files, new) if same_tag.intersection(_tags(scene, p, new)))
+    taken = (*shared_arguments.declared_at(scene, files, new), *shared_arguments.used_at(scene, files, new))
+    same_tag = {tag for place in shared_arguments.given_at(scene, files, name) for tag in _tags(scene, place, name)}
+    given = (p for p in shared_arguments.given_at(scene, files, new) if same_tag.intersection(_tags(scene, p, new)))
     for place in (*taken, *given):
         raise RenameRefusedError(f"There is an argument '{new}' already, at {_shown(scene, place)}")
 
@@ -130,7 +130,7 @@ def _tags(scene: Scene, place: Location, name: str) -> Iterator[Location]:
     facts = scene.facts(place.file)
     for mention in facts.named("arg-passed", name) if facts else ():
         if mention.span == place.span:
-            yield Location(place.file, mention.action)
+            yield scene.location(place.file, mention.action)
 
 
 def _node_places(scene: Scene, subject: Subject, name: str) -> frozenset[Location]:
@@ -171,7 +171,7 @@ def _node_places(scene: Scene, subject: Subject, name: str) -> frozenset[Locatio
             raise RenameRefusedError(
                 f"The node's name is part of what is set at {where}, but not written there: rename it by hand"
             )
-        places.add(Location(value.file, span))
+        places.add(scene.location(value.file, span))
     return frozenset(places)
 
 
@@ -191,7 +191,7 @@ def _tags_named(scene: Scene, subject: Subject) -> Iterator[Location]:
         if own is None:
             continue
         for child in nodes:
-            place = Location(scene.path, child.head_span)
+            place = scene.location(scene.path, child.head_span)
             same = (_text(child, "name"), _text(child, "ns")) == (_text(own, "name"), _text(own, "ns"))
             if child is own or (same and place not in evaluated):
                 yield place

@@ -65,6 +65,11 @@ class Scene:
         found = self.workspace.sources.text(path)
         return None if isinstance(found, Unreadable) else found
 
+    def location(self, path: str, span: Span) -> Location:
+        """The location of a span of that text."""
+        document = self.document(path)
+        return document.location(span) if document is not None else Location.of_file(path)
+
     def text(self, location: Location) -> str:
         """What is written at a place."""
         document = self.document(location.file)
@@ -83,17 +88,17 @@ class Scene:
         """A line of a file, counted from 1, without the blanks around it; its start where there is no such line."""
         document = self.document(path)
         if document is None:
-            return Location(path, Span(0, 0))
+            return Location.of_file(path)
         span = document.lines.line_span(number - 1)
         text = document.text[span.start : span.end]
         start = span.start + len(text) - len(text.lstrip())
-        return Location(path, Span(start, max(start, span.start + len(text.rstrip()))))
+        return document.location(Span(start, max(start, span.start + len(text.rstrip()))))
 
 
 def with_analyses(index: WorkspaceIndex, analyses: Sequence[Analysis]) -> WorkspaceIndex:
     """The index brought up to what newer analyses know; the very same where they know nothing new."""
     now = {path: found for analysis in reversed(analyses) for path, found in analysis.launch_files.items()}
-    stale = {p: f for p, f in now.items() if p not in index.files or index.files[p].digest != f.document.digest}
+    stale = {p: f for p, f in now.items() if p not in index.files or index.files[p].version != f.document.version}
     trees = {analysis.launch: analysis.tree for analysis in analyses}
     newer = {
         root: entry_of(tree, root)

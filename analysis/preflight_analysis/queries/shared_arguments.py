@@ -61,32 +61,32 @@ def _has(index: WorkspaceIndex, path: str, name: str, seen: set[str]) -> bool:
     )
 
 
-def declared_at(index: WorkspaceIndex, files: Iterable[str], name: str) -> Iterator[Location]:
+def declared_at(scene: Scene, files: Iterable[str], name: str) -> Iterator[Location]:
     """The names of its `<arg>` tags."""
     for path in files:
-        if (facts := index.files.get(path)) is not None:
-            yield from (Location(path, m.span) for m in facts.named("arg-declaration", name))
+        if (facts := scene.facts(path)) is not None:
+            yield from (scene.location(path, m.span) for m in facts.named("arg-declaration", name))
 
 
 def used_at(scene: Scene, files: Iterable[str], name: str) -> Iterator[Location]:
     """Each use in `$(arg)` and `$(eval)`, in the YAML of `<rosparam subst_value="true">` too."""
     for path in files:
         if (facts := scene.facts(path)) is not None:
-            yield from (Location(path, m.span) for m in facts.named("arg-use", name))
+            yield from (scene.location(path, m.span) for m in facts.named("arg-use", name))
             for yaml in _substituted_files(scene, path):
-                yield from (Location(yaml, span) for used, span in _uses_in(scene, yaml) if used == name)
+                yield from (scene.location(yaml, span) for used, span in _uses_in(scene, yaml) if used == name)
 
 
-def given_at(index: WorkspaceIndex, files: Iterable[str], name: str) -> Iterator[Location]:
+def given_at(scene: Scene, files: Iterable[str], name: str) -> Iterator[Location]:
     """The `<arg>` tags that give it, in the files that include these."""
     seen: set[Location] = set()
     for path in files:
-        for inclusion in index.includers(path):
-            facts = index.files.get(inclusion.includer)
+        for inclusion in scene.current.includers(path):
+            facts = scene.facts(inclusion.includer)
             if facts is not None and inclusion.tag not in seen:
                 seen.add(inclusion.tag)
                 given = (m for m in facts.named("arg-passed", name) if m.action == inclusion.tag.span)
-                yield from (Location(inclusion.includer, m.span) for m in given)
+                yield from (scene.location(inclusion.includer, m.span) for m in given)
 
 
 def _substituted_files(scene: Scene, path: str) -> Iterator[str]:

@@ -44,7 +44,7 @@ def subject_at(scene: Scene, offset: int) -> Subject | None:
 
 
 def _of_mention(scene: Scene, mention: Mention) -> Subject:
-    place, tag = Location(scene.path, mention.span), Location(scene.path, mention.action)
+    place, tag = scene.location(scene.path, mention.span), scene.location(scene.path, mention.action)
     literally = frozenset({mention.name})
     match mention.kind:
         case "arg-declaration" | "arg-use":

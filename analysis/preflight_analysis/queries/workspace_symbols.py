@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.queries.places import shown_path
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.workspace import Analysis
@@ -57,7 +57,7 @@ def _files(index: WorkspaceIndex, folder: str | None, named: Callable[[str], boo
         name = os.path.basename(path)
         if named(name):
             where = os.path.dirname(shown_path(path, folder))
-            yield WorkspaceSymbol(name, "launch", where, Location(path, Span(0, 0)))
+            yield WorkspaceSymbol(name, "launch", where, Location.of_file(path))
 
 
 def _nodes(index: WorkspaceIndex, named: Callable[[str], bool]) -> Iterator[WorkspaceSymbol]:

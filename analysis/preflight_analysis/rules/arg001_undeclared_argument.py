@@ -21,7 +21,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if elsewhere:
             later = elsewhere[0].span.start > place.span.start
             where = "before this place" if later else "here, but in another <group> or under a condition"
-            declared = Related("declared here", Location(place.file, elsewhere[0].head_span))
+            declared = Related("declared here", context.location(place.file, elsewhere[0].head_span))
             yield problem_finding(rule, problem, f"{message} {where}", related=(declared,))
             continue
         near = nearest(name, problem.data["declared"])

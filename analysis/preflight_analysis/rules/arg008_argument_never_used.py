@@ -5,7 +5,6 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.configurations import IMPLICIT
@@ -67,7 +66,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
             yield rule.finding(
                 f"argument '{name}' is declared and never used in this file",
-                Location(path, span),
+                context.location(path, span),
                 fixes=(Fix(f"Remove the declaration of '{name}'", edits),),
             )
 
@@ -97,7 +96,7 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags) if xml else ()
         yield rule.finding(
             f"argument '{name}' is declared and never used in this launch",
-            Location(path, value.span),
+            context.location(path, value.span),
             fixes=(Fix(f"Remove the declaration of '{name}'", edits),) if edits else (),
         )
 

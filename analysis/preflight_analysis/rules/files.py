@@ -89,7 +89,7 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
         return ()
     start = location.span.start + written.index(folders)
     text = "/" if below == Path() else f"/{below}/"
-    edit = Edit(Location(location.file, Span(start, start + len(folders))), text)
+    edit = Edit(context.location(location.file, Span(start, start + len(folders))), text)
     return (Fix(f"Replace '{folders}' by '{text}'", (edit,), True),)
 
 

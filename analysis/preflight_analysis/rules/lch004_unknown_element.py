@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Severity
 from preflight_analysis.rules.installed import has_ros
@@ -48,7 +48,7 @@ def _both_tags(context: Context, tags: Tags, problem: Problem, name: str, fix: F
     if found is None:
         return fix
     start = tag.action.head_span.end + found.start(1)
-    return replace(fix, edits=(*fix.edits, Edit(Location(document.path, Span(start, start + len(old))), name)))
+    return replace(fix, edits=(*fix.edits, Edit(document.location(Span(start, start + len(old))), name)))
 
 
 RULE = Rule(

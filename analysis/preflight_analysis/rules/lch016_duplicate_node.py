@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Problem
 from preflight_analysis.findings.finding import Finding, Fix, Related
@@ -47,7 +46,7 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
         if node.told and other is not node:
             yield rule.finding(
                 f"there is another node with the name '{node.name}': {_why(node)}",
-                Location(node.location.file, node.action.kind_span),
+                context.location(node.location.file, node.action.kind_span),
                 severity="info" if node.name_inferred else "warning",
                 confidence="possible" if node.name_inferred or other.name_inferred else "likely",
                 related=(Related("the first one", node_location(other)), *include_chain(node.origin)),

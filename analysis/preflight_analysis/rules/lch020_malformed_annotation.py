@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.rules.problems import include_chain
@@ -13,7 +12,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in context.tree.nodes:
         _, problems = read_annotation(node.action)
         for problem in problems:
-            location = Location(node.location.file, problem.span)
+            location = context.location(node.location.file, problem.span)
             yield rule.finding(problem.message, location, related=include_chain(node.origin))
 
 

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.model import Action, LaunchFile, Literal
 from preflight_analysis.launch.per_file import per_file
@@ -31,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             what = _what(text, context)
             if what is None:
                 continue
-            location = Location(path, Span(start, start + len(text)))
+            location = context.location(path, Span(start, start + len(text)))
             in_package = _in_package(text, context)
             fixes = (Fix(f"Replace by '{in_package}'", (Edit(location, in_package),), True),) if in_package else ()
             instead = f"; use '{in_package}'" if in_package else ""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related
 from preflight_analysis.launch.model import Value
 from preflight_analysis.rules.places import attribute_location
@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     leaves = tuple({f"{name.rpartition('/')[2]}/" for name in anonymous})
     real = _with_namespaces(node.name for node in context.tree.nodes)
     seen: set[Location] = set()
-    for reference in _references(context.tree, leaves):
+    for reference in _references(context, leaves):
         node = _named(reference.name, anonymous, real)
         if node is None or reference.origin[-1] in seen:
             continue
@@ -50,7 +50,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             reference.origin[-1],
             confidence=reference.confidence,
             related=(
-                Related("the name is made here", attribute_location(node, "name")),
+                Related("the name is made here", attribute_location(context, node, "name")),
                 *include_chain(reference.origin),
             ),
             fixes=_fixes(context, node, reference, plain),
@@ -86,20 +86,20 @@ def _named(name: str, anonymous: dict[str, LaunchNode], real: set[str]) -> Launc
     return None
 
 
-def _references(tree: LaunchTree, leaves: tuple[str, ...]) -> Iterator[_Reference]:
+def _references(context: Context, leaves: tuple[str, ...]) -> Iterator[_Reference]:
     """What in the launch names something below one of `leaves`."""
     hit = re.compile("|".join(map(re.escape, leaves))).search
-    for node in tree.nodes:
+    for node in context.tree.nodes:
         for remap in node.remaps:
             for side, place in ((remap.source, remap.source_location), (remap.target, remap.target_location)):
                 if hit(side):
                     origin = (*remap.origin[:-1], place)
                     yield _Reference(names.resolve(side, node.name), side, "the name", origin)
         if node.args and hit(node.args):
-            origin = (*node.origin[:-1], attribute_location(node, "args"))
+            origin = (*node.origin[:-1], attribute_location(context, node, "args"))
             for found in _GRAPH_NAME.finditer(node.args):
                 yield _Reference(found[0], found[0], "in the arguments,", origin, "possible")
-    for param in tree.params.values():
+    for param in context.tree.params.values():
         if param.owner is None and hit(param.name):
             place = param.name_location or param.origin[-1]
             yield _Reference(param.name, param.name, "parameter", (*param.origin[:-1], place))

@@ -63,7 +63,7 @@ def _constant(
     because = f": argument '{used[0]}' is always '{fixed[used[0]].value}' here" if used else ""
     yield rule.finding(
         f"this <{action.kind}> is never evaluated, its {attribute.name} is always {str(result).lower()}{because}",
-        Location(launch_file.path, value.span),
+        launch_file.document.location(value.span),
         severity="hint",
         related=(Related(f"'{name}' is fixed here", fixed[name].location) for name in used),
     )
@@ -121,7 +121,7 @@ def _fixed_args(launch_file: LaunchFile) -> dict[str, _Fixed]:
             if name.text in found or not literal or has_condition(child) or action is not launch_file.root:
                 several.add(name.text)
             elif value is not None:
-                found[name.text] = _Fixed(value.text, Location(launch_file.path, child.head_span))
+                found[name.text] = _Fixed(value.text, launch_file.document.location(child.head_span))
     return {name: fixed for name, fixed in found.items() if name not in several}
 
 
@@ -153,7 +153,7 @@ def _unequal(rule: Rule, launch_file: LaunchFile, value: Value) -> Iterator[Find
         yield rule.finding(
             f"'{ast.get_source_segment(source, node)}' is {outcome} true: $(eval) makes {kind} of argument '{name}' "
             f"before it is compared with a text; compare with {plain}",
-            Location(launch_file.path, value.span),
+            launch_file.document.location(value.span),
             fixes=_compare_with(launch_file, value, written, plain),
         )
 
@@ -173,7 +173,7 @@ def _compare_with(launch_file: LaunchFile, value: Value, written: str, plain: st
     if not written or text.count(written) != 1:
         return ()
     start = value.span.start + text.index(written)
-    place = Location(launch_file.path, type(value.span)(start, start + len(written)))
+    place = launch_file.document.location(type(value.span)(start, start + len(written)))
     return (Fix(f"Compare with {plain}", (Edit(place, plain),), True),)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Use
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -33,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     related=include_chain(use.origin),
                 )
             continue
-        kept = [param for param in below if _set_before(param.origin, use, tag)]
+        kept = [param for param in below if _set_before(context, param.origin, use, tag)]
         if kept:
             yield _kept(rule, use, namespace, kept)
 
@@ -42,9 +42,9 @@ def _lives(tree: LaunchTree, namespace: str) -> bool:
     return any(node.name.startswith(namespace) or node.name == namespace.rstrip("/") for node in tree.nodes)
 
 
-def _set_before(origin: Origin, use: Use, tag: Tag) -> bool:
+def _set_before(context: Context, origin: Origin, use: Use, tag: Tag) -> bool:
     """Whether a parameter is set earlier in the launch than the tag, and not inside of it."""
-    here = (*use.origin[:-1], Location(use.location.file, tag.action.span))
+    here = (*use.origin[:-1], context.location(use.location.file, tag.action.span))
     for mine, other in zip(origin, here, strict=False):
         if mine.file != other.file:
             return False

@@ -33,10 +33,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for tag in old.masters:
             fix = Fix("Remove <master>", (remove_tag(document, tag.span),), True)
             message = "roslaunch ignores <master>: it is defunct since ROS Fuerte"
-            yield rule.finding(message, Location(path, tag.head_span), severity="info", fixes=(fix,))
+            yield rule.finding(message, context.location(path, tag.head_span), severity="info", fixes=(fix,))
         if context.environment.distro not in _OLDER_THAN_MELODIC:
             for span in old.in_order:
-                place = Location(path, span)
+                place = context.location(path, span)
                 message = "xacro processes in order since ROS Melodic: --inorder has no effect"
                 yield rule.finding(message, place, fixes=(Fix("Remove --inorder", (Edit(place, ""),), True),))
 
@@ -60,7 +60,7 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
             attribute = "type" if each.executable is not None else "pkg"
             yield rule.finding(
                 each.message,
-                attribute_location(node, attribute),
+                attribute_location(context, node, attribute),
                 severity=severity,
                 related=include_chain(node.origin),
                 fixes=_fixes(context, each, node),
@@ -69,18 +69,18 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]:
     if each.instead_executable:
-        return rename(context, attribute_location(node, "type"), node.executable, each.instead_executable)
+        return rename(context, attribute_location(context, node, "type"), node.executable, each.instead_executable)
     if each.instead_package:
-        return rename(context, attribute_location(node, "pkg"), node.package, each.instead_package)
+        return rename(context, attribute_location(context, node, "pkg"), node.package, each.instead_package)
     document = context.documents.get(node.location.file)
     if each.package != "tf" or document is None:
         return ()
-    package, args = attribute_location(node, "pkg"), attribute_location(node, "args")
+    package, args = attribute_location(context, node, "pkg"), attribute_location(context, node, "args")
     # x y z and yaw pitch roll or a quaternion, two frames, the period.
     period = _PERIOD.search(document.text, args.span.start, args.span.end)
     if period is None or len(node.args.split()) not in (9, 10) or _text(document, package) != "tf":
         return ()
-    edits = (Edit(package, "tf2_ros"), Edit(Location(args.file, Span(period.start(), args.span.end)), ""))
+    edits = (Edit(package, "tf2_ros"), Edit(context.location(args.file, Span(period.start(), args.span.end)), ""))
     return (Fix("Use static_transform_publisher of tf2_ros", edits),)
 
 

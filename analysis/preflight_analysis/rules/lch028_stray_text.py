@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.schema_ros1 import TAGS
@@ -24,13 +24,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         hint = "; is a '<' missing before it?" if lost else ""
         message = f"the text '{shown}' in <{problem.data['tag']}> means nothing: roslaunch does not look at it{hint}"
         severity: Severity | None = "hint" if _REMARK.match(text) else None
-        yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(problem, text, lost))
+        yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, problem, text, lost))
 
 
-def _fixes(problem: Problem, text: str, lost: bool) -> Iterator[Fix]:
-    file, span = problem.location
+def _fixes(context: Context, problem: Problem, text: str, lost: bool) -> Iterator[Fix]:
     if lost:
-        yield Fix("Insert the '<'", (Edit(Location(file, Span(span.start, span.start)), "<"),), True)
+        start = problem.location.span.start
+        yield Fix("Insert the '<'", (Edit(context.location(problem.location.file, Span(start, start)), "<"),), True)
     elif _REMARK.match(text) and "--" not in text:
         # A comment in XML cannot have two dashes in it.
         yield Fix("Make it a comment", (Edit(problem.location, f"<!-- {text.lstrip('#/ ')} -->"),), True)

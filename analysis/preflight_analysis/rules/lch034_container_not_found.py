@@ -57,11 +57,11 @@ def _target(context: Context, tags: Tags, node: LaunchNode, container: str) -> L
     tag = tags.at(node.location)
     target = tag.above[0].value("target") if tag is not None and tag.above else None
     if target is not None:
-        return Location(node.location.file, target.span)
+        return context.location(node.location.file, target.span)
     document = context.documents.get(node.location.file)
     text = document.text if document is not None else ""
     quoted = [match.span(2) for match in re.finditer(rf"(['\"])({re.escape(container)})\1", text)]
-    return Location(node.location.file, Span(*quoted[0])) if len(quoted) == 1 else node_location(node)
+    return context.location(node.location.file, Span(*quoted[0])) if len(quoted) == 1 else node_location(node)
 
 
 def _full(container: str) -> str:

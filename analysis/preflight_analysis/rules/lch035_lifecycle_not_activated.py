@@ -74,7 +74,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             f"{node.name} is a lifecycle node, which does nothing until it is activated, and nothing in this launch "
             f"activates it: {who}",
-            attribute_location(node, "exec"),
+            attribute_location(context, node, "exec"),
             severity="warning" if alone else None,
             confidence="likely" if context.tree.complete else "possible",
             related=include_chain(node.origin),

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -29,7 +28,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"this process has the nodes {quoted(given)}, and 'name' is for each of them: {what}, and what is meant "
             f"for one by its own name does not reach it; leave 'name' out, and rename one by a remap from "
             f"'{given[0]}:__node' to '{leaf}'",
-            Location(node.location.file, span),
+            context.location(node.location.file, span),
             severity=None if same and not inferred else "info",
             confidence="possible" if inferred else "certain" if interface.source == "trace" else "likely",
             related=include_chain(node.origin),

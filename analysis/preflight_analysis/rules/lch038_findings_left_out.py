@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.clipping import MAX_FINDINGS
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.rule import Context, Rule
@@ -19,7 +19,7 @@ def _left_out(rule: Rule, path: str, findings: Sequence[Finding]) -> Finding:
     named = ", ".join(f"{count} of {each}" for each, count in counts.most_common())
     severity = findings[0].severity  # the most severe of them comes first
     message = f"{len(findings)} more findings in this file are not shown: {named}"
-    return rule.finding(message, Location(path, Span(0, 0)), severity=severity)
+    return rule.finding(message, Location.of_file(path), severity=severity)
 
 
 RULE = Rule(

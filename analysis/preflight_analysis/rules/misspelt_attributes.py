@@ -34,7 +34,7 @@ def misspelt(context: Context, tag: Tag, file: str, needed: Iterable[str]) -> Mi
     for name in needed:
         near = nearest(name, unknown)
         if near is not None:
-            return Misspelt(near, Location(file, unknown[near].name_span), name)
+            return Misspelt(near, context.location(file, unknown[near].name_span), name)
     return None
 
 

@@ -25,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # A plain process is of no package, and a component has no executable in its one.
         there = node.resolved.package_path is not None or node.package in packages
         if node.package and not there and not node.unknowns and not was_removed(context, node):
-            location, chain = attribute_location(node, "pkg"), include_chain(node.origin)
+            location, chain = attribute_location(context, node, "pkg"), include_chain(node.origin)
             yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
 
 

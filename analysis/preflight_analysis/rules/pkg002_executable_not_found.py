@@ -26,7 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if found.path is not None or found.package_path is None or node.unknowns or was_removed(context, node):
             continue
-        location = attribute_location(node, "type" if context.tree.generation == 1 else "exec")
+        location = attribute_location(context, node, "type" if context.tree.generation == 1 else "exec")
         chain = include_chain(node.origin)
         made_of = executables.made_of(node.package, node.executable)
         if found.not_executable and (made_of is None or not made_of.by_build):
@@ -45,7 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = nearest(node.executable, programs) or nearest(node.executable, programs, key=_stem)
         if holder is not None:
             hint = f"; package '{holder}' has it"
-            fixes = rename(context, attribute_location(node, "pkg"), node.package, holder)
+            fixes = rename(context, attribute_location(context, node, "pkg"), node.package, holder)
         else:
             hint = did_you_mean(near)
             slip = near is not None and (is_slip(node.executable, near) or is_slip(_stem(node.executable), _stem(near)))

@@ -23,7 +23,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"package '{node.package}' has {len(others) + 1} different executables '{node.executable}'; "
                 f"'{os.path.relpath(first, package)}' is run here, {rest} would be where the folders are listed in "
                 "another order",
-                attribute_location(node, "type"),
+                attribute_location(context, node, "type"),
                 related=include_chain(node.origin),
             )
 

@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
@@ -36,7 +36,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             # One that is not there at all is another rule's: it may well be a wrong name.
             if name == owner.name or name in owner.dependencies or name not in packages:
                 continue
-            location = Location(path, span)
+            location = context.location(path, span)
             manifest = os.path.basename(owner.manifest)
             yield rule.finding(
                 f"package '{name}' is not among the dependencies that the {manifest} of '{owner.name}' names",
@@ -85,9 +85,9 @@ def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix,
     last = next(reversed([*_DEPENDENCY.finditer(text)]), None)
     end = _END.search(text)
     if last is not None:
-        edit = Edit(Location(owner.manifest, Span(last.end(), last.end())), f"{newline}{last[1]}{line}")
+        edit = Edit(manifest.location(Span(last.end(), last.end())), f"{newline}{last[1]}{line}")
     elif end is not None:
-        edit = Edit(Location(owner.manifest, Span(end.start(), end.start())), f"{end[1]}  {line}{newline}")
+        edit = Edit(manifest.location(Span(end.start(), end.start())), f"{end[1]}  {line}{newline}")
     else:
         return ()
     return (Fix(f"Add {line} to package.xml of '{owner.name}'", (edit,), True),)

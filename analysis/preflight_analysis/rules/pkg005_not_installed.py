@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import LineIndex, Location, Span
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.shares import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
@@ -49,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"'{below}' is not installed by the {_build_file(package)} of package '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",
-                Location(path, launch_file.root.head_span),
+                context.location(path, launch_file.root.head_span),
                 confidence="likely",
                 fixes=_fixes(context, package, below),
             )
@@ -99,14 +99,13 @@ def _in_setup(found: Document, package: Package, below: str, folder: str) -> Edi
             if not node.value.elts:
                 return None
             last = node.value.elts[-1]
-            lines = LineIndex(found.text)
             line = found.text.splitlines()[(last.end_lineno or 1) - 1]
             column = len(line.encode()[: last.end_col_offset or 0].decode())
-            at = lines.line_start((last.end_lineno or 1) - 1) + column
+            at = found.lines.line_start((last.end_lineno or 1) - 1) + column
             indent = " " * last.col_offset if last.lineno > node.value.lineno else ""
             entry = f"('share/{os.path.join(package.name, folder)}', ['{below}'])"
             text = f",\n{indent}{entry}" if indent else f", {entry}"
-            return Edit(Location(found.path, Span(at, at)), text)
+            return Edit(found.location(Span(at, at)), text)
     return None
 
 
@@ -116,7 +115,7 @@ def _in_cmake(found: Document, below: str, folder: str) -> Edit | None:
         return None
     what = f"DIRECTORY {folder}" if folder else f"FILES {below}"
     text = f"install({what} DESTINATION share/${{PROJECT_NAME}})\n\n"
-    return Edit(Location(found.path, Span(end.start(), end.start())), text)
+    return Edit(found.location(Span(end.start(), end.start())), text)
 
 
 RULE = Rule(

@@ -20,7 +20,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not registered or node.plugin in registered or executables.is_build_target(node.package, node.plugin):
             continue
         near = nearest(node.plugin, registered) or nearest(node.plugin, registered, key=_class)
-        location = attribute_location(node, "plugin")
+        location = attribute_location(context, node, "plugin")
         yield rule.finding(
             f"package '{node.package}' registers no component '{node.plugin}'; it registers {len(registered)}"
             f"{did_you_mean(near)}",

@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import End, Related
 from preflight_analysis.graph.model import Connection, ParamRead
+from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
 _KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
@@ -23,13 +24,13 @@ _KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
 
 def node_location(node: LaunchNode) -> Location:
     """The start tag of the node."""
-    return Location(node.location.file, node.action.head_span)
+    return node.location
 
 
-def attribute_location(node: LaunchNode, name: str) -> Location:
+def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:
     """The value of an attribute of the node's tag; the start tag if it has none of that name."""
     value = node.action.value(name)
-    return Location(node.location.file, value.span) if value is not None else node_location(node)
+    return context.location(node.location.file, value.span) if value is not None else node.location
 
 
 def connection_location(connection: Connection) -> Location:

@@ -119,7 +119,7 @@ def _in_arguments(context: Context) -> Iterator[_Named]:
             before = word
             if option not in ("-o", "-O") and not _made_when_run(option):
                 what = f"the arguments of '{node.executable}'"
-                yield _Named(value, what, partial(attribute_location, node, "args"), node.origin)
+                yield _Named(value, what, partial(attribute_location, context, node, "args"), node.origin)
 
 
 def _worth_a_look(text: str) -> bool:
@@ -190,7 +190,7 @@ def _value_location(context: Context, param: Param, attribute: str) -> Location:
     launch_file = context.launch_files.get(tag.file)
     action = action_at(launch_file, tag.span.start + 1) if launch_file is not None else None
     if action is not None and action.kind.lower() == "param" and (value := action.value(attribute)) is not None:
-        return Location(tag.file, value.span)
+        return context.location(tag.file, value.span)
     return param.name_location or tag
 
 
@@ -225,7 +225,7 @@ def _where_written(context: Context, at: Location, path: str, uses: Mapping[Loca
         value = (action.value("value") or action.value("default")) if action is not None else None
         if value is None:
             return place
-        place = Location(launch_file.path, value.span)
+        place = launch_file.document.location(value.span)
     return at
 
 

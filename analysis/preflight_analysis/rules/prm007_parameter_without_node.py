@@ -150,7 +150,7 @@ def _prefix_place(context: Context, param: Param, leaf: str) -> Location:
     if not keys:
         return place
     start = place.span.start - len(above) + keys[-1].start()
-    return Location(place.file, Span(start, start + len(leaf)))
+    return context.location(place.file, Span(start, start + len(leaf)))
 
 
 def _fixes(context: Context, places: list[Location], leaf: str, near: str) -> tuple[Fix, ...]:

@@ -49,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for section in lost:
             ignoring = {each.node.name: each for each in lacking if meant[each.node.name] is section}
             if ignoring:
-                yield _about_key(rule, path, section, list(ignoring.values()))
+                yield _about_key(rule, context, path, section, list(ignoring.values()))
         for each in lacking:
             # One file for several nodes, with nothing for this one: that is usual.
             if not each.reached and (len(nodes) == 1 or meant[each.node.name] is not None):
@@ -93,18 +93,18 @@ def _meant(name: str, lost: Sequence[Section], *, shared: bool) -> Section | Non
     return next((section for section in lost if section.pattern == wanted), None)
 
 
-def _about_key(rule: Rule, path: str, section: Section, ignoring: list[_Given]) -> Finding:
+def _about_key(rule: Rule, context: Context, path: str, section: Section, ignoring: list[_Given]) -> Finding:
     names = [each.node.name for each in ignoring]
     *some, last = names[:_SHOWN] if len(names) <= _SHOWN else (*names[:_SHOWN], "others")
     does = f"{', '.join(some)} and {last} do, and ignore it" if some else f"{last} does, and ignores it"
     inferred = any(each.node.name_inferred for each in ignoring)
     return rule.finding(
         f"'{section.pattern}' is no node that gets this file: {does}",
-        Location(path, section.spans[-1]),
+        context.location(path, section.spans[-1]),
         severity="info" if inferred else "warning",
         confidence="possible" if inferred else "certain",
         related=[Related(f"{each.node.name} gets the file here", each.location) for each in ignoring[:_SHOWN]],
-        fixes=_rewrite(path, section, names[0] if len(names) == 1 else _for_each(names)),
+        fixes=_rewrite(context, path, section, names[0] if len(names) == 1 else _for_each(names)),
     )
 
 
@@ -121,10 +121,10 @@ def _about_file(
         severity="info" if inferred else "warning",
         confidence="possible" if inferred else "certain",
         related=(
-            Related("the key" if meant is not None else "its first key", Location(path, key.spans[-1])),
+            Related("the key" if meant is not None else "its first key", context.location(path, key.spans[-1])),
             *include_chain(node.origin),
         ),
-        fixes=_rewrite(path, meant, node.name) if meant is not None else (),
+        fixes=_rewrite(context, path, meant, node.name) if meant is not None else (),
     )
 
 
@@ -134,12 +134,12 @@ def _for_each(names: Sequence[str]) -> str | None:
     return f"/**/{bases.pop()}" if len(bases) == 1 else None
 
 
-def _rewrite(path: str, section: Section, name: str | None) -> tuple[Fix, ...]:
+def _rewrite(context: Context, path: str, section: Section, name: str | None) -> tuple[Fix, ...]:
     """The key as the node's name, where the key is in one piece; a name in the root needs no slash."""
     if name is None or len(section.spans) != 1:
         return ()
     key = name.removeprefix("/") if name.count("/") == 1 else name
-    edit = Edit(Location(path, section.spans[0]), key)
+    edit = Edit(context.location(path, section.spans[0]), key)
     return (Fix(f"Write '{key}' as the key", (edit,), True),)
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.rule import Context, Rule
@@ -26,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     f"'{name}' does not stand below '{MARK}', which has to follow the node's name: the file is refused"
                 )
                 related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
-                yield rule.finding(message, Location(path, span), related=related)
+                yield rule.finding(message, context.location(path, span), related=related)
 
 
 RULE = Rule(

@@ -22,7 +22,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not isinstance(document, Document):
             continue
         for what, span in read_param_file(document.text).refused:
-            at = Location(path, span)
+            at = context.location(path, span)
             if at in told or (substituted and "$(" in document.text[span.start : span.end]):
                 continue  # what a substitution comes to may be fine
             told.add(at)

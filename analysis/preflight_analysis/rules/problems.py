@@ -84,7 +84,7 @@ def rename(context: Context, location: Location, old: str, new: str, *, preferre
     if len(hits) != 1:
         return ()
     start = location.span.start + hits[0]
-    edit = Edit(Location(location.file, Span(start, start + len(old))), new)
+    edit = Edit(context.location(location.file, Span(start, start + len(old))), new)
     return (Fix(f"Replace '{old}' by '{new}'", (edit,), preferred),)
 
 

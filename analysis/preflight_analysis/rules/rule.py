@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, TypeVar
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.cmake import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
@@ -62,6 +63,13 @@ class Context:
     kept: Kept = field(default_factory=Kept, repr=False, compare=False)
     """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
     _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def location(self, path: str, span: Span) -> Location:
+        """The location of a span of a document."""
+        document: Document | Unreadable | None = self.documents.get(path)
+        if document is None and self.sources is not None:
+            document = self.sources.text(path)
+        return document.location(span) if isinstance(document, Document) else Location.of_file(path)
 
     def once(self, make: Callable[[Context], T]) -> T:
         """`make(context)`, made by the first rule that asks and the same for those that come later."""

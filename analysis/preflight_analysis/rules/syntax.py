@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.model import Action, LaunchFile
@@ -35,7 +35,7 @@ class Tags:
 
     def named_at(self, location: Location) -> Tag | None:
         """The tag whose name stands at the place."""
-        return self.at(Location(location.file, Span(location.span.start - 1, location.span.end)))
+        return self._of_file(location.file).get(location.span.start - 1)
 
     def around(self, location: Location) -> Tag | None:
         """The tag in whose start tag the place is."""

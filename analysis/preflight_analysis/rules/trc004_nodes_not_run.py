@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.places import node_location
@@ -32,8 +32,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _root_location(context: Context) -> Location:
     launch_file = context.launch_files.get(context.root)
     if launch_file is not None and launch_file.root is not None:
-        return Location(context.root, launch_file.root.head_span)
-    return Location(context.root, Span(0, 0))
+        return context.location(context.root, launch_file.root.head_span)
+    return Location.of_file(context.root)
 
 
 RULE = Rule(

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
@@ -38,10 +38,10 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
     for item, type_ in outdated.conflicts:
         message = f"when {node.name} was run, '{item.what.name}' had the type {type_}"
         yield rule.finding(
-            message, Location(file, item.values["type"]), confidence="likely", related=chain, fixes=fixes
+            message, context.location(file, item.values["type"]), confidence="likely", related=chain, fixes=fixes
         )
     for item in outdated.unmade:
-        name, place = item.what.name, Location(file, item.values["name"])
+        name, place = item.what.name, context.location(file, item.values["name"])
         meant = nearest(name, [what.name for what in outdated.missing if _does(what) == _does(item.what)])
         mends = [Fix(f"Remove '{name}' from the annotation", (remove_tag(document, item.span),))]
         if meant is not None:
@@ -59,7 +59,7 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
         more = f" and {len(outdated.missing) - _MOST} more" if len(outdated.missing) > _MOST else ""
         yield rule.finding(
             f"when {node.name} was run, it was seen that it {', '.join(shown)}{more}: the annotation lacks that",
-            Location(file, outdated.groups[0].head),
+            context.location(file, outdated.groups[0].head),
             severity="hint",
             confidence="likely",
             related=chain,

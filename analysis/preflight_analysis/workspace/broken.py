@@ -22,7 +22,7 @@ class Broken:
             for action in launch_file.root.walk() if launch_file is not None and launch_file.root is not None else ():
                 within = (span.start <= action.span.end and action.span.start <= span.end for span in spans)
                 if action.kind in _STARTS_NODES and any(within):
-                    self._heads.add(Location(path, action.head_span))
+                    self._heads.add(analysis.documents[path].location(action.head_span))
 
     def touches(self, origin: Origin) -> bool:
         """Whether a syntax error stands in one of the tags that lead to a place, or in the place's own."""

@@ -64,10 +64,10 @@ class ArgDeclaration:
 
 @dataclass(frozen=True, slots=True)
 class FileFacts:
-    """What the index keeps of a launch file. `digest` names the text that it was read from."""
+    """What the index keeps of a launch file. `version` names the text that it was read from."""
 
     path: str
-    digest: str
+    version: str
     args: tuple[ArgDeclaration, ...]
     mentions: tuple[Mention, ...]
     has_nodes: bool
@@ -87,7 +87,7 @@ def facts_of(launch_file: LaunchFile) -> FileFacts:
     args = tuple(declaration(action) for action in _declarations(root)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
     passing_all = frozenset(_passing_all(root, launch_file.generation)) if root is not None else frozenset[Span]()
-    return FileFacts(launch_file.path, launch_file.document.digest, args, mentions, has_nodes, passing_all)
+    return FileFacts(launch_file.path, launch_file.document.version, args, mentions, has_nodes, passing_all)
 
 
 def _passing_all(root: Action, generation: int) -> Iterator[Span]:

@@ -8,7 +8,6 @@ import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.environment.shares import installed_at, package_around
@@ -197,7 +196,7 @@ def written_includes(launch_file: LaunchFile, packages: Mapping[str, Package]) -
         if action.kind == "include" and (file := action.value("file")) is not None:
             target = _written_path(file, launch_file.path, packages)
             if target is not None:
-                place, tag = Location(launch_file.path, file.span), Location(launch_file.path, action.head_span)
+                place, tag = launch_file.document.location(file.span), launch_file.document.location(action.head_span)
                 yield Inclusion(target, place, tag, _no_args(action), None)
 
 

@@ -145,7 +145,7 @@ def located_problems(settings: ProjectSettings) -> tuple[Document | None, tuple[
         start, end = document.lines.line_span(problem.line - 1)
         line = text[start:end]
         start += len(line) - len(line.lstrip())
-        found.append((problem.message, Location(settings.path, Span(start, max(start, start + len(line.strip()))))))
+        found.append((problem.message, document.location(Span(start, max(start, start + len(line.strip()))))))
     return document, tuple(found)
 
 

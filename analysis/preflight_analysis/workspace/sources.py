@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from dataclasses import replace
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
@@ -29,6 +30,22 @@ def _buffer(path: str) -> Text | Unreadable | None:
     return None
 
 
+class _Lines:
+    """The lines of the text of a file that was there last."""
+
+    def __init__(self) -> None:
+        self._lines: LineIndex | None = None
+
+    def of(self, text: str) -> LineIndex:
+        """The lines of the text that is there now."""
+        self._lines = LineIndex(text) if self._lines is None else self._lines.edited(text)
+        return self._lines
+
+
+def _lines(path: str) -> _Lines:
+    return _Lines()
+
+
 def _undecided() -> int:
     return 1
 
@@ -36,6 +53,8 @@ def _undecided() -> int:
 SIGNATURE = Input(_signature)
 BUFFER = Input(_buffer)
 """What an editor has of a file; None where none has it open."""
+LINES = Input(_lines)
+"""By which locations stay right, and equal to what they were, where other lines of their file come or go."""
 UNDECIDED = Input(_undecided)
 """The generation of ROS that a launch file is of which shows none."""
 
@@ -46,16 +65,17 @@ def text_of(db: Database, path: str) -> Text | Unreadable:
     opened = BUFFER(db, path)
     if opened is None:
         SIGNATURE(db, path)
-        return read_text(path)
+        found = read_text(path)
+        return replace(found, lines=LINES(db, path).of(found.text)) if isinstance(found, Text) else found
     return opened
 
 
 @query
 def digest_of(db: Database, path: str) -> str:
-    """Names the content of a file; "" where there is none."""
+    """Names the content of a file and its lines; "" where there is none."""
     text = text_of(db, path)
     if isinstance(text, Text):
-        return text.digest
+        return text.version
     return "" if text.kind == "missing" else digest(repr(SIGNATURE(db, path)))
 
 
@@ -81,9 +101,8 @@ def document_of(db: Database, path: str) -> Document | Unreadable:
         text = _plain(path, data_of(db, path))
     if isinstance(text, Unreadable):
         return text
-    lines = LineIndex(text.text)
-    comments = preflight_comments(text.text, lines) if path.endswith(HASH_SUFFIXES) else ()
-    return Document(path, text.text, text.digest, comments, (), lines)
+    comments = preflight_comments(text.text, text.lines) if path.endswith(HASH_SUFFIXES) else ()
+    return Document(path, text.text, text.digest, comments, (), text.lines)
 
 
 def data_of(db: Database, path: str) -> bytes | Unreadable:
@@ -110,7 +129,7 @@ def _plain(path: str, content: bytes | Unreadable) -> Text | Unreadable:
         text = content.decode()
     except UnicodeDecodeError as error:
         return Unreadable(path, f"is not a text file in UTF-8 (byte {error.start})", "not-text")
-    return Text(path, text, digest(text))
+    return Text.of(path, text)
 
 
 class Sources:
@@ -136,9 +155,9 @@ class Sources:
     def open(self, path: str, text: str) -> None:
         """The editor's text counts from now on; call it again for each change."""
         path = os.path.normpath(path)
-        limited = _limited(path, text)
+        lines = LINES(self.db, path)
         with self.db.writing() as write:
-            write.set(BUFFER, limited, path)
+            write.set(BUFFER, _limited(path, text, lines), path)
 
     def close(self, path: str) -> None:
         """The disk counts again."""
@@ -157,7 +176,8 @@ class Sources:
         return bool(outdated)
 
     def digest(self, path: str) -> str:
-        """Names the content as it is now; "" where there is no such file."""
+        """Names the content as it is now, and its lines: while it is the same, locations in the file are right. ""
+        where there is no such file."""
         return digest_of(self.db, self._looked_at(path))
 
     def launch_file(self, path: str, generation: int | None = None) -> LaunchFile | Unreadable:
@@ -179,7 +199,7 @@ class Sources:
         return path
 
 
-def _limited(path: str, text: str) -> Text | Unreadable:
+def _limited(path: str, text: str, lines: _Lines) -> Text | Unreadable:
     # A code point takes at least one byte, so a text within the limit may still be a file beyond it: no harm.
     if len(text) > SIZE_LIMIT:
         limit = SIZE_LIMIT // (1024 * 1024)
@@ -187,4 +207,4 @@ def _limited(path: str, text: str) -> Text | Unreadable:
         return Unreadable(path, reason, "not-text")
     if "\0" in text:
         return Unreadable(path, "is not a text file", "not-text")
-    return Text(path, text, digest(text), encoding=None)
+    return Text(path, text, digest(text), lines.of(text), encoding=None)

@@ -99,10 +99,11 @@ class Converter:
         return found
 
     def _text(self, path: str) -> tuple[str, LineIndex]:
-        if (parsed := self._documents.get(path)) is not None:
-            return parsed.text, parsed.lines
+        # Locations are where they are in the text as it is now.
         if (opened := self._texts.by_path(path)) is not None:
             return opened.text, opened.lines
+        if (parsed := self._documents.get(path)) is not None:
+            return parsed.text, parsed.lines
         read = read_text(path)
         text = read.text if isinstance(read, Text) else ""
         return text, LineIndex(text)

@@ -494,7 +494,8 @@ class Session:
             if root in reports and path in reports[root].files:
                 alone = by_file([reports[root]], self._every_root)
                 findings[path] = alone.get(path, ())
-        documents = {path: document for a in kept.values() for path, document in a.documents.items()}
+        newest_last = sorted(kept, key=lambda root: root not in stale)
+        documents = {path: document for root in newest_last for path, document in kept[root].documents.items()}
         converter = Converter(self._server.texts, documents, related=self._shows_related, before=before)
         diagnostics = {path: converter.diagnostics(found) for path, found in findings.items()}
         converter.end()

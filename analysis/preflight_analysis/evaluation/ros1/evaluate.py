@@ -57,13 +57,13 @@ def evaluate(
     state = State(files, executables, environment, cwd, commands, memo)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
-    whole = (Location(path, Span(0, 0)),)
+    whole = (Location.of_file(path),)
     if isinstance(found, Unreadable):
         kind = "file-not-text" if found.kind == "not-text" else "file-unreadable"
         state.problem(kind, whole, path=path, reason=found.reason)
     else:
         ns = args.get("__ns") or environment.variables.get("ROS_NAMESPACE") or "/"
-        scope = Scope(path, (), names.as_namespace(ns))
+        scope = Scope(path, found.document.lines, (), names.as_namespace(ns))
         scope.args = {name: ArgValue(value, None) for name, value in args.items()}
         _file(state, scope, found, None)
         state.args = _root_args(scope, found)
@@ -203,7 +203,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     inside = scope.child(ns.text)
     clear_params(state, scope, action, attributes, inside, ns.text)
     passed, tags = _passed_args(state, scope, inside, action, pass_all)
-    place = Location(scope.file, file_attribute.value.span)
+    place = scope.location(file_attribute.value.span)
     origin = scope.origin(action.head_span)
     shown = {name: value.text for name, value in passed.items()}
     state.includes.append(Include(file.text if file.known else None, origin, place, shown))
@@ -213,7 +213,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     # The empty path is not the working directory.
     real = without_dots(os.path.join(state.cwd, file.text)) if file.text else None
     path = real or os.path.normpath(os.path.join(state.cwd, file.text))
-    state.uses.append(Use("include", place, file.text, path, Location(path, Span(0, 0))))
+    state.uses.append(Use("include", place, file.text, path, Location.of_file(path)))
     if _too_deep(state, scope, action):
         return default_machine
     file_origin = scope.origin(file_attribute.value.span)
@@ -224,7 +224,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     found = _included(state, scope, path, passed, file_origin)
     if found is None:
         return default_machine
-    inside.file, inside.chain = path, origin
+    inside.file, inside.lines, inside.chain = path, found.document.lines, origin
     inside.args, inside.declared, inside.anonymous, inside.pass_all_args = passed, {}, {}, pass_all
     default_machine = _included_file(state, inside, found, default_machine)
     if not pass_all:
@@ -276,7 +276,7 @@ def _check_language(state: State) -> None:
             said = {problem.span for problem in launch_file.document.problems} | set(launch_file.extra_roots)
             for found in memo.language(launch_file) if memo is not None else check_language(launch_file):
                 if found.span not in said:
-                    state.problem(found.kind, (Location(path, found.span),), fatal=False, **found.data)
+                    state.problem(found.kind, (launch_file.document.location(found.span),), fatal=False, **found.data)
 
 
 def _too_deep(state: State, scope: Scope, action: Action) -> bool:
@@ -326,7 +326,7 @@ def _passed_args(
         if name in seen and not pass_all:
             state.problem("arg-redeclared", scope.origin(span), name=name, first=seen[name], passed=True)
             continue
-        seen.setdefault(name, Location(scope.file, span))
+        seen.setdefault(name, scope.location(span))
         given = value if value is not None else default
         if given is None:
             if name not in passed:
@@ -335,7 +335,7 @@ def _passed_args(
         elif value is not None or name not in passed:
             passed[name] = ArgValue(given.text if given.known else None, scope.origin(span))
         now = passed.get(name)
-        state.uses.append(Use("argument", Location(scope.file, span), name, now.text if now else None))
+        state.uses.append(Use("argument", scope.location(span), name, now.text if now else None))
     # roslaunch looks at all of them first.
     for name, span in without:
         state.problem("include-arg-no-value", scope.origin(span), name=name)
@@ -416,5 +416,5 @@ def _check_machines(state: State) -> None:
         if node.machine and node.machine not in state.machines and not node.unknowns:
             attribute = node.action.attribute("machine")
             span = attribute.value.span if attribute else node.action.kind_span
-            origin = (*node.origin[:-1], Location(node.location.file, span))
+            origin = (*node.origin[:-1], state.location(node.location.file, span))
             state.problem("machine-undefined", origin, name=node.machine, declared=sorted(state.machines))

@@ -53,7 +53,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
         return
     unknowns = state.unknowns[unknown_before:]
     if not attributes.all_known:
-        unknown = Unknown(f"node {full}", "an attribute of it is not known", Location(scope.file, action.kind_span))
+        unknown = Unknown(f"node {full}", "an attribute of it is not known", scope.location(action.kind_span))
         unknowns.append(unknown)
         state.unknowns.append(unknown)
     origin = scope.origin(action.head_span)
@@ -61,8 +61,8 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
         return
     resolved = state.executables.find(package, executable) if attributes.all_known else Executable(None)
     if resolved.path is not None:
-        target = Location(resolved.path, Span(0, 0))
-        place = Location(scope.file, _span(action, "type"))
+        target = Location.of_file(resolved.path)
+        place = scope.location(_span(action, "type"))
         state.uses.append(Use("executable", place, executable, resolved.path, target))
     state.nodes.append(
         LaunchNode(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import shlex
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.scope import Scope
@@ -40,7 +40,7 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
         return
     name = names.canonicalize(found[0].text)
     name_attribute = action.attribute("name")
-    location = Location(scope.file, name_attribute.value.span) if name_attribute else None
+    location = scope.location(name_attribute.value.span) if name_attribute else None
     full = names.join(node, name.removeprefix("~")) if node is not None else name
     value = _value(state, scope, action, attributes, given[0], full)
     if isinstance(value, _NoValue):
@@ -131,7 +131,7 @@ def report_file(state: State, scope: Scope, action: Action, attribute: str, foun
 def _file_use(scope: Scope, action: Action, attribute: str, path: str) -> Use:
     written = action.attribute(attribute)
     span = written.value.span if written else action.kind_span
-    return Use("file", Location(scope.file, span), path, path, Location(path, Span(0, 0)))
+    return Use("file", scope.location(span), path, path, Location.of_file(path))
 
 
 def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str | None = None) -> None:
@@ -170,12 +170,13 @@ class _YamlText:
 
     text: str
     file: str
+    lines: LineIndex
     start: int | None
 
     def location(self, span: Span) -> Location | None:
         if self.start is None:
             return None
-        return Location(self.file, Span(self.start + span.start, self.start + span.end))
+        return self.lines.location(self.file, Span(self.start + span.start, self.start + span.end))
 
 
 def _yaml_text(state: State, scope: Scope, action: Action, file: str | None, full: str) -> _YamlText | None:
@@ -185,7 +186,7 @@ def _yaml_text(state: State, scope: Scope, action: Action, file: str | None, ful
             return None
         body = action.body
         plain = body.span.end - body.span.start == len(body.text)
-        return _YamlText(body.text, scope.file, body.span.start if plain else None)
+        return _YamlText(body.text, scope.file, scope.lines, body.span.start if plain else None)
     path = os.path.join(state.cwd, file)
     found = state.read_text(path)
     if isinstance(found, Unreadable):
@@ -193,7 +194,7 @@ def _yaml_text(state: State, scope: Scope, action: Action, file: str | None, ful
         state.unknown("<rosparam>", f"the file {path} {found.reason}", scope, action.kind_span, full)
         return None
     state.uses.append(_file_use(scope, action, "file", found.path))
-    return _YamlText(found.text, found.path, 0)
+    return _YamlText(found.text, found.path, found.lines, 0)
 
 
 def _substituted(state: State, scope: Scope, action: Action, text: _YamlText, full: str) -> _YamlText | None:
@@ -202,7 +203,7 @@ def _substituted(state: State, scope: Scope, action: Action, text: _YamlText, fu
     if not result.known:
         state.unknown("<rosparam>", "a substitution in its text is not known", scope, action.kind_span, full)
         return None
-    return _YamlText(result.text, text.file, text.start if result.text == text.text else None)
+    return replace(text, text=result.text, start=text.start if result.text == text.text else None)
 
 
 def _load(

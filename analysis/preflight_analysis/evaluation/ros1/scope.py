@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.names import as_namespace, join
 from preflight_analysis.evaluation.tree import Param, Remap
 
@@ -27,6 +27,8 @@ class Scope:
     """Where a tag is evaluated. `chain` are the include tags that led here, outermost first."""
 
     file: str
+    lines: LineIndex
+    """Those of the file."""
     chain: Origin
     ns: str
     parent: Scope | None = None
@@ -41,9 +43,13 @@ class Scope:
     depth: int = 0
     """How many scopes are around this one."""
 
+    def location(self, span: Span) -> Location:
+        """A place in this scope's file."""
+        return self.lines.location(self.file, span)
+
     def origin(self, span: Span) -> Origin:
         """The origin of a place in this scope's file."""
-        return (*self.chain, Location(self.file, span))
+        return (*self.chain, self.location(span))
 
     def child(self, ns: str | None = None) -> Scope:
         """A scope below this one. Arguments and anonymous names are copied; what is set inside stays inside.
@@ -53,6 +59,7 @@ class Scope:
         """
         return Scope(
             self.file,
+            self.lines,
             self.chain,
             as_namespace(join(self.ns, ns) if ns else self.ns),
             self,

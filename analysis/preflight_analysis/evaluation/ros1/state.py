@@ -134,7 +134,7 @@ class State(Collector):
 
     def unknown(self, what: str, reason: str, scope: Scope, span: Span, param: str | None = None) -> None:
         """Note a value that cannot be known, of the parameter `param` if it is one's."""
-        self.note_unknown(what, reason, Location(scope.file, span), param)
+        self.note_unknown(what, reason, scope.location(span), param)
 
     def anonymous_name(self, identifier: str) -> str:
         """As for any launch; what depends on the count is not remembered for another place."""

@@ -69,7 +69,7 @@ def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) ->
         found = _finds(state, scope, value, text, at)
         text, known = found.text, known and found.known
     if at is None:
-        state.uses.append(Use("value", Location(scope.file, value.span), value.text, text if known else None))
+        state.uses.append(Use("value", scope.location(value.span), value.text, text if known else None))
     return Resolved(text, known)
 
 
@@ -94,7 +94,7 @@ def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: 
         text = None
     if record:
         name = words[0] if words and part.command != "eval" else part.arguments
-        state.uses.append(Use(part.command, Location(scope.file, span), name, text, target, origin))
+        state.uses.append(Use(part.command, scope.location(span), name, text, target, origin))
     return text
 
 
@@ -227,8 +227,8 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
         text = _insert_package(state, text, piece, words[1], share)
         if part is not None and at is None:
             manifest = state.environment.packages[words[1]].manifest
-            target = Location(manifest, Span(0, 0))
-            state.uses.append(Use("find", Location(scope.file, span), words[1], share, target))
+            target = Location.of_file(manifest)
+            state.uses.append(Use("find", scope.location(span), words[1], share, target))
     return Resolved(text, known)
 
 

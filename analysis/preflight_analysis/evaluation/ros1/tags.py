@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, positive_number
@@ -33,7 +32,7 @@ def evaluate_remap(state: State, scope: Scope, action: Action, *, inside_node: b
             reason = "a name is a letter, ~ or /, then letters, digits, _ and /" if end else "it is empty"
             state.problem("invalid-name", scope.origin(span), what="remap", name=end, reason=reason)
             return None
-    source, target = (Location(scope.file, span) for span in places)
+    source, target = (scope.location(span) for span in places)
     return Remap(ends[0], ends[1], scope.origin(action.head_span), source, target, inside_node)
 
 
@@ -66,7 +65,7 @@ def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
     attributes.get("doc")
     name_attribute = action.attribute("name")
     span = name_attribute.value.span if name_attribute else action.kind_span
-    location = Location(scope.file, span)
+    location = scope.location(span)
     if value is not None and default is not None:
         state.problem("attributes-exclude", scope.origin(action.kind_span), tag="arg", names=["value", "default"])
         default = None
@@ -169,5 +168,5 @@ def clear_params(
     state.clear_params.append(cleared)
     attribute = action.attribute("clear_params")
     if attribute is not None and attributes.all_known:
-        place, origin = Location(scope.file, attribute.span), scope.origin(action.head_span)
+        place, origin = scope.location(attribute.span), scope.origin(action.head_span)
         state.uses.append(Use("clear_params", place, attribute.value.text, cleared, origin=origin))

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.launch.python_source import PythonSource
 
@@ -139,12 +139,18 @@ class Place:
     """The launch file that is evaluated, and the include tags that led to it, outermost first."""
 
     file: str
+    lines: LineIndex
+    """Those of the file."""
     chain: Origin
     run: PythonRun | None = None
     """Where the file is a Python program: the run that told its actions."""
     partial: bool = False
     """Whether it is one that was not run: only what is written out is known of it."""
 
+    def location(self, span: Span) -> Location:
+        """A place in the file."""
+        return self.lines.location(self.file, span)
+
     def origin(self, span: Span) -> Origin:
         """The origin of a place in the file."""
-        return (*self.chain, Location(self.file, span))
+        return (*self.chain, self.location(span))

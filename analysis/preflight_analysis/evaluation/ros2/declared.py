@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.launch.model import Action, LaunchFile
 
 MAX_FILES = 500
@@ -18,8 +18,8 @@ PASSED = {"include": "arg", "inline": "arg_passed"}
 """Actions that pass arguments on, with the kind of child that does. An `inline` is a launch description by itself, in
 which an `arg` declares one."""
 
-Included = Callable[[str, Action], LaunchFile | None]
-"""The file that an include of a launch file (by path) leads to without any configuration."""
+Included = Callable[[LaunchFile, Action], LaunchFile | None]
+"""The file that an include of a launch file leads to without any configuration."""
 
 
 @dataclass(slots=True)
@@ -29,8 +29,7 @@ class Declared:
     file itself."""
 
     name: str
-    file: str
-    span: Span
+    location: Location
     include: Location | None
     passed: list[str] = field(default_factory=list)
 
@@ -40,7 +39,7 @@ def required_arguments(launch_file: LaunchFile, included: Included) -> list[Decl
     is not required."""
     reader = _Reader(included)
     if launch_file.root is not None:
-        reader.read(launch_file.path, launch_file.root.children, None)
+        reader.read(launch_file, launch_file.root.children, None)
     ways = {id(includes): includes for _, includes in reader.found if includes}
     passed = {way: [name for include in includes for name in passed_names(include)] for way, includes in ways.items()}
     for declared, includes in reader.found:
@@ -62,7 +61,7 @@ class _Reader:
         self.found: list[tuple[Declared, list[Action] | None]] = []
 
     def read(
-        self, file: str, actions: Iterable[Action], includes: list[Action] | None, *, conditional: bool = False
+        self, file: LaunchFile, actions: Iterable[Action], includes: list[Action] | None, *, conditional: bool = False
     ) -> None:
         """As launch goes through them: the list of includes is shared between siblings below an include."""
         for action in actions:
@@ -82,7 +81,7 @@ class _Reader:
                 if action.kind == "include":
                     self._files.pop()
 
-    def _declare(self, file: str, action: Action, conditional: bool, includes: list[Action] | None) -> None:
+    def _declare(self, file: LaunchFile, action: Action, conditional: bool, includes: list[Action] | None) -> None:
         value = action.value("name")
         if value is None or value.text in self._names:
             return
@@ -90,9 +89,9 @@ class _Reader:
         if conditional or any(action.attribute(name) is not None for name in ("default", "if", "unless")):
             return
         include = self._files[-1][1] if self._files else None
-        self.found.append((Declared(value.text, file, action.head_span, include), includes))
+        self.found.append((Declared(value.text, file.document.location(action.head_span), include), includes))
 
-    def _sub(self, file: str, action: Action) -> list[tuple[str, tuple[Action, ...]]]:
+    def _sub(self, file: LaunchFile, action: Action) -> list[tuple[LaunchFile, tuple[Action, ...]]]:
         if action.kind == "group":
             forwarding = action.value("forwarding")
             if forwarding is not None and forwarding.text.lower() in ("false", "0"):
@@ -108,6 +107,6 @@ class _Reader:
                 return []
             attribute = action.attribute("file")
             span = attribute.value.span if attribute is not None else action.kind_span
-            self._files.append((found.path, Location(file, span)))
-            return [(found.path, found.root.children)]
+            self._files.append((found.path, file.document.location(span)))
+            return [(found, found.root.children)]
         return []

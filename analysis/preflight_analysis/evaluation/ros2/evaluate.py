@@ -113,7 +113,7 @@ class _Walk:
 
     def root(self, path: str, args: Mapping[str, str]) -> None:
         """The root file, then what waits for timers."""
-        whole = (Location(path, Span(0, 0)),)
+        whole = (Location.of_file(path),)
         found = self._state.read_launch_file(path)
         if isinstance(found, Unreadable):
             kind = "file-not-text" if found.kind == "not-text" else "file-unreadable"
@@ -122,7 +122,7 @@ class _Walk:
         self._context.launch_file = path
         found, run = self._as_run(found, ())
         self._required_arguments(found, sorted(args), None)
-        self._file(Place(path, (), run, found.partial), found)
+        self._file(Place(path, found.document.lines, (), run, found.partial), found)
         if (asked_for := self._names[-1]) is not None:
             report_undeclared(self._state, found, args, asked_for | IMPLICIT)
         self._root_args(found)
@@ -139,7 +139,8 @@ class _Walk:
             if not node.named or node.unknowns:
                 continue
             value = node.action.value("name")
-            place = Location(node.location.file, value.span if value is not None else node.action.kind_span)
+            span = value.span if value is not None else node.action.kind_span
+            place = self._state.location(node.location.file, span)
             if node.name in first:
                 origin = (*node.origin[:-1], place)
                 self._state.problem("duplicate-node", origin, fatal=False, name=node.name, first=first[node.name])
@@ -152,7 +153,7 @@ class _Walk:
         for missing in self._missing_below:
             if missing.include is not None and (missing.include, missing.name) not in said:
                 said.add((missing.include, missing.name))
-                data = {"name": missing.name, "file": missing.file, "passed": missing.passed}
+                data = {"name": missing.name, "file": missing.location.file, "passed": missing.passed}
                 self._state.problems.append(Problem("arg-required", (missing.include,), data, True))
 
     def _root_args(self, launch_file: LaunchFile) -> None:
@@ -170,7 +171,7 @@ class _Walk:
             state.problem(kind, place.origin(problem.span), message=problem.message)
         for name, span in document.entities:
             state.problem("xml-entity", place.origin(span), fatal=False, name=name)
-            state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", Location(place.file, span))
+            state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", place.location(span))
         if not place.file.endswith(PYTHON_SUFFIX):
             for found in (*check_language_ros2(launch_file), *check_values_ros2(launch_file)):
                 if found.kind != "unknown-element" or not self._is_extension(place, found):
@@ -211,7 +212,7 @@ class _Walk:
             execute = _EXECUTE.get(action.kind)
             if execute is None:
                 if action.kind not in MEANS_NOTHING and place.run is not None:
-                    at = Location(place.file, action.head_span)
+                    at = place.location(action.head_span)
                     self._state.note_unknown(action.kind, "what it does is not known", at)
                 continue
             if applies(performer, action):
@@ -241,7 +242,7 @@ class _Walk:
         default = action.value("default")
         given = self._context.get(name)
         origin = place.origin(action.head_span)
-        location = Location(place.file, name_value.span)
+        location = place.location(name_value.span)
         if given is None:
             if default is not None:
                 self._context.set(name, performer.value(default), place.origin(default.span))
@@ -276,7 +277,7 @@ class _Walk:
         if name is not None and value is not None:
             result, set_name = performer.value(value), performer.value(name).text
             self._context.set(set_name, result, performer.place.origin(action.head_span))
-            location = Location(performer.place.file, name.span)
+            location = performer.place.location(name.span)
             shown = result.text if result.known else None
             self._state.uses.append(Use("declaration", location, set_name, shown))
             self._context.declared[location.file, set_name] = location
@@ -311,7 +312,7 @@ class _Walk:
             return
         file = performer.value(attribute.value)
         origin = place.origin(action.head_span)
-        at = Location(place.file, attribute.value.span)
+        at = place.location(attribute.value.span)
         passed = self._passed(performer, action)
         if not file.known:
             self._names[-1] = None
@@ -324,7 +325,7 @@ class _Walk:
         shown: dict[str, str | None] = {}
         include = Include(path, origin, at, shown, len(state.nodes))
         state.includes.append(include)
-        state.uses.append(Use("include", at, file.text, path, Location(path, Span(0, 0))))
+        state.uses.append(Use("include", at, file.text, path, Location.of_file(path)))
         if self._too_deep(place, action):
             return
         found = self._read(place, path, at)
@@ -334,7 +335,7 @@ class _Walk:
             return
         self._context.launch_file = path
         found, run = self._as_run(found, origin)
-        self._required_arguments(found, [name for name, _ in passed], place.origin(at.span))
+        self._required_arguments(found, [name for name, _ in passed], (*place.chain, at))
         for name, child in passed:
             value = child.value("value")
             result = performer.value(value) if value is not None else Resolved("", False)
@@ -342,7 +343,7 @@ class _Walk:
             self._context.set(name, result, place.origin(value.span if value is not None else child.kind_span))
         self._depth += 1
         self._names.append(set())
-        self._file(Place(path, origin, run, found.partial), found)
+        self._file(Place(path, found.document.lines, origin, run, found.partial), found)
         if found.partial or found.document.problems:
             self._context.cannot_follow(at)
         below = self._names.pop()
@@ -380,12 +381,12 @@ class _Walk:
             if child.kind == PASSED[action.kind] and name is not None:
                 text = performer.value(name).text
                 found.append((text, child))
-                self._state.uses.append(Use("argument", Location(performer.place.file, name.span), text, text))
+                self._state.uses.append(Use("argument", performer.place.location(name.span), text, text))
         return found
 
     def _read(self, place: Place, path: str, at: Location) -> LaunchFile | None:
         """The included file; what is wrong with it is noted."""
-        state, origin = self._state, place.origin(at.span)
+        state, origin = self._state, (*place.chain, at)
         chain = [location.file for location in place.chain]
         if path in (place.file, *chain):
             state.problem("include-cycle", origin, path=path, chain=[*chain, place.file])
@@ -409,9 +410,9 @@ class _Walk:
             return None
         names = sorted(set(_FILLED_IN.findall(template.text)))
         if names:
-            at = Location(path + ".in", Span(0, 0))
+            at = Location.of_file(path + ".in")
             self._state.note_unknown(", ".join(names), "the build fills it in", at)
-        return read_launch(Text(path, _FILLED_IN.sub("0", template.text), template.digest), 2)
+        return read_launch(Text.of(path, _FILLED_IN.sub("0", template.text)), 2)
 
     def _required_arguments(self, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
         """Before it executes a file launch looks whether each required argument is passed by the include itself:
@@ -426,12 +427,12 @@ class _Walk:
             if declared.include is not None:
                 self._missing_below.append(declared)
             elif include is None:
-                origin = (Location(declared.file, declared.span),)
-                self._state.problem("root-arg-required", origin, name=declared.name)
+                self._state.problem("root-arg-required", (declared.location,), name=declared.name)
             else:
-                self._state.problem("arg-required", include, name=declared.name, file=declared.file, passed=passed)
+                file = declared.location.file
+                self._state.problem("arg-required", include, name=declared.name, file=file, passed=passed)
 
-    def _included_without_context(self, file: str, action: Action) -> LaunchFile | None:
+    def _included_without_context(self, file: LaunchFile, action: Action) -> LaunchFile | None:
         value = action.value("file")
         if value is None or value.problem is not None:
             return None
@@ -441,7 +442,7 @@ class _Walk:
             2, self._state.files, self._state.executables, self._state.environment, self._state.cwd, self._state.results
         )
         empty = Context(self._state.environment.variables)
-        result = Performer(quiet, empty, Place(file, ())).value(value)
+        result = Performer(quiet, empty, Place(file.path, file.document.lines, ())).value(value)
         if not result.known:
             return None
         path = os.path.normpath(os.path.join(self._state.cwd, result.text))
@@ -451,7 +452,7 @@ class _Walk:
         if found.path.endswith(PYTHON_SUFFIX):
             # Whether it is executed at all is not known yet: launch keeps to itself what it raises now.
             quiet.commands, quiet.inputs = self._state.commands, self._state.inputs
-            found, _ = recorded(quiet, self._context, found, (Location(file, value.span),))
+            found, _ = recorded(quiet, self._context, found, (file.document.location(value.span),))
         return None if found.partial else found
 
     def _too_deep(self, place: Place, action: Action) -> bool:
@@ -461,7 +462,7 @@ class _Walk:
             self._exhausted = True
             limit = f"{MAX_DEPTH} levels" if self._depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"
             self._state.problem("nested-too-deeply", place.origin(action.kind_span), fatal=False, limit=limit)
-            at = Location(place.file, action.kind_span)
+            at = place.location(action.kind_span)
             self._state.note_unknown(f"<{action.kind}>", f"there are more than {limit}", at)
         return True
 
@@ -627,13 +628,13 @@ class _Walk:
         self._depth -= 1
 
     def _coroutine(self, performer: Performer, action: Action) -> None:
-        at = Location(performer.place.file, action.head_span)
+        at = performer.place.location(action.head_span)
         self._state.note_unknown("OpaqueCoroutine", "what it does is known only when it is launched", at)
 
     def _handler(self, performer: Performer, action: Action) -> None:
         """`RegisterEventHandler`."""
         if any(child.kind == "function" for child in action.children):
-            at = Location(performer.place.file, action.head_span)
+            at = performer.place.location(action.head_span)
             self._state.note_unknown("an event handler", "what its function does depends on the event", at)
         self._events.register(performer.place, action)
 
@@ -781,7 +782,7 @@ def _condition(performer: Performer, action: Action, attribute: ActionAttribute,
     result = performer.value(attribute.value)
     span = attribute.value.span
     if not result.known:
-        at = Location(performer.place.file, span)
+        at = performer.place.location(span)
         performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
         if action.kind in _MAY_SET:
             performer.context.cannot_follow(at)

@@ -106,9 +106,9 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     arguments = _words(performer, action, "args")
     resolved = state.executables.find(package, exec_name) if package else Executable(_plain_executable(exec_name))
     place_of_name = name_value.span if name_value is not None else action.kind_span
-    state.uses.append(Use("node", Location(place.file, place_of_name), full, full))
-    target = Location(resolved.path, Span(0, 0)) if resolved.path is not None else None
-    state.uses.append(Use("executable", Location(place.file, executable.span), exec_name, resolved.path, target))
+    state.uses.append(Use("node", place.location(place_of_name), full, full))
+    target = Location.of_file(resolved.path) if resolved.path is not None else None
+    state.uses.append(Use("executable", place.location(executable.span), exec_name, resolved.path, target))
     state.nodes.append(
         LaunchNode(
             full,
@@ -252,8 +252,8 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
             if result.known:
                 path = located(performer.state.environment, os.path.join(performer.state.cwd, result.text))
                 at = performer.place.origin(file.span)
-                location, target = Location(performer.place.file, file.span), without_dots(path) or path
-                performer.state.uses.append(Use("file", location, result.text, target, Location(target, Span(0, 0))))
+                location, target = performer.place.location(file.span), without_dots(path) or path
+                performer.state.uses.append(Use("file", location, result.text, target, Location.of_file(target)))
                 substitute = allows_substitutions(performer, child)
                 empty = _why_empty(file) if not result.text else None
                 to.add(file_source(performer, path, at, to, substitute=substitute, must_exist=must_exist, empty=empty))
@@ -281,7 +281,7 @@ def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:
             continue
         found, given = performer.value(source), performer.value(target)
         origin = place.origin(child.head_span)
-        at = Location(place.file, source.span), Location(place.file, target.span)
+        at = place.location(source.span), place.location(target.span)
         remaps.append(Remap(found.text, given.text, origin, *at, True))
     return remaps
 

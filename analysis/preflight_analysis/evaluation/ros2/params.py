@@ -9,7 +9,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.files import without_dots
@@ -90,7 +90,7 @@ def tag_params(performer: Performer, action: Action, node: str, prefix: str = ""
     result = param_value(performer, action, value, type_name)
     if result is _UNKNOWN:
         return []
-    name_location = Location(place.file, name_value.span)
+    name_location = place.location(name_value.span)
     return [Param(prefix + name.text, result, place.origin(action.head_span), node, name_location)]
 
 
@@ -178,10 +178,11 @@ def file_source(
     file = read_param_file(text)
     if file.problem is not None:
         message, span = file.problem
-        at = origin if path in state.made else (*origin, Location(path, span))
+        at = origin if path in state.made else (*origin, found.lines.location(path, span))
         fatal = to.composable or substitute
         state.problem("bad-yaml", at, fatal=fatal, message=message, path=path)
-    return _of_file(file, text, path, origin, to, substituted=substitute, gone=path in state.made)
+    lines = None if substitute else found.lines
+    return _of_file(file, text, path, lines, origin, to, gone=path in state.made)
 
 
 def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:
@@ -218,16 +219,24 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
             to.add(source)
         else:
             file = read_param_file(document.text)
-            to.add(_of_file(file, document.text, source.path, source.origin, to, substituted=False))
+            to.add(_of_file(file, document.text, source.path, document.lines, source.origin, to))
     return node._replace(
         name=name, told=True, name_inferred=inferred, params=to.effective(), param_sources=tuple(to.found)
     )
 
 
 def _of_file(
-    file: ParamFile, text: str, path: str, origin: Origin, to: Sources, *, substituted: bool, gone: bool = False
+    file: ParamFile,
+    text: str,
+    path: str,
+    lines: LineIndex | None,
+    origin: Origin,
+    to: Sources,
+    *,
+    gone: bool = False,
 ) -> ParamSource:
-    """What of a file reaches a node. `gone`: a run of a launch file wrote it, so there is no place in it to show."""
+    """What of a file reaches a node. `lines` are those of the file, None where its substitutions were made. `gone`:
+    a run of a launch file wrote it, so there is no place in it to show."""
     reaching = file.reaching(to.node, composable=to.composable)
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
@@ -236,13 +245,13 @@ def _of_file(
     params, keys = [], []
     for section in reaching:
         for param in section.params:
-            place = Location(path, Span(0, 0) if substituted else param.name_span)
+            place = lines.location(path, param.name_span) if lines is not None else Location.of_file(path)
             value = param.by_launch if to.composable else param.value
             by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
             way, name_place = (origin, None) if gone else ((*origin, place), place)
             params.append(Param(param.name, value, way, to.owner, name_place, by_launch=by_launch))
             keys.append(section.key)
-    return ParamSource(path, tuple(params), origin, tuple(keys), substituted)
+    return ParamSource(path, tuple(params), origin, tuple(keys), lines is None)
 
 
 def _flat(text: str, span: Span) -> tuple[int, ...]:

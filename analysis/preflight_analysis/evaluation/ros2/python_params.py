@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
@@ -30,7 +29,7 @@ def dict_params(performer: Performer, action: Action, node: str) -> list[Param]:
         name = performer.value(name_value)
         known, value = python_value(performer, child)
         if known and name.known:
-            location = Location(performer.place.file, name_value.span)
+            location = performer.place.location(name_value.span)
             found.append(Param(name.text, value, performer.place.origin(child.head_span), node, location))
     return found
 

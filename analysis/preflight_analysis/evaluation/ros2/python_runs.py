@@ -90,10 +90,11 @@ def recorded(
     given = _given(document.text, context.initial_environment)
     run = PythonRun(launch_file.path, document.text, _variables(context), (), _source(document.text), given=given)
     run = replace(run, packages=state.environment.meant)
-    place, unknowns, problems = Place(launch_file.path, chain, run), len(state.unknowns), len(state.problems)
+    place = Place(launch_file.path, document.lines, chain, run)
+    unknowns, problems = len(state.unknowns), len(state.problems)
     told = None
     if document.problems:
-        at = Location(launch_file.path, document.problems[0].span)
+        at = launch_file.document.location(document.problems[0].span)
         state.note_unknown(launch_file.path, "it cannot be run as it is", at)
     else:
         told = _ask(state, place, run, place.origin(whole), sure=True)
@@ -144,7 +145,7 @@ def called(
     """What a function, substitution or condition of the file's own gives; None if that is not known. `what` is
     `execute` or `perform`."""
     if place.run is None or not number.isdigit():
-        state.note_unknown(name, "the launch file was not run", Location(place.file, at))
+        state.note_unknown(name, "the launch file was not run", place.location(at))
         return None
     configurations, complete = _configurations(context)
     call = {
@@ -302,7 +303,7 @@ def _raised(
         state.problem("python-import", origin, fatal=False, module=module, message=message)
     else:
         behind = [(file, line) for file, line in own if file.startswith("/") and file not in state.made]
-        places = tuple(_frame(state, run, file, line) for file, line in behind)
+        places = tuple(_frame(state, place, run, file, line) for file, line in behind)
         if name == "AssertionError" and not message and behind:
             message = _asserted(state, run, *behind[-1])
         state.problem("python-exception", origin, error=name, message=message, frames=places)
@@ -314,12 +315,12 @@ def _variable(run: PythonRun, line: int, message: str) -> str | None:
     return next((n for n in _ENVIRON.findall(run.text[span.start : span.end]) if f"'{n}'" == message), None)
 
 
-def _frame(state: Collector, run: PythonRun, file: str, line: int) -> Location:
+def _frame(state: Collector, place: Place, run: PythonRun, file: str, line: int) -> Location:
     """A line of the file or of one that it uses."""
     if file == run.file:
-        return Location(file, run.source.line_span(line))
+        return place.location(run.source.line_span(line))
     found = state.read_text(file)
-    return Location(file, found.lines.line_span(line - 1) if isinstance(found, Document) else Span(0, 0))
+    return found.location(found.lines.line_span(line - 1)) if isinstance(found, Document) else Location.of_file(file)
 
 
 def _asserted(state: Collector, run: PythonRun, file: str, line: int) -> str:

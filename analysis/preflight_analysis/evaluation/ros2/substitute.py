@@ -11,7 +11,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation import expression
@@ -53,7 +53,7 @@ class Performer:
         result = self.parts(value.parts)
         if not value.is_literal:
             text = result.text if result.known else None
-            self.state.uses.append(Use("value", Location(self.place.file, value.span), value.text, text))
+            self.state.uses.append(Use("value", self.place.location(value.span), value.text, text))
         return result
 
     def parts(self, parts: Parts) -> Resolved:
@@ -101,9 +101,9 @@ class Performer:
             target = self.context.declared.get((self.place.file, name), origin[-1] if origin else None)
         elif part.command == "find-pkg-share" and text is not None:
             manifest = self.state.environment.packages[self._word(part, 0)].manifest
-            target = Location(manifest, Span(0, 0))
+            target = Location.of_file(manifest)
         kind = {"var": "arg", "find-pkg-share": "find"}.get(part.command, part.command)
-        self.state.uses.append(Use(kind, Location(self.place.file, part.span), name, text, target, origin))
+        self.state.uses.append(Use(kind, self.place.location(part.span), name, text, target, origin))
         return text
 
     # What a substitution's `perform` does
@@ -169,7 +169,7 @@ class Performer:
         return found
 
     def _at(self, part: Substitution) -> Location:
-        return Location(self.place.file, part.span)
+        return self.place.location(part.span)
 
     def _eval(self, part: Substitution) -> str:
         text, distro = self._word(part, 0), self.state.environment.distro

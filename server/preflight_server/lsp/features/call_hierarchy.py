@@ -40,7 +40,7 @@ async def _calls(
 
     def work() -> list[tuple[types.CallHierarchyItem, list[types.Range]]]:
         found = query(scene)
-        heads = (Location(call.item.path, call.item.head) for call in found)
+        heads = (Location.of_file(call.item.path) for call in found)
         converter = converter_for(ls, scene, (*heads, *(place for call in found for place in call.places)))
         return [(_item(converter, call.item), [converter.range(place) for place in call.places]) for call in found]
 
@@ -61,7 +61,7 @@ def register(server: PreflightServer) -> None:
 
         def work() -> list[types.CallHierarchyItem]:
             found = items_at(scene, offset)
-            converter = converter_for(ls, scene, (Location(item.path, item.head) for item in found))
+            converter = converter_for(ls, scene, (Location.of_file(item.path) for item in found))
             return [_item(converter, item) for item in found]
 
         return await view.session.in_pool(work)
