@@ -21,7 +21,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import lsp_desk
@@ -294,11 +294,13 @@ def _interface(node: LaunchNode) -> Interface:
 
 
 def _state(analysis: Analysis, whole: Analysis) -> dict[str, str]:
-    """All of an analysis as text: unlike an equality that tells 1 from 1.0 and one order from another."""
+    """All of an analysis as text: unlike an equality that tells 1 from 1.0 and one order from another, and has
+    locations by their spans: no line is one of another workspace's."""
+    inputs = {path: version.partition(".")[0] for path, version in analysis.tree.inputs.items()}
     documents = {path: (type(d).__name__, d.digest) for path, d in analysis.documents.items()}
     graph = whole.graph
     return {
-        "tree": repr(analysis.tree),
+        "tree": repr(replace(analysis.tree, inputs=inputs)),
         "findings": repr(analysis.findings),
         "documents": repr((documents, list(analysis.launch_files))),
         "graph": repr((graph.topics, graph.services, graph.param_reads) if graph is not None else None),

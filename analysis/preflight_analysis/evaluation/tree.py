@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.commands import CommandResult
@@ -54,6 +55,7 @@ class Unknown:
     the nodes to come."""
 
 
+@exact("value", "by_launch")
 class Param(NamedTuple):
     """One parameter as it would be set. `name` is the full name; `overrides` are the
     earlier settings that it replaced, without those that they replaced."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from preflight_analysis.documents.document import Document, SpannedText
+from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Span
 
 
@@ -36,6 +37,7 @@ class Substitution(NamedTuple):
     words: tuple[tuple[Literal | Substitution, ...], ...] = ()
 
 
+@exact("value")
 class Typed(NamedTuple):
     """What a value that is no text stands for: a bool, int, float, list or None of a YAML file."""
 

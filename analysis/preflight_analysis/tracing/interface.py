@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
+from preflight_analysis.documents.exact import exact
 from preflight_analysis.evaluation import names
 
 Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
@@ -84,6 +85,7 @@ class Range:
         return f"{text} in steps of {self.step}" if self.step else text
 
 
+@exact("default")
 @dataclass(frozen=True, slots=True)
 class ParamUse:
     """A parameter call of the node. `name` as the node gave it; `access` is `get`, `has`, `set`, `delete`, `search`

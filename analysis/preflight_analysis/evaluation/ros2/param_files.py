@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
+from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
@@ -29,6 +30,7 @@ _MAX_WILDCARDS = 3
 """In one key. What has more fits nothing: going through all ways to fit it would take for ever."""
 
 
+@exact("value", "by_launch")
 class FileParam(NamedTuple):
     """One parameter of a section, its name as the node declares it (`a.b`). `value` is what rcl makes of it,
     `by_launch` what PyYAML does, by which launch reads the file for a composable node."""
