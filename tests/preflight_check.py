@@ -138,9 +138,10 @@ def analyse(
     args: Mapping[str, str] | None = None,
     why_not_run: str | None = None,
     external: Sequence[str] = (),
+    sources: Sources | None = None,
 ) -> Context:
-    """What the rules get to see of a fixture."""
-    sources = Sources()
+    """What the rules get to see of a fixture. `sources` are those of fixtures before, whose files it replaces."""
+    sources = sources or Sources()
     for path, text in fixture.files.items():
         sources.open(path, text)
     environment = environment_of(fixture)

@@ -57,12 +57,13 @@ class AtCursor:
         return self.document.text[span.start : span.end]
 
 
-def at_cursor(text: str, variables: Mapping[str, str] | None = None) -> AtCursor:
-    """The first file of the fixture is the root; without a `$0` the cursor is at its start."""
+def at_cursor(text: str, variables: Mapping[str, str] | None = None, sources: Sources | None = None) -> AtCursor:
+    """The first file of the fixture is the root; without a `$0` the cursor is at its start. `sources` are those of
+    fixtures before this one, whose files it replaces."""
     fixture = read_fixture(text)
     file = next((path for path, content in fixture.files.items() if CURSOR in content), fixture.root)
     offset = max(0, fixture.files[file].find(CURSOR))
-    sources = Sources()
+    sources = sources or Sources()
     for path, content in fixture.files.items():
         sources.open(path, content.replace(CURSOR, ""))
     environment = replace(environment_of(fixture), variables=variables or {}, workspace="/")

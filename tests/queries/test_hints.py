@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.queries.hints import Hint, hints
+from preflight_analysis.workspace.sources import Sources
 from query_desk import at_cursor
 
 
@@ -59,8 +60,10 @@ def test_several_contexts_show_the_first_value_and_say_so() -> None:
 def test_values_of_other_roots_count_as_long_as_the_text_is_the_same() -> None:
     inner = "//- /p/inner.launch\n<launch><arg name='rate'/>{}<param name='x' value='$(arg rate)'/>$0</launch>"
     root = "<launch><include file='/p/inner.launch'><arg name='rate' value='{}'/></include></launch>\n"
-    one, two, old = (
-        at_cursor(root.format(rate) + inner.format(extra)) for rate, extra in ((1, ""), (2, ""), (3, "<group/>"))
+    sources = Sources()
+    old, one, two = (
+        at_cursor(root.format(rate) + inner.format(extra), sources=sources)
+        for rate, extra in ((3, "<group/>"), (1, ""), (2, ""))
     )
     whole = Span(0, len(one.document.text))
     (found,) = hints([one.analysis, two.analysis, old.analysis], one.file, whole)

@@ -7,6 +7,7 @@ from places import location
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.registry import all_rules, unique
+from preflight_analysis.workspace.sources import Sources
 from preflight_check import findings_of
 
 FILES = """
@@ -74,12 +75,12 @@ def test_a_file_that_is_included_twice_shows_its_error_once(rule: str, body: str
 
 @pytest.mark.parametrize(("rule", "body"), BODIES)
 def test_a_file_that_two_roots_include_shows_its_error_once(rule: str, body: str) -> None:
-    reports = []
+    reports, sources = [], Sources()
     for root, identifier in (("/one.launch", "1"), ("/two.launch", "2")):
         text = f"""
         //- {root}
         <launch><include file="/inc.launch"><arg name="id" value="{identifier}"/></include></launch>"""
-        found = findings_of(text + FILES.replace("BODY", body))
+        found = findings_of(text + FILES.replace("BODY", body), sources=sources)
         reports.append(RootFindings(root, frozenset((root, "/inc.launch")), tuple(found)))
     files = by_file(reports, frozenset(each.id for each in all_rules() if each.every_root))
     (finding,) = [finding for found in files.values() for finding in found]
