@@ -40,6 +40,7 @@ class Twice:
         common = (str(path), {}, self.sources, self._executables, self._environment, self._cwd)
         without, remembered = evaluate(*common), evaluate(*common, memo=self._memo)
         assert remembered == without
+        self.remembered = remembered
         return without
 
 
@@ -118,3 +119,17 @@ def test_a_changed_file_below_is_seen(tmp_path: Path) -> None:
     assert "/rate" in twice.tree(root).params
     twice.sources.open(str(inner), INCLUDED.replace("rate", "pace"))
     assert "/pace" in twice.tree(root).params
+
+
+def test_what_only_moved_is_not_evaluated_again(tmp_path: Path) -> None:
+    inner, root = tmp_path / "inner.launch", tmp_path / "root.launch"
+    inner.write_text(INCLUDED)
+    include = f'<include file="{inner}">\n<arg name="speed" value="$(arg a)"/>\n</include>'
+    text = f'<launch>\n<arg name="a" default="3"/>\n{include}\n</launch>'
+    twice = Twice(tmp_path)
+    nodes = []
+    for above in ("", "\n", "<!-- a comment -->\n\n", ""):
+        twice.sources.open(str(root), above + text)
+        twice.tree(root)
+        nodes.append(twice.remembered.nodes[0])
+    assert all(node is nodes[0] for node in nodes)

@@ -52,6 +52,18 @@ def test_what_is_wrong_in_it_is_a_finding_at_its_place(tmp_path: Path) -> None:
     assert ("is not a text file" in message, text) == (True, "")
 
 
+def test_what_several_roots_say_of_it_is_said_of_one_place(tmp_path: Path) -> None:
+    (tmp_path / ".ros-preflight.yaml").write_text("roots: 1\n")
+    workspace = Workspace(Environment(1, "noetic", {}, (), {}, {}, (), (), None, str(tmp_path)), Sources())
+    places = []
+    for name in ("a.launch", "b.launch"):
+        (tmp_path / name).write_text("<launch/>")
+        analysis = workspace.with_interfaces(workspace.static(str(tmp_path / name)), [], None)
+        places += [finding.location for finding in analysis.findings]
+    assert len(places) == 2
+    assert len(set(places)) == 1
+
+
 def test_a_settings_file_that_is_understood_is_no_finding(tmp_path: Path) -> None:
     assert settings_findings(tmp_path, GOOD) == []
     assert settings_findings(tmp_path, "") == []

@@ -23,6 +23,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import yaml
 
@@ -139,7 +140,7 @@ def located_problems(settings: ProjectSettings) -> tuple[Document | None, tuple[
     if settings.path is None or not settings.problems:
         return None, ()
     text = settings.text
-    document = Document(settings.path, text, digest(text), (), (), LineIndex(text))
+    document = _document(settings.path, text)
     found = []
     for problem in settings.problems:
         start, end = document.lines.line_span(problem.line - 1)
@@ -147,6 +148,12 @@ def located_problems(settings: ProjectSettings) -> tuple[Document | None, tuple[
         start += len(line) - len(line.lstrip())
         found.append((problem.message, document.location(Span(start, max(start, start + len(line.strip()))))))
     return document, tuple(found)
+
+
+@lru_cache(maxsize=16)
+def _document(path: str, text: str) -> Document:
+    """One document for one text: what several roots say of a place in it is said of the same place."""
+    return Document(path, text, digest(text), (), (), LineIndex(text))
 
 
 def from_settings(

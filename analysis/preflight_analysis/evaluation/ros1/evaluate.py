@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
-from preflight_analysis.evaluation.ros1.memo import Memo, arg_origins, key_of
+from preflight_analysis.evaluation.ros1.memo import Memo, key_of
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
@@ -241,13 +241,13 @@ def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default
     memo, key = state.memo, key_of(inside, default_machine)
     if memo is None or key is None:
         return _file(state, inside, launch_file, default_machine)
-    record = memo.get(key, inside, state.is_current)
+    record = memo.get(key, state.is_current)
     anonymous = state.anonymous_names
     if record is None:
-        inner, given = state.inner(), arg_origins(inside)
+        inner = state.inner()
         below = inside.copy()
         after = _file(inner, below, launch_file, default_machine)
-        record = inner.record(below, given, after)
+        record = inner.record(below, after)
         if inner.depends_on_outside or inner.exhausted:
             state.depends_on_outside = True
         else:

@@ -2,17 +2,17 @@
 
 What an included file adds to a launch depends on what is passed to it (arguments, namespace, remaps, environment), on
 the files read below it, and on nothing else, but for a few tags (`State.depends_on_outside`); such includes are not
-remembered. Places in the files above are part of the result too, the include chain in each origin: where only those
-have moved, because text was inserted above the tag, they are replaced.
+remembered. Places in the files above are part of the result too, the include chain in each origin; they are the same
+where only text above the tag has changed.
 """
 
 from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
     Command,
@@ -21,7 +21,6 @@ from preflight_analysis.evaluation.tree import (
     NotTaken,
     Param,
     Problem,
-    Remap,
     Unknown,
     Use,
 )
@@ -33,11 +32,8 @@ MAX_RECORDS = 4_000
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What an include adds. `chain` and `arg_origins` are the places in files above that its origins lead through;
-    `inputs` has the included file and all that it read, `declared` its `<arg>` tags."""
+    """What an include adds. `inputs` has the included file and all that it read, `declared` its `<arg>` tags."""
 
-    chain: Origin
-    arg_origins: Mapping[str, Origin | None]
     inputs: Mapping[str, str]
     visited: tuple[str, ...]
     nodes: tuple[LaunchNode, ...]
@@ -61,15 +57,12 @@ class Memo:
         self._records: OrderedDict[Hashable, Record] = OrderedDict()
         self._language: dict[str, tuple[LaunchFile, tuple[LanguageProblem, ...]]] = {}
 
-    def get(self, key: Hashable, inside: Scope, is_current: Callable[[Record], bool]) -> Record | None:
-        """The record of an include in this scope, its origins brought up to date."""
+    def get(self, key: Hashable, is_current: Callable[[Record], bool]) -> Record | None:
+        """The record of an include."""
         record = self._records.get(key)
         if record is None or not is_current(record):
             return None
         self._records.move_to_end(key)
-        origins = arg_origins(inside)
-        if record.chain != inside.chain or record.arg_origins != origins:
-            record = self._records[key] = _moved(record, inside.chain, origins)
         return record
 
     def put(self, key: Hashable, record: Record) -> None:
@@ -88,8 +81,8 @@ class Memo:
 
 
 def key_of(inside: Scope, default_machine: str | None) -> Hashable | None:
-    """What the evaluation of the file of this scope depends on, places in files above left out; None if it cannot be
-    remembered: private parameters are shared with the includer as long as there are any."""
+    """What the evaluation of the file of this scope depends on; None if it cannot be remembered: private parameters are
+    shared with the includer as long as there are any."""
     if inside.private_params:
         return None
     return (
@@ -98,51 +91,8 @@ def key_of(inside: Scope, default_machine: str | None) -> Hashable | None:
         inside.depth,
         inside.pass_all_args,
         default_machine,
-        tuple(location.file for location in inside.chain),
-        tuple((name, value.text) for name, value in inside.args.items()),
+        inside.chain,
+        tuple((name, value.text, value.origin) for name, value in inside.args.items()),
         tuple(inside.env),
         tuple(inside.remaps()),
-    )
-
-
-def arg_origins(inside: Scope) -> dict[str, Origin | None]:
-    """Where each argument was given."""
-    return {name: value.origin for name, value in inside.args.items()}
-
-
-def _moved(record: Record, chain: Origin, origins: Mapping[str, Origin | None]) -> Record:
-    """The record with the places in the files above as they are now."""
-    length, old_chain = len(record.chain), record.chain
-    given = {old: new for name, old in record.arg_origins.items() if old and (new := origins.get(name))}
-    places = {old[-1]: new[-1] for old, new in given.items()}
-
-    def move(origin: Origin) -> Origin:
-        if origin[:length] == old_chain:
-            return chain + origin[length:]
-        return given.get(origin, origin)
-
-    def param(old: Param) -> Param:
-        overrides = tuple(map(param, old.overrides)) if old.overrides else ()
-        return Param(old.name, old.value, move(old.origin), old.owner, old.name_location, overrides)
-
-    def remap(old: Remap) -> Remap:
-        return old._replace(origin=move(old.origin), replaces=tuple(map(remap, old.replaces)))
-
-    def use(old: Use) -> Use:
-        if not old.origin and old.target not in places:
-            return old
-        target = places.get(old.target, old.target) if old.target is not None else None
-        return Use(old.kind, old.location, old.name, old.value, target, move(old.origin))
-
-    return replace(
-        record,
-        chain=chain,
-        arg_origins=origins,
-        nodes=tuple(n._replace(origin=move(n.origin), remaps=tuple(map(remap, n.remaps))) for n in record.nodes),
-        params={name: param(old) for name, old in record.params.items()},
-        includes=tuple(replace(i, origin=move(i.origin)) for i in record.includes),
-        commands=tuple(replace(c, origin=move(c.origin)) for c in record.commands),
-        uses=tuple(map(use, record.uses)),
-        problems=tuple(replace(p, origin=move(p.origin)) for p in record.problems),
-        not_taken=tuple(n._replace(origin=move(n.origin)) for n in record.not_taken),
     )

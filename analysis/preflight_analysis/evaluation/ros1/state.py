@@ -66,12 +66,10 @@ class State(Collector):
         inner.includes_before, inner.exhausted = self.include_count, self.exhausted
         return inner
 
-    def record(self, inside: Scope, given: Mapping[str, Origin | None], default_machine: str | None) -> Record:
-        """All that the file of `inside`, for which this state was made, added. `given`: where its args come from."""
+    def record(self, inside: Scope, default_machine: str | None) -> Record:
+        """All that the file of `inside`, for which this state was made, added."""
         node_names = {name: place for name, place in self.node_names.items() if place is not None}
         return Record(
-            inside.chain,
-            given,
             {inside.file: self.digest(inside.file), **self.inputs},
             tuple(self.visited),
             tuple(self.nodes),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
@@ -412,7 +413,7 @@ class _Walk:
         if names:
             at = Location.of_file(path + ".in")
             self._state.note_unknown(", ".join(names), "the build fills it in", at)
-        return read_launch(Text.of(path, _FILLED_IN.sub("0", template.text)), 2)
+        return read_launch(_filled_in(path, template.text), 2)
 
     def _required_arguments(self, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
         """Before it executes a file launch looks whether each required argument is passed by the include itself:
@@ -804,6 +805,12 @@ def _condition(performer: Performer, action: Action, attribute: ActionAttribute,
         choices=("true", "false"),
     )
     return False
+
+
+@lru_cache(maxsize=64)
+def _filled_in(path: str, template: str) -> Text:
+    """What the build makes of a template; one text for one template, so that its places are the same each time."""
+    return Text.of(path, _FILLED_IN.sub("0", template))
 
 
 def _flag(action: Action, name: str, *, default: bool = True) -> bool:
