@@ -27,7 +27,7 @@ def finding(documents: dict[str, Document], path: str, other: str) -> Finding:
         root = documents[name].root
         assert root is not None
         node = next(root.elements)
-        return Location(name, node.span)
+        return documents[name].location(node.span)
 
     related = (Related("included here", place(other)),)
     return Finding("LCH001", "name", "warning", "certain", "message", place(path), related)
