@@ -319,14 +319,14 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[int, Ev
     dangles = _dangles(channel)
     if any(end.node is wanting.node for end in channel.wants):
         return  # it knows that name
-    alike: tuple[Literal["typo", "words"], int] | None = None
+    alike: list[tuple[Literal["typo", "words"], int] | None] = []
     for number, offering in enumerate(channel.offers):
         if offering.endpoint.builtin or offering.node is wanting.node:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
             continue
         mine, theirs = _known_type(wanting), _known_type(offering)
         known = mine is not None and theirs is not None
-        if known and mine != theirs:
+        if (known and mine != theirs) or not (known or dangles):
             continue
         if known and dangles and wanting.name.endswith(channel.name.rpartition("/")[2]):
             short, long = sorted((wanting, offering), key=lambda end: len(end.name))
@@ -337,13 +337,12 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[int, Ev
             if _extra_level(short.name, long.name) is not None:
                 yield number, "level", how_far
                 continue
-        alike = alike or likeness(wanting.name, channel.name)
-        if alike is None:
+        if not alike:
+            alike.append(likeness(wanting.name, channel.name))  # the same for all ends of the channel
+        if alike[0] is None:
             continue
-        how, distance = alike
+        how, distance = alike[0]
         if how == "words" and not (known and dangles and _says_enough(wanting.name, channel.name, mine or "")):
-            continue
-        if not known and not dangles:
             continue
         yield number, how, distance
 
