@@ -79,17 +79,22 @@ def position(text: str, offset: int) -> dict[str, int]:
 
 
 def index(client: Client, made: Workspace, files: int) -> None:
-    """Cold index, with hovers meanwhile. The client has just said `initialized`."""
+    """Cold index, which begins when the open file is analysed, with hovers meanwhile. The client has just said
+    `initialized`."""
     began = time.perf_counter()
     text = made.root.read_text()
     at = {"textDocument": {"uri": made.root.as_uri()}, "position": position(text, text.index("$(arg sim)") + 4)}
     hovers = []
+    if not client.request("textDocument/hover", at):
+        raise SystemExit("a hover was not answered")
+    analysed = time.perf_counter() - began
     while TITLE not in client.ended:
         asked = time.perf_counter()
         if not client.request("textDocument/hover", at) or asked - began > 300:
             raise SystemExit("a hover was not answered, or the index has no end")
         hovers.append(time.perf_counter() - asked)
-    print(f"cold index of {files:,} launch files: {client.ended[TITLE] - began:.2f} s")
+    print(f"first answer, with the first analysis of the largest tree: {analysed:.2f} s")
+    print(f"cold index of {files:,} launch files: {client.ended[TITLE] - began - analysed:.2f} s more")
     print(f"{'ms':<44}{'median':>8}{'p95':>8}{'max':>8}")
     shown("hover, while the index is built", hovers)
 

@@ -123,8 +123,9 @@ def serve() -> int:
     `print` nor an inherited PYTHONUNBUFFERED can break the stream.
     """
     # Documents and trees are large, short-lived and without cycles: at the usual thresholds a third of the time after
-    # a keystroke would go into looking for garbage that is not there.
-    gc.set_threshold(100_000, 20, 100)
+    # a keystroke would go into looking for garbage that is not there. All threads stand still meanwhile, so the two
+    # generations that are looked at often are small: a tenth of a second for both, and not one for the second.
+    gc.set_threshold(25_000, 4, 2_000)
     logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s")
     # At INFO pygls logs whole documents.
     logging.getLogger("pygls").setLevel(logging.ERROR)
