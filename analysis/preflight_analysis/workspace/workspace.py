@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros1.memo import Memo
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.taken_over import taken_over
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
@@ -202,6 +203,8 @@ class Workspace:
             return known
         view = self._view(path)
         tree = self._remembering_tree(path, args, view)
+        if known is not None:
+            tree = taken_over(tree, known.tree)
         documents, launch_files = self._documents(tree)
         context = Context(
             path,
