@@ -2,18 +2,23 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.graph.annotations import AnnotationProblem, read_annotation
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for node in context.tree.nodes:
-        _, problems = read_annotation(node.action)
+    for node, problems in filter(None, context.kept.each(_malformed, context.tree.nodes)):
         for problem in problems:
             location = context.location(node.location.file, problem.span)
             yield rule.finding(problem.message, location, related=include_chain(node.origin))
+
+
+def _malformed(node: LaunchNode) -> tuple[LaunchNode, tuple[AnnotationProblem, ...]] | None:
+    problems = read_annotation(node.action)[1]
+    return (node, problems) if problems else None
 
 
 RULE = Rule(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import chain
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related
 from preflight_analysis.launch.model import Value
 from preflight_analysis.rules.places import attribute_location
@@ -28,17 +29,27 @@ class _Reference:
     what: str
     origin: Origin
     confidence: Confidence = "likely"
+    arguments_of: LaunchNode | None = None
+    """The node in whose arguments it is: `origin` ends at that node's tag then, until it is `_placed`."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    anonymous = {name: node for node in context.tree.nodes if (name := _plain_name(node)) is not None}
+    nodes = context.tree.nodes
+    plain_names = zip(context.kept.each(_plain_name, nodes), nodes, strict=True)
+    anonymous = {name: node for name, node in plain_names if name is not None}
     if not anonymous:
         return
     # Nearly no text has one of the names in it, and looking is quick.
-    leaves = tuple({f"{name.rpartition('/')[2]}/" for name in anonymous})
-    real = _with_namespaces(node.name for node in context.tree.nodes)
+    leaves = sorted({f"{name.rpartition('/')[2]}/" for name in anonymous})
+    hit = re.compile("|".join(map(re.escape, leaves)))
+    real = _with_namespaces(node.name for node in nodes)
     seen: set[Location] = set()
-    for reference in _references(context, leaves):
+    references = chain(
+        context.kept.each(_references_of_node, nodes, hit),
+        context.kept.each(_references_of_param, context.tree.params.values(), hit),
+    )
+    for found in chain.from_iterable(filter(None, references)):
+        reference = _placed(context, found)
         node = _named(reference.name, anonymous, real)
         if node is None or reference.origin[-1] in seen:
             continue
@@ -55,6 +66,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ),
             fixes=_fixes(context, node, reference, plain),
         )
+
+
+def _placed(context: Context, reference: _Reference) -> _Reference:
+    if reference.arguments_of is None:
+        return reference
+    place = attribute_location(context, reference.arguments_of, "args")
+    return replace(reference, origin=(*reference.origin[:-1], place), arguments_of=None)
 
 
 def _plain_name(node: LaunchNode) -> str | None:
@@ -86,26 +104,30 @@ def _named(name: str, anonymous: dict[str, LaunchNode], real: set[str]) -> Launc
     return None
 
 
-def _references(context: Context, leaves: tuple[str, ...]) -> Iterator[_Reference]:
-    """What in the launch names something below one of `leaves`."""
-    hit = re.compile("|".join(map(re.escape, leaves))).search
-    for node in context.tree.nodes:
-        for remap in node.remaps:
-            for side, place in ((remap.source, remap.source_location), (remap.target, remap.target_location)):
-                if hit(side):
-                    origin = (*remap.origin[:-1], place)
-                    yield _Reference(names.resolve(side, node.name), side, "the name", origin)
-        if node.args and hit(node.args):
-            origin = (*node.origin[:-1], attribute_location(context, node, "args"))
-            for found in _GRAPH_NAME.finditer(node.args):
-                yield _Reference(found[0], found[0], "in the arguments,", origin, "possible")
-    for param in context.tree.params.values():
-        if param.owner is None and hit(param.name):
-            place = param.name_location or param.origin[-1]
-            yield _Reference(param.name, param.name, "parameter", (*param.origin[:-1], place))
-        value = param.value
-        if isinstance(value, str) and value.startswith("/") and hit(value) and names.is_legal(value):
-            yield _Reference(value, value, "the name", param.origin, "possible")
+def _references_of_node(node: LaunchNode, hit: re.Pattern[str]) -> tuple[_Reference, ...]:
+    """What a node says that names something in which there is a `hit`."""
+    found: list[_Reference] = []
+    for remap in node.remaps:
+        for side, place in ((remap.source, remap.source_location), (remap.target, remap.target_location)):
+            if hit.search(side):
+                origin = (*remap.origin[:-1], place)
+                found.append(_Reference(names.resolve(side, node.name), side, "the name", origin))
+    if node.args and hit.search(node.args):
+        for name in _GRAPH_NAME.findall(node.args):
+            found.append(_Reference(name, name, "in the arguments,", node.origin, "possible", node))
+    return tuple(found)
+
+
+def _references_of_param(param: Param, hit: re.Pattern[str]) -> tuple[_Reference, ...]:
+    """What the name or the value of a parameter refers to, if there is a `hit` in it."""
+    found: list[_Reference] = []
+    if param.owner is None and hit.search(param.name):
+        place = param.name_location or param.origin[-1]
+        found.append(_Reference(param.name, param.name, "parameter", (*param.origin[:-1], place)))
+    value = param.value
+    if isinstance(value, str) and value.startswith("/") and hit.search(value) and names.is_legal(value):
+        found.append(_Reference(value, value, "the name", param.origin, "possible"))
+    return tuple(found)
 
 
 def _fixes(context: Context, node: LaunchNode, reference: _Reference, plain: str) -> tuple[Fix, ...]:

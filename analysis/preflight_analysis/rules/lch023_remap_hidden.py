@@ -18,29 +18,36 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.tree.generation == 2:
         yield from _behind_the_first(rule, context)
         return
-    nodes = context.tree.nodes
     tags = Tags(context.launch_files)
-    effective = {remap.origin[-1] for node in nodes for remap in node.remaps}
     seen: set[Location] = set()
-    for node in nodes:
-        for remap in node.remaps:
-            for old, winner in pairwise((*remap.replaces, remap)):
-                if old.origin[-1] not in effective and old.origin[-1] not in seen:
-                    seen.add(old.origin[-1])
-                    yield from _hidden(rule, context, tags, old, winner)
-        yield from _same_name(rule, node)
+    for replaced, same_name in filter(None, context.kept.each(_of_node, context.tree.nodes, rule)):
+        for old, winner in replaced:
+            place = old.origin[-1]
+            if place not in seen and place not in context.once(_effective):
+                seen.add(place)
+                yield from _hidden(rule, context, tags, old, winner)
+        yield from same_name
+
+
+def _effective(context: Context) -> frozenset[Location]:
+    return frozenset(remap.origin[-1] for node in context.tree.nodes for remap in node.remaps)
+
+
+def _of_node(node: LaunchNode, rule: Rule) -> tuple[tuple[tuple[Remap, Remap], ...], tuple[Finding, ...]] | None:
+    """The remaps that those of a node replace, each with what replaces it, and what is to be said of the node."""
+    replaced = tuple(pair for remap in node.remaps for pair in pairwise((*remap.replaces, remap)))
+    same_name = tuple(_same_name(rule, node))
+    return (replaced, same_name) if replaced or same_name else None
 
 
 def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:
     """In ROS 2 the first rule that fits is the one, and those of `<set_remap>` stand before the node's own."""
     seen: set[Location] = set()
-    for node in context.tree.nodes:
-        first: dict[str, Remap] = {}
-        for remap in node.remaps:
-            name = remap.source if remap.source[:1] == "/" else f"{node.namespace}{remap.source}"
-            winner = first.setdefault(name, remap)
+    nodes = context.tree.nodes
+    for node, behind in zip(nodes, context.kept.each(_behind, nodes), strict=True):
+        for remap, winner in behind:
             place = remap.origin[-1]
-            if winner is remap or winner.target == remap.target or place in seen:
+            if place in seen:
                 continue
             seen.add(place)
             yield rule.finding(
@@ -49,6 +56,18 @@ def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:
                 place,
                 related=(Related("the one that counts", winner.origin[-1]), *include_chain(remap.origin)),
             )
+
+
+def _behind(node: LaunchNode) -> tuple[tuple[Remap, Remap], ...]:
+    """The remaps of a node that have no effect, each with the one that counts."""
+    first: dict[str, Remap] = {}
+    found: list[tuple[Remap, Remap]] = []
+    for remap in node.remaps:
+        name = remap.source if remap.source[:1] == "/" else f"{node.namespace}{remap.source}"
+        winner = first.setdefault(name, remap)
+        if winner is not remap and winner.target != remap.target:
+            found.append((remap, winner))
+    return tuple(found)
 
 
 def _hidden(rule: Rule, context: Context, tags: Tags, old: Remap, winner: Remap) -> Iterator[Finding]:

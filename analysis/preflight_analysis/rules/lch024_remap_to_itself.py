@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.tree import Remap
+from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -15,10 +16,8 @@ from preflight_analysis.rules.syntax import Tags, removal
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # Names that are written as they are are the same in every context: no other use of the tag has to be looked at.
     reached: dict[Location, list[Remap]] = {}
-    for node in context.tree.nodes:
-        for remap in node.remaps:
-            if remap.source == remap.target:
-                reached.setdefault(remap.origin[-1], []).append(remap)
+    for remap in chain.from_iterable(context.kept.each(_to_itself, context.tree.nodes)):
+        reached.setdefault(remap.origin[-1], []).append(remap)
     tags = Tags(context.launch_files)
     for location, remaps in reached.items():
         remap = remaps[0]
@@ -29,6 +28,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=include_chain(remap.origin),
                 fixes=removal(context, tags, location, "Remove this remap"),
             )
+
+
+def _to_itself(node: LaunchNode) -> tuple[Remap, ...]:
+    return tuple(remap for remap in node.remaps if remap.source == remap.target)
 
 
 def _idle(remap: Remap) -> bool:

@@ -14,9 +14,9 @@ from preflight_analysis.rules.syntax import Tag, Tags
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
-    uses = [use for use in tree.uses if use.kind == "clear_params" and use.value is not None]
-    if not uses:
+    if not tree.clear_params:
         return
+    uses = [use for use in tree.uses if use.kind == "clear_params" and use.value is not None]
     tags = Tags(context.launch_files)
     for use in uses:
         tag = tags.at(use.origin[-1])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.parameters import by_namespace
+from preflight_analysis.rules.parameters import namespaces
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface, without_stamp
@@ -38,28 +38,49 @@ def missing_params(context: Context) -> Mapping[int, tuple[Missing, ...]]:
 
 
 def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
-    namespaces: set[str] = set()
-    for namespace in context.once(by_namespace):
-        above = namespace
-        while above and above not in namespaces:
-            namespaces.add(above)
-            above = above.rpartition("/")[0]
-    known = graph.tree.params.keys() | namespaces | {command.param for command in graph.tree.commands}
-    known |= {r.name for r in graph.param_reads if r.use.access in ("set", "search")}
-    with_default = {(id(r.node), r.name) for r in graph.param_reads if r.use.has_default}
+    params = graph.tree.params
+    unset = [r for r in filter(None, context.kept.each(_wanting, graph.param_reads)) if r.name not in params]
+    if not unset:
+        return {}
+    known = _with_namespaces(context.once(namespaces)) | {command.param for command in graph.tree.commands}
+    known |= {read.name for read in filter(None, context.kept.each(_finding_elsewhere, graph.param_reads))}
+    with_default = set(filter(None, context.kept.each(_defaulted, graph.param_reads)))
     first: dict[tuple[int, str], ParamRead] = {}
-    for read in graph.param_reads:
+    for read in unset:
         key = (id(read.node), read.name)
-        asks = read.use.access == "has"
-        if read.use.builtin or key in with_default or not (asks or (read.use.access == "get" and read.use.mandatory)):
-            continue
-        if read.name in known or is_for_tools(read.name) or f"_{read.use.name.strip('~')}:=" in read.node.args:
-            continue
-        if asks or key not in first:
+        if key not in with_default and read.name not in known and (read.use.access == "has" or key not in first):
             first[key] = read
     found: dict[int, list[ParamRead]] = {}
     for (node, _), read in first.items():
         found.setdefault(node, []).append(read)
+    return found
+
+
+def _wanting(read: ParamRead) -> ParamRead | None:
+    """The read itself, if the node may lack the parameter."""
+    use = read.use
+    if use.builtin or not (use.access == "has" or (use.access == "get" and use.mandatory)):
+        return None
+    return None if is_for_tools(read.name) or f"_{use.name.strip('~')}:=" in read.node.args else read
+
+
+def _finding_elsewhere(read: ParamRead) -> ParamRead | None:
+    """The read itself, if the node makes the parameter or looks for it in other namespaces too."""
+    return read if read.use.access in ("set", "search") else None
+
+
+def _defaulted(read: ParamRead) -> tuple[int, str] | None:
+    return (id(read.node), read.name) if read.use.has_default else None
+
+
+def _with_namespaces(names: Iterable[str]) -> set[str]:
+    """The names, and those of all namespaces that they are in."""
+    found: set[str] = set()
+    for each in names:
+        name = each
+        while name and name not in found:
+            found.add(name)
+            name = name.rpartition("/")[0]
     return found
 
 

@@ -12,15 +12,32 @@ from preflight_analysis.rules.rule import Context
 
 def by_namespace(context: Context) -> Mapping[str, list[Param]]:
     """All of them, `/a/b/c` under `/a/b` and `/c` under the empty text. Ask through `context.once`."""
-    return grouped(context.tree.params.values())
+    groups: dict[str, list[Param]] = {}
+    for param, namespace in zip(context.tree.params.values(), context.once(_each_namespace), strict=True):
+        groups.setdefault(namespace, []).append(param)
+    return groups
+
+
+def namespaces(context: Context) -> frozenset[str]:
+    """Those in which parameters are. Ask through `context.once`."""
+    return frozenset(context.once(_each_namespace))
+
+
+def _each_namespace(context: Context) -> list[str]:
+    return context.kept.each(namespace_of, context.tree.params.values())
 
 
 def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:
     """These parameters by namespace."""
     groups: dict[str, list[Param]] = {}
     for param in params:
-        groups.setdefault(param.name.rpartition("/")[0], []).append(param)
+        groups.setdefault(namespace_of(param), []).append(param)
     return groups
+
+
+def namespace_of(param: Param) -> str:
+    """`/a/b` of `/a/b/c`, the empty text of `/c`."""
+    return param.name.rpartition("/")[0]
 
 
 def name_place(param: Param) -> Location:

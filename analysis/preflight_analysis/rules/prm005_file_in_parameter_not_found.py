@@ -8,6 +8,7 @@ import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
@@ -62,7 +63,7 @@ class _Named:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     values: Mapping[Location, list[Use]] | None = None
-    for named in (*_in_params(context), *_in_arguments(context)):
+    for named in chain(_in_params(context), _in_arguments(context)):
         for path in _missing(named.text, context):
             values = _argument_uses(context.tree) if values is None else values
             given = named.location()
@@ -81,50 +82,57 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _in_params(context: Context) -> Iterator[_Named]:
-    for param in context.tree.params.values():
-        value = param.value
-        if isinstance(value, (bool, int, float)) or (isinstance(value, str) and "/" not in value):
-            continue  # nearly all: this is looked at for thousands at each keystroke
-        if isinstance(value, CommandValue):
-            for word in _words(value.command)[1:]:
-                yield _Named(word, "the command", partial(_value_location, context, param, "command"), param.origin)
+    params = context.tree.params.values()
+    for param, texts in zip(params, context.kept.each(_texts_of_param, params), strict=True):
+        if not texts:
             continue
-        if isinstance(value, str):
-            texts = [value]
-        elif isinstance(value, list):
-            texts = [text for text in value if isinstance(text, str)]
-        else:
-            continue
-        if not any(_worth_a_look(text) for text in texts):
-            continue
-        name = param.name.rpartition("/")[2]
-        if _made_when_run(name) or (param.owner is not None and _made_when_run(param.owner.rpartition("/")[2])):
-            continue
-        for text in texts:
-            if len(text) < _LONGEST and "\n" not in text:
-                place = partial(_value_location, context, param, "value")
-                yield _Named(text, f"parameter '{name}'", place, param.origin)
+        command = isinstance(param.value, CommandValue)
+        what = "the command" if command else f"parameter '{param.name.rpartition('/')[2]}'"
+        place = partial(_value_location, context, param, "command" if command else "value")
+        yield from (_Named(text, what, place, param.origin) for text in texts)
+
+
+def _texts_of_param(param: Param) -> tuple[str, ...]:
+    """The texts in the value of a parameter that may name files, there or not: nearly none has any."""
+    value = param.value
+    if isinstance(value, CommandValue):
+        return tuple(_words(value.command)[1:])
+    if isinstance(value, str):
+        texts = [value] if "/" in value else ()
+    elif isinstance(value, list):
+        texts = [text for text in value if isinstance(text, str)]
+    else:
+        return ()
+    if not any("." in text and "/" in text for text in texts):
+        return ()
+    if _made_when_run(param.name.rpartition("/")[2]) or _made_when_run((param.owner or "").rpartition("/")[2]):
+        return ()
+    return tuple(text for text in texts if len(text) < _LONGEST and "\n" not in text)
 
 
 def _in_arguments(context: Context) -> Iterator[_Named]:
-    for node in context.tree.nodes:
-        if "/" not in node.args or node.unknowns or _elsewhere(context.tree, node):
-            continue
-        if _made_when_run(node.executable) or _made_when_run(node.name.rpartition("/")[2]):
-            continue
-        before = ""
-        for word in _words(node.args):
-            option, _, value = word.rpartition("=")
-            option = option or (before if before.startswith("-") else "")
-            before = word
-            if option not in ("-o", "-O") and not _made_when_run(option):
-                what = f"the arguments of '{node.executable}'"
-                yield _Named(value, what, partial(attribute_location, context, node, "args"), node.origin)
+    nodes = context.tree.nodes
+    for node, texts in zip(nodes, context.kept.each(_texts_of_arguments, nodes), strict=True):
+        if texts and not _elsewhere(context.tree, node):
+            place = partial(attribute_location, context, node, "args")
+            yield from (_Named(text, f"the arguments of '{node.executable}'", place, node.origin) for text in texts)
 
 
-def _worth_a_look(text: str) -> bool:
-    """False for what names no file, or one that is there: nearly every text, so this is quick."""
-    return "." in text and "/" in text and not (text.startswith("/") and os.path.exists(text))
+def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
+    """The words in the arguments of a node that may name files, there or not."""
+    if "/" not in node.args or node.unknowns:
+        return ()
+    if _made_when_run(node.executable) or _made_when_run(node.name.rpartition("/")[2]):
+        return ()
+    found: list[str] = []
+    before = ""
+    for word in _words(node.args):
+        option, _, value = word.rpartition("=")
+        option = option or (before if before.startswith("-") else "")
+        before = word
+        if option not in ("-o", "-O") and not _made_when_run(option):
+            found.append(value)
+    return tuple(found)
 
 
 def _elsewhere(tree: LaunchTree, node: LaunchNode) -> bool:
@@ -146,6 +154,8 @@ def _made_when_run(name: str) -> bool:
 
 def _missing(text: str, context: Context) -> Iterator[str]:
     """The files that `text` names and that should be there: below a package or the workspace, with an extension."""
+    if text.startswith("/") and os.path.exists(text):
+        return
     for path in _paths(text, context.environment):
         extension = _EXTENSION.search(path)
         if extension is None or extension[0].lower() in _MADE_WHEN_RUN or _PATTERN.search(path):

@@ -6,10 +6,11 @@ import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.evaluation.tree import LaunchTree, Param
+from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.parameters import namespace_of
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -24,11 +25,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
     if not tree.nodes:
         return
+    outside = [*filter(None, context.kept.each(_outside, tree.params.values()))]
+    if not outside:
+        return
     nodes = {node.name: node for node in tree.nodes}
     homes = _children(nodes)
-    read = _read(context.graph)
     known = _known(context.graph)
-    for prefix, params in _homeless(tree, homes, read).items():
+    for prefix, params in _homeless(outside, nodes, homes, _read(context.graph)).items():
         parent, _, leaf = prefix.rpartition("/")
         near = _near(leaf, homes.get(parent, ()))
         if near is None:
@@ -68,19 +71,24 @@ def _children(nodes: Iterable[str]) -> dict[str, set[str]]:
     return found
 
 
-def _homeless(tree: LaunchTree, homes: Mapping[str, set[str]], read: Container[str]) -> dict[str, list[Param]]:
+def _outside(param: Param) -> Param | None:
+    """The parameter itself, if it is below no node in whose tag it is set, and not for tools."""
+    inside = param.owner is not None and param.name.startswith(param.owner)
+    return None if inside or is_for_tools(param.name) else param
+
+
+def _homeless(
+    params: Iterable[Param], names: Container[str], homes: Mapping[str, set[str]], read: Container[str]
+) -> dict[str, list[Param]]:
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
     found: dict[str, list[Param]] = {}
-    names = {node.name for node in tree.nodes}
     at_fault: dict[str, str | None] = {}
-    for param in tree.params.values():
-        if param.owner is not None and param.name.startswith(param.owner):
-            continue
-        namespace = param.name.rpartition("/")[0]
+    for param in params:
+        namespace = namespace_of(param)
         if namespace not in at_fault:
             at_fault[namespace] = _at_fault(namespace, homes, names)
         prefix = at_fault[namespace]
-        if prefix is not None and not is_for_tools(param.name) and param.name not in read:
+        if prefix is not None and param.name not in read:
             found.setdefault(prefix, []).append(param)
     return found
 

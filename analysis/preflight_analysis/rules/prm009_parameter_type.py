@@ -26,9 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     params = graph.tree.params
     told: set[tuple[str, str]] = set()
-    for read in graph.param_reads:
-        if not read.use.has_default or read.use.builtin or read.use.access != "get":
-            continue
+    for read in filter(None, context.kept.each(_with_default, graph.param_reads)):
         param = params.get(read.name)
         if param is None or (read.name, read.node.name) in told:
             continue
@@ -36,6 +34,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if difference is not None:
             told.add((read.name, read.node.name))
             yield _finding(rule, param, read, *difference)
+
+
+def _with_default(read: ParamRead) -> ParamRead | None:
+    """The read itself, if it is one whose default tells of what kind the value is."""
+    use = read.use
+    return read if use.has_default and not use.builtin and use.access == "get" else None
 
 
 def _finding(

@@ -2,37 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import likeness
-from preflight_analysis.rules.parameters import name_place, renamed
+from preflight_analysis.rules.parameters import grouped, name_place, namespace_of, renamed
 from preflight_analysis.rules.places import node_location, related_param_read
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import unread_params
+from preflight_analysis.tracing.interface import Interface, ParamUse
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is not None and graph.tree.generation == 2:
-        yield from _of_ros2(rule, graph)
+        yield from _of_ros2(rule, context, graph)
         return
     missing = context.once(missing_params)
     if graph is None or not missing:
         return
     # A parameter that was meant for it and that nobody reads is where to mend it: there PRM001 says it.
     explained = {unread.meant.name for unread in context.once(unread_params) if unread.meant is not None}
-    read = {each.name for each in graph.param_reads}
-    unread: dict[str, list[Param]] = {}
-    private: dict[str, list[Param]] = {}
-    for param in graph.tree.params.values():
-        if param.name not in read:
-            unread.setdefault(param.name.rpartition("/")[2], []).append(param)
-            private.setdefault(_namespace(param), []).append(param)
     for node in graph.tree.nodes:
         optional: list[str] = []
         for each in missing.get(id(node), ()):
@@ -40,29 +35,36 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if lacking.name in explained or (died is None and not lacking.use.mandatory):
                 continue
             if died is not None:
+                unread = context.once(_never_read)
                 leaf = lacking.name.rpartition("/")[2]
-                meant = _elsewhere(lacking, unread.get(leaf, ())) or _misspelt(lacking, private.get(node.name, ()))
+                meant = _elsewhere(lacking, unread.by_leaf.get(leaf, ()))
+                meant = meant or _misspelt(lacking, unread.by_namespace.get(node.name, ()))
                 yield _finding(rule, context, lacking, meant, died)
             else:
                 optional.append(lacking.name)
         if optional:
-            one = len(optional) == 1
-            names = f"parameter{'' if one else 's'} {quoted(optional)}"
-            yield rule.finding(
-                f"{node.name} reads {names} without a default, and nothing sets {'it' if one else 'them'}",
-                node_location(node),
-                severity="hint",
-                confidence="possible",
-                related=include_chain(node.origin),
-            )
+            yield context.kept.get(_hint, node.name, rule, node, tuple(optional))
 
 
-def _of_ros2(rule: Rule, graph: Graph) -> Iterator[Finding]:
+def _hint(rule: Rule, node: LaunchNode, names: tuple[str, ...]) -> Finding:
+    one = len(names) == 1
+    return rule.finding(
+        f"{node.name} reads parameter{'' if one else 's'} {quoted(names)} without a default, and nothing sets "
+        f"{'it' if one else 'them'}",
+        node_location(node),
+        severity="hint",
+        confidence="possible",
+        related=include_chain(node.origin),
+    )
+
+
+def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
     """Nodes that ended for a parameter that has to be set. Of a name that was meant for it PRM013 says more."""
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
-        given = {f"~{param.name}" for param in node.params}
-        for use in interface.params:
-            if use.refused is None or not use.mandatory or use.name in given:
+    refusals = context.kept.each(_refusals, graph.interfaces)
+    for node, uses in zip(graph.tree.nodes, refusals, strict=True):
+        given = {f"~{param.name}" for param in node.params} if uses else ()
+        for use in uses:
+            if use.name in given:
                 continue
             yield rule.finding(
                 f"{node.name} declares parameter '{use.name[1:]}' without a default, and nothing sets it: it stops "
@@ -74,22 +76,39 @@ def _of_ros2(rule: Rule, graph: Graph) -> Iterator[Finding]:
             )
 
 
-def _elsewhere(read: ParamRead, unread: list[Param] | tuple[Param, ...]) -> Param | None:
+def _refusals(interface: Interface) -> tuple[ParamUse, ...]:
+    return tuple(use for use in interface.params if use.refused is not None and use.mandatory)
+
+
+@dataclass(frozen=True, slots=True)
+class _NeverRead:
+    """The parameters that no node reads."""
+
+    by_leaf: Mapping[str, list[Param]]
+    by_namespace: Mapping[str, list[Param]]
+
+
+def _never_read(context: Context) -> _NeverRead:
+    read = {each.name for each in context.graph.param_reads} if context.graph is not None else ()
+    unread = [param for param in context.tree.params.values() if param.name not in read]
+    by_leaf: dict[str, list[Param]] = {}
+    for param in unread:
+        by_leaf.setdefault(param.name.rpartition("/")[2], []).append(param)
+    return _NeverRead(by_leaf, grouped(unread))
+
+
+def _elsewhere(read: ParamRead, unread: Iterable[Param]) -> Param | None:
     """The only parameter of this name that nobody reads and that stands in a namespace around the one of the read, or
     is private to the node that reads it elsewhere."""
     namespace = read.name.rpartition("/")[0] + "/"
-    near = [p for p in unread if namespace.startswith(f"{_namespace(p)}/") or _namespace(p) == read.node.name]
+    near = [p for p in unread if namespace.startswith(f"{namespace_of(p)}/") or namespace_of(p) == read.node.name]
     return near[0] if len(near) == 1 else None
 
 
-def _misspelt(read: ParamRead, private: list[Param] | tuple[Param, ...]) -> Param | None:
+def _misspelt(read: ParamRead, private: Iterable[Param]) -> Param | None:
     """The only private parameter of the node that it has not read and that is a typo away."""
     found = [p for p in private if (alike := likeness(p.name, read.name)) is not None and alike[0] == "typo"]
     return found[0] if len(found) == 1 else None
-
-
-def _namespace(param: Param) -> str:
-    return param.name.rpartition("/")[0]
 
 
 def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, died: str) -> Finding:

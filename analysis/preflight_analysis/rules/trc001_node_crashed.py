@@ -1,6 +1,7 @@
 """TRC001: a node crashed when it was run."""
 
 from collections.abc import Iterator
+from itertools import compress
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
@@ -10,18 +11,16 @@ from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, ParamUse, telling_line
+from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    lost = _LostParams(context)
-    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
-        outcome = interface.outcome
-        failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
-        if not failed:
-            continue
+    processes = context.graph.processes
+    failures = context.kept.each(_failed, processes)
+    for node, interface in compress(zip(context.tree.nodes, processes, strict=True), failures):
+        outcome, lost = interface.outcome, context.once(_LostParams)
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
         lacking = next(filter(None, (lost.why(r) for r in context.graph.param_reads if r.node is node)), None)
         # Of a parameter that is missing another rule says more, as a warning.
@@ -40,6 +39,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
         )
+
+
+def _failed(interface: Interface) -> bool:
+    outcome = interface.outcome
+    return outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
 
 
 class _LostParams:
