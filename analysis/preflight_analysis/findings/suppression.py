@@ -77,13 +77,16 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
 
 def apply_suppressions(findings: Iterable[Finding], documents: Mapping[str, Document]) -> Filtered:
     """Without the findings that a comment in their own file silences. A finding counts where it starts."""
-    by_file = {path: read_suppressions(document)[0] for path, document in documents.items()}
+    by_file = {path: found for path, document in documents.items() if (found := read_suppressions(document)[0])}
+    if not by_file:
+        return Filtered(tuple(findings), ())
     used: set[Suppression] = set()
     kept: list[Finding] = []
     for finding in findings:
         path = finding.location.file
-        line = documents[path].lines.position(finding.location.span.start)[0] if path in documents else -1
-        hits = [s for s in by_file.get(path, ()) if s.rule == finding.rule and s.first_line <= line <= s.last_line]
+        of_rule = [suppression for suppression in by_file.get(path, ()) if suppression.rule == finding.rule]
+        line = documents[path].lines.position(finding.location.span.start)[0] if of_rule else -1
+        hits = [suppression for suppression in of_rule if suppression.first_line <= line <= suppression.last_line]
         used.update(hits)
         if not hits:
             kept.append(finding)

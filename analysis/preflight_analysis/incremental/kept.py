@@ -3,9 +3,10 @@ said of that one is made again."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable
-from itertools import compress
-from operator import is_not
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from functools import partial
+from itertools import compress, repeat
+from operator import is_not, itemgetter
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 P = ParamSpec("P")
@@ -40,10 +41,14 @@ class Kept:
         are not looked at, if what they share is equal. Ask once for each function and what is shared."""
         now = list(items)
         before = self._each_before.get(function)
+
+        def make(some: Iterable[T]) -> Iterable[V]:
+            return map(partial(function, **none) if none else function, some, *map(repeat, shared))
+
         if before is None or before.shared != shared:
-            results = [function(item, *shared, **none) for item in now]
+            results = list(make(now))
         else:
-            results = _taken_over(before, now, lambda item: function(item, *shared, **none))
+            results = _taken_over(before, now, make)
         self._each_now[function] = _Round(shared, now, results)
         return results.copy()
 
@@ -92,22 +97,44 @@ class _Round(NamedTuple):
     results: list[Any]
 
 
-def _taken_over(before: _Round, items: list[T], make: Callable[[T], V]) -> list[V]:
+def _taken_over(before: _Round, items: list[T], make: Callable[[Iterable[T]], Iterable[V]]) -> list[V]:
     # Thousands of items, of which a handful is new: what is done for each of them is done without a line of Python.
+    # Where none is at its place, all are new, most likely: to look for them would take longer than most functions.
     old, results = before.items, before.results
     if len(old) == len(items):
         places = list(compress(range(len(old)), map(is_not, old, items)))
-        known = {id(old[at]): results[at] for at in places}
+        if not places:
+            return results
+        if len(places) == len(items):
+            return list(make(items))
+        others = itemgetter(*places, places[0])  # of two or more it makes a tuple
+        found = _found(others(old), others(results), others(items)[:-1], make)
         made = results.copy()
-        for at in places:
-            item = items[at]
-            made[at] = known[id(item)] if id(item) in known else make(item)
+        for at, result in zip(places, found, strict=True):
+            made[at] = result
         return made
     start = _alike(old, items, min(len(old), len(items)))
     end = _alike(reversed(old), reversed(items), min(len(old), len(items)) - start)
-    known = {id(old[at]): results[at] for at in range(start, len(old) - end)}
-    middle = [known[id(i)] if id(i) in known else make(i) for i in items[start : len(items) - end]]
-    return [*results[:start], *middle, *results[len(old) - end :]]
+    if not start and not end:
+        return list(make(items))
+    of_old, of_items = slice(start, len(old) - end), slice(start, len(items) - end)
+    found = _found(old[of_old], results[of_old], items[of_items], make)
+    return [*results[:start], *found, *results[len(old) - end :]]
+
+
+def _found(
+    old: Iterable[object], results: Iterable[V], items: Sequence[T], make: Callable[[Iterable[T]], Iterable[V]]
+) -> list[V]:
+    """What is made of the items, taken over of those that are among the old ones."""
+    known = dict(zip(map(id, old), results, strict=True))
+    found: list[Any] = list(map(known.get, map(id, items), repeat(_NEW)))
+    new = [at for at, result in enumerate(found) if result is _NEW]
+    for at, result in zip(new, make([items[at] for at in new]), strict=True):
+        found[at] = result
+    return found
+
+
+_NEW = object()
 
 
 def _alike(some: Iterable[object], others: Iterable[object], most: int) -> int:

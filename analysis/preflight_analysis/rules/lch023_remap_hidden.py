@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 
 from preflight_analysis.documents.span import Location
@@ -20,24 +21,36 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     tags = Tags(context.launch_files)
     seen: set[Location] = set()
-    for replaced, same_name in filter(None, context.kept.each(_of_node, context.tree.nodes, rule)):
-        for old, winner in replaced:
+    found = [*filter(None, context.kept.each(_of_node, context.tree.nodes, rule))]
+    one_hides = any(each.in_one_file for each in found)
+    for each in found:
+        for old, winner in each.replaced if one_hides else ():
             place = old.origin[-1]
             if place not in seen and place not in context.once(_effective):
                 seen.add(place)
                 yield from _hidden(rule, context, tags, old, winner)
-        yield from same_name
+        yield from each.same_name
 
 
 def _effective(context: Context) -> frozenset[Location]:
     return frozenset(remap.origin[-1] for node in context.tree.nodes for remap in node.remaps)
 
 
-def _of_node(node: LaunchNode, rule: Rule) -> tuple[tuple[tuple[Remap, Remap], ...], tuple[Finding, ...]] | None:
-    """The remaps that those of a node replace, each with what replaces it, and what is to be said of the node."""
+@dataclass(frozen=True, slots=True)
+class _OfNode:
+    """The remaps that those of a node replace, each with what replaces it, and what is said of the node alone."""
+
+    replaced: tuple[tuple[Remap, Remap], ...]
+    same_name: tuple[Finding, ...]
+    in_one_file: bool
+    """Whether one is replaced by another that the same includes lead to."""
+
+
+def _of_node(node: LaunchNode, rule: Rule) -> _OfNode | None:
     replaced = tuple(pair for remap in node.remaps for pair in pairwise((*remap.replaces, remap)))
     same_name = tuple(_same_name(rule, node))
-    return (replaced, same_name) if replaced or same_name else None
+    in_one_file = any(old.origin[:-1] == winner.origin[:-1] for old, winner in replaced)
+    return _OfNode(replaced, same_name, in_one_file) if replaced or same_name else None
 
 
 def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -15,7 +15,7 @@ from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename, shown
-from preflight_analysis.rules.retired import OLDER_THAN_NOETIC, Retired, retired
+from preflight_analysis.rules.retired import OLDER_THAN_NOETIC, RETIRED_IN, Retired, retired
 from preflight_analysis.rules.rule import Context, Rule
 
 _OLDER_THAN_MELODIC = OLDER_THAN_NOETIC[:-1]
@@ -53,7 +53,7 @@ def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
-    for node in context.tree.nodes:
+    for node in filter(None, context.kept.each(_of_retired_package, context.tree.nodes)):
         for each in retired(context, node):
             missing: Severity = "error" if has_ros(context) else "warning"
             severity: Severity | None = missing if each.removed else None
@@ -65,6 +65,10 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=include_chain(node.origin),
                 fixes=_fixes(context, each, node),
             )
+
+
+def _of_retired_package(node: LaunchNode) -> LaunchNode | None:
+    return node if node.package in RETIRED_IN else None
 
 
 def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]:
@@ -92,9 +96,7 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
     """Its parameter `use_gui`: https://github.com/ros/joint_state_publisher/pull/34."""
     if context.environment.distro in OLDER_THAN_NOETIC:
         return
-    for node in context.tree.nodes:
-        if (node.package, node.executable) != ("joint_state_publisher", "joint_state_publisher"):
-            continue
+    for node in filter(None, context.kept.each(_as_joint_state_publisher, context.tree.nodes)):
         for name in (f"{node.name}/use_gui", os.path.join(node.namespace, "use_gui")):
             param = context.tree.params.get(name)
             if param is None:
@@ -106,6 +108,11 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity="warning" if param.value is True else None,
                 related=include_chain(param.origin),
             )
+
+
+def _as_joint_state_publisher(node: LaunchNode) -> LaunchNode | None:
+    there = node.package == node.executable == "joint_state_publisher"
+    return node if there else None
 
 
 @dataclass(frozen=True, slots=True)

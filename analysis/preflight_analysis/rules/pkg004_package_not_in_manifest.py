@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.shares import package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
@@ -24,18 +24,9 @@ _TEST_FOLDERS = ("test", "tests")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    environment = context.environment
-    packages = environment.packages
-    # What is installed is not for the user to mend; of ROS 2's installed packages no manifest was read.
-    installed = (*environment.system_prefixes, *environment.ament_prefixes)
-    for path, launch_file in context.launch_files.items():
-        owner = package_around(environment, path)
-        if owner is None or any(owner.share.startswith(f"{prefix}/") for prefix in installed):
-            continue
-        for name, span in _used_packages(launch_file).items():
-            # One that is not there at all is another rule's: it may well be a wrong name.
-            if name == owner.name or name in owner.dependencies or name not in packages:
-                continue
+    files = context.launch_files.values()
+    for path, owner, missing in filter(None, context.kept.each(_missing, files, context.environment)):
+        for name, span in missing:
             location = context.location(path, span)
             manifest = os.path.basename(owner.manifest)
             yield rule.finding(
@@ -43,6 +34,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 location,
                 fixes=_fixes(context, owner, name, path),
             )
+
+
+def _missing(
+    launch_file: LaunchFile, environment: Environment
+) -> tuple[str, Package, tuple[tuple[str, Span], ...]] | None:
+    """The path of the file, its package, and those that it uses and the package does not name."""
+    owner = package_around(environment, launch_file.path)
+    # What is installed is not for the user to mend; of ROS 2's installed packages no manifest was read.
+    installed = (*environment.system_prefixes, *environment.ament_prefixes)
+    if owner is None or any(owner.share.startswith(f"{prefix}/") for prefix in installed):
+        return None
+    missing = tuple(
+        (name, span)
+        for name, span in _used_packages(launch_file).items()
+        # One that is not there at all is another rule's: it may well be a wrong name.
+        if name in environment.packages and name not in owner.dependencies and name != owner.name
+    )
+    return (launch_file.path, owner, missing) if missing else None
 
 
 @per_file

@@ -8,7 +8,7 @@ import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from itertools import chain
+from itertools import chain, compress
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
@@ -83,9 +83,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _in_params(context: Context) -> Iterator[_Named]:
     params = context.tree.params.values()
-    for param, texts in zip(params, context.kept.each(_texts_of_param, params), strict=True):
-        if not texts:
-            continue
+    texts_of_each = context.kept.each(_texts_of_param, params)
+    for param, texts in compress(zip(params, texts_of_each, strict=True), texts_of_each):
         command = isinstance(param.value, CommandValue)
         what = "the command" if command else f"parameter '{param.name.rpartition('/')[2]}'"
         place = partial(_value_location, context, param, "command" if command else "value")
@@ -112,8 +111,9 @@ def _texts_of_param(param: Param) -> tuple[str, ...]:
 
 def _in_arguments(context: Context) -> Iterator[_Named]:
     nodes = context.tree.nodes
-    for node, texts in zip(nodes, context.kept.each(_texts_of_arguments, nodes), strict=True):
-        if texts and not _elsewhere(context.tree, node):
+    texts_of_each = context.kept.each(_texts_of_arguments, nodes)
+    for node, texts in compress(zip(nodes, texts_of_each, strict=True), texts_of_each):
+        if not _elsewhere(context.tree, node):
             place = partial(attribute_location, context, node, "args")
             yield from (_Named(text, f"the arguments of '{node.executable}'", place, node.origin) for text in texts)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import compress, takewhile
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
@@ -55,17 +55,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.tree.generation == 2:
         yield from _of_ros2_nodes(rule, context)
         return
-    tags: Tags | None = None
-    for param in context.tree.params.values():
-        if not param.overrides:
-            continue
-        tags = tags or Tags(context.launch_files)
+    tags = Tags(context.launch_files)
+    for param, lost in filter(None, context.kept.each(_with_lost, context.tree.params.values())):
         winner = _setting(tags, param)
         if winner is None:
             continue
-        for old in param.overrides:
+        for old in lost:
             loser = _setting(tags, old)
-            if loser is None or not _differ(old, param):
+            if loser is None:
                 continue
             found = _surprise(tags, loser, winner)
             if found is not None:
@@ -79,14 +76,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 )
 
 
+def _with_lost(param: Param) -> tuple[Param, tuple[Param, ...]] | None:
+    """The parameter itself and the settings of it that have another value than the one that counts."""
+    if not param.overrides:
+        return None
+    lost = tuple(old for old in param.overrides if _differ(old, param))
+    return (param, lost) if lost else None
+
+
 def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     """What files say is there to be overridden by later sources, and what is for every node by what is for one. Told is
     a value in the node's own tag or call that does not count, and what loses against this usual order."""
     told: set[tuple[Location, Location]] = set()
-    for node in context.tree.nodes:
-        lost_values = [(param, old) for param in node.params for old in param.overrides if _differ(old, param)]
-        if not lost_values:
-            continue
+    nodes = context.tree.nodes
+    each_lost = context.kept.each(_lost_values, nodes)
+    for node, lost_values in compress(zip(nodes, each_lost, strict=True), each_lost):
         by_place = _settings(node, {param.name for param, _ in lost_values})
         for param, old in lost_values:
             counts, lost = by_place[_place(param)], by_place[_place(old)]
@@ -123,6 +127,11 @@ class _Ros2Setting:
     def of_launch_file(self) -> bool:
         """Whether it is a value that the launch file has for the node."""
         return self.path is None and not self.source.pushed
+
+
+def _lost_values(node: LaunchNode) -> tuple[tuple[Param, Param], ...]:
+    """The node's parameters, each with one of the settings of other values that it replaced."""
+    return tuple((param, old) for param in node.params for old in param.overrides if _differ(old, param))
 
 
 def _settings(node: LaunchNode, wanted: set[str]) -> dict[tuple[str, Location], _Ros2Setting]:

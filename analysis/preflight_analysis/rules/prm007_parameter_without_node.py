@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.graph.model import Graph
 from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.parameters import namespace_of
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -28,12 +27,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     outside = [*filter(None, context.kept.each(_outside, tree.params.values()))]
     if not outside:
         return
-    nodes = {node.name: node for node in tree.nodes}
-    homes = _children(nodes)
-    known = _known(context.graph)
-    for prefix, params in _homeless(outside, nodes, homes, _read(context.graph)).items():
+    homes = context.kept.get(_homes, "", tuple([node.name for node in tree.nodes]))
+    for prefix, params in _homeless(context, outside, homes).items():
         parent, _, leaf = prefix.rpartition("/")
-        near = _near(leaf, homes.get(parent, ()))
+        near = _near(leaf, homes.children.get(parent, ()))
         if near is None:
             if not tree.complete or not _is_alone(context, prefix, params):
                 continue
@@ -47,10 +44,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
             continue
         meant = f"{parent}/{near}"
-        if meant in known:
+        if meant in context.once(_known):
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
         places = [_prefix_place(context, param, leaf) for param in params]
-        related = (Related(f"{meant} is started here", node_location(nodes[meant])),) if meant in nodes else ()
+        related = [Related(f"{meant} is started here", node_location(n)) for n in tree.nodes if n.name == meant][-1:]
         yield rule.finding(
             f"no node is called '{prefix}', for which {_what(params)}; did you mean '{meant}'?",
             places[0],
@@ -60,15 +57,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-def _children(nodes: Iterable[str]) -> dict[str, set[str]]:
-    """For each namespace in which nodes live the names in it: of nodes, and of namespaces with nodes."""
+@dataclass(frozen=True, eq=False, slots=True)
+class _Homes:
+    """Where nodes live: their names, and for each namespace the names in it, of nodes and of namespaces with nodes."""
+
+    names: frozenset[str]
+    children: Mapping[str, set[str]]
+
+
+def _homes(nodes: tuple[str, ...]) -> _Homes:
     found: dict[str, set[str]] = {}
     for name in nodes:
         parent, _, leaf = name.rpartition("/")
         while leaf and leaf not in found.setdefault(parent, set()):
             found[parent].add(leaf)
             parent, _, leaf = parent.rpartition("/")
-    return found
+    return _Homes(frozenset(nodes), found)
 
 
 def _outside(param: Param) -> Param | None:
@@ -77,30 +81,24 @@ def _outside(param: Param) -> Param | None:
     return None if inside or is_for_tools(param.name) else param
 
 
-def _homeless(
-    params: Iterable[Param], names: Container[str], homes: Mapping[str, set[str]], read: Container[str]
-) -> dict[str, list[Param]]:
+def _homeless(context: Context, params: Iterable[Param], homes: _Homes) -> dict[str, list[Param]]:
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
     found: dict[str, list[Param]] = {}
-    at_fault: dict[str, str | None] = {}
-    for param in params:
-        namespace = namespace_of(param)
-        if namespace not in at_fault:
-            at_fault[namespace] = _at_fault(namespace, homes, names)
-        prefix = at_fault[namespace]
-        if prefix is not None and param.name not in read:
+    for prefix, param in filter(None, context.kept.each(_at_fault, params, homes)):
+        if param.name not in context.once(_read):
             found.setdefault(prefix, []).append(param)
     return found
 
 
-def _at_fault(namespace: str, homes: Mapping[str, set[str]], names: Container[str]) -> str | None:
-    """The first part of the namespace in which nothing lives, None if it leads to a node or to where nodes live."""
+def _at_fault(param: Param, homes: _Homes) -> tuple[str, Param] | None:
+    """The first part of the parameter's namespace in which nothing lives, None if it leads to a node or to where nodes
+    live."""
     prefix = ""
-    for part in namespace.split("/")[1:]:
-        if part not in homes.get(prefix, ()):
-            return f"{prefix}/{part}"
+    for part in param.name.split("/")[1:-1]:
+        if part not in homes.children.get(prefix, ()):
+            return f"{prefix}/{part}", param
         prefix = f"{prefix}/{part}"
-        if prefix in names:
+        if prefix in homes.names:
             break
     return None
 
@@ -170,12 +168,14 @@ def _fixes(context: Context, places: list[Location], leaf: str, near: str) -> tu
     return (Fix(found[0].title, tuple(edit for fix in found for edit in fix.edits), True),)
 
 
-def _read(graph: Graph | None) -> frozenset[str]:
+def _read(context: Context) -> frozenset[str]:
+    graph = context.graph
     return frozenset(read.name for read in graph.param_reads) if graph is not None else frozenset()
 
 
-def _known(graph: Graph | None) -> frozenset[str]:
+def _known(context: Context) -> frozenset[str]:
     """The nodes of which it is known what they read."""
+    graph = context.graph
     if graph is None:
         return frozenset()
     pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)

@@ -28,7 +28,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     told: set[tuple[str, str]] = set()
     for read in filter(None, context.kept.each(_with_default, graph.param_reads)):
         param = params.get(read.name)
-        if param is None or (read.name, read.node.name) in told:
+        if param is None or type(param.value) is type(read.use.default) or (read.name, read.node.name) in told:
             continue
         difference = _difference(param.value, read.use.default)
         if difference is not None:

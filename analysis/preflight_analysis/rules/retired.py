@@ -62,6 +62,9 @@ _BY_PACKAGE: Mapping[str, tuple[Retired, ...]] = {
     package: tuple(each for each in _NODES if each.package == package) for package in {each.package for each in _NODES}
 }
 
+RETIRED_IN = frozenset(_BY_PACKAGE)
+"""The packages that these nodes are or were in."""
+
 
 def retired(context: Context, node: LaunchNode) -> Iterator[Retired]:
     """What is known of a node of ROS 1 that should be another one. One that was removed is not there either."""
