@@ -2,7 +2,7 @@
 
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.findings.finding import Finding, Fix
@@ -42,24 +42,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.tree.generation == 2:
         yield from _check_ros2(rule, context)
         return
-    passed: dict[str, set[str]] = {}
-    for include in context.tree.includes:
-        if include.path is not None:
-            passed.setdefault(include.path, set()).update(include.args)
-    for path, launch_file in context.launch_files.items():
-        # What is malformed may hide the rest of the file.
-        if launch_file.document.problems or launch_file.document.entities:
-            continue
-        arguments = _arguments(launch_file)
-        declared = declarations(launch_file)
-        unused = declared.keys() - arguments.used
-        if not unused or arguments.passes_all:
-            continue
-        in_texts = _used_in_texts(context, path, arguments.substituted)
+    for launch_file, unused, substituted in filter(None, context.kept.each(_unused, context.launch_files.values())):
+        path, declared = launch_file.path, declarations(launch_file)
+        in_texts = _used_in_texts(context, path, substituted)
         if in_texts is None:
             continue
         # An include that passes it would break without the declaration: it is part of what the files agreed on.
-        for name in sorted(unused - in_texts - passed.get(path, set())):
+        for name in sorted(unused - in_texts - context.once(_passed).get(path, set())):
             tags = declared[name]
             value = tags[0].value("name")
             span = value.span if value is not None else tags[0].head_span
@@ -69,6 +58,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 context.location(path, span),
                 fixes=(Fix(f"Remove the declaration of '{name}'", edits),),
             )
+
+
+def _unused(launch_file: LaunchFile) -> tuple[LaunchFile, frozenset[str], tuple[Value, ...]] | None:
+    """The file, the arguments that it declares and does not use itself, and the files that may use them."""
+    # What is malformed may hide the rest of the file.
+    if launch_file.document.problems or launch_file.document.entities:
+        return None
+    arguments = _arguments(launch_file)
+    unused = declarations(launch_file).keys() - arguments.used
+    return (launch_file, frozenset(unused), arguments.substituted) if unused and not arguments.passes_all else None
+
+
+def _passed(context: Context) -> Mapping[str, set[str]]:
+    """What includes pass to each file."""
+    passed: dict[str, set[str]] = {}
+    for include in context.tree.includes:
+        if include.path is not None:
+            passed.setdefault(include.path, set()).update(include.args)
+    return passed
 
 
 def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:

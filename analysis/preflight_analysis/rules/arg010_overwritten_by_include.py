@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.evaluation.tree import LaunchTree, Use
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -14,11 +14,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     below: Mapping[str, set[str]] | None = None
     own: dict[tuple[str, str], str | None] = {}
     said: set[Location] = set()
-    for use in context.tree.uses:  # in the order in which they are evaluated
+    for use in filter(
+        None, context.kept.each(_of_argument, context.tree.uses)
+    ):  # in the order in which they are evaluated
         file, key = use.location.file, (use.location.file, use.name)
         if use.kind == "declaration":
             own[key] = use.value
-        if use.kind != "arg" or not use.origin or own.get(key) in (None, use.value) or use.value is None:
+        if use.kind != "arg" or own.get(key) in (None, use.value):
             continue
         setter = use.origin[-1]
         if use.location in said:
@@ -38,6 +40,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 use.location,
                 related=(Related("set here", setter),),
             )
+
+
+def _of_argument(use: Use) -> Use | None:
+    """The use itself, if it declares an argument or has the value of one."""
+    reads = use.kind == "arg" and bool(use.origin) and use.value is not None
+    return use if reads or use.kind == "declaration" else None
 
 
 def _below(tree: LaunchTree) -> Mapping[str, set[str]]:

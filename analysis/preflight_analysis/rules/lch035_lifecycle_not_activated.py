@@ -1,6 +1,7 @@
 """LCH035: a lifecycle node that nothing activates (ROS 2)."""
 
 from collections.abc import Iterator
+from itertools import compress
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
@@ -9,6 +10,7 @@ from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import attribute_location, node_location
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Interface
 
 _KNOWN = frozenset(
     {
@@ -37,17 +39,20 @@ _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
+    managers = [*filter(None, context.kept.each(_as_manager, nodes))]
+    inactive = [*filter(None, context.kept.each(_as_waiting, nodes))]
+    if not managers and not inactive:
+        return
     there = {node.name for node in nodes if node.kind != "process"}
     managed: dict[str, tuple[LaunchNode, Param]] = {}
     listed = True
-    for node in nodes:
-        if node.executable == "lifecycle_manager" or "lifecycle_manager" in node.name:
-            param = next((param for param in node.params if param.name == "node_names"), None)
-            if param is None or not isinstance(param.value, list):
-                listed = False
-                continue
-            for name in param.value:
-                managed.setdefault(_full(node, str(name)), (node, param))
+    for node in managers:
+        param = next((param for param in node.params if param.name == "node_names"), None)
+        if param is None or not isinstance(param.value, list):
+            listed = False
+            continue
+        for name in param.value:
+            managed.setdefault(_full(node, str(name)), (node, param))
     meant: set[str] = set()
     missing, unmanaged = managed.keys() - there, there - managed.keys()
     for name, (manager, param) in managed.items():
@@ -64,7 +69,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=(Related(f"{manager.name}", node_location(manager)), *include_chain(param.origin)),
             )
     settled = managed.keys() | meant | _without_lifecycle(context)
-    waiting = [node for node in nodes if _waits(node) and node.name not in settled]
+    waiting = [node for node in inactive if node.name not in settled]
     if not waiting or not listed or _others_may_act(context):
         return
     # A launch of such a node alone is for somebody who activates it by hand.
@@ -81,6 +86,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _as_manager(node: LaunchNode) -> LaunchNode | None:
+    return node if node.executable == "lifecycle_manager" or "lifecycle_manager" in node.name else None
+
+
+def _as_waiting(node: LaunchNode) -> LaunchNode | None:
+    return node if _waits(node) else None
+
+
 def _waits(node: LaunchNode) -> bool:
     if node.unknowns or not (node.kind == "lifecycle" or (node.package, node.executable) in _KNOWN):
         return False
@@ -93,14 +106,18 @@ def _waits(node: LaunchNode) -> bool:
 def _without_lifecycle(context: Context) -> set[str]:
     """Nodes that are known not to have one, though a `LifecycleNode` of the launch file starts them: nobody can ask for
     another state, or they are managers of components, and what has a lifecycle is another node of theirs."""
-    graph, found = context.graph, set()
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
-        types = {end.type for end in interface.endpoints}
-        # The source does not show what the base class of a lifecycle node offers.
-        seen = interface.seen_through and interface.source == "trace"
-        if (seen and types and _CHANGE not in types) or _LOAD in types:
-            found.add(node.name)
-    return found
+    graph = context.graph
+    if graph is None:
+        return set()
+    without = context.kept.each(_has_no_lifecycle, graph.interfaces)
+    return {node.name for node in compress(graph.tree.nodes, without)}
+
+
+def _has_no_lifecycle(interface: Interface) -> bool:
+    types = {end.type for end in interface.endpoints}
+    # The source does not show what the base class of a lifecycle node offers.
+    seen = interface.seen_through and interface.source == "trace"
+    return bool(seen and types and _CHANGE not in types) or _LOAD in types
 
 
 def _others_may_act(context: Context) -> bool:

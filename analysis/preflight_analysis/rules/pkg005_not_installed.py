@@ -9,6 +9,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.shares import installed_at, installed_from, installs_more, package_around
+from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -22,8 +23,8 @@ _LAUNCH = "launch"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     named: set[str] = set()
-    for use in context.tree.uses:
-        if use.kind not in ("include", "file") or use.target is None or not _by_share(context, use.location):
+    for use in filter(None, context.kept.each(_of_file, context.tree.uses)):
+        if not _by_share(context, use.location):
             continue
         # What stands at the place in the source is taken for what is there once it is installed.
         path = os.path.normpath(use.name)
@@ -53,6 +54,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 confidence="likely",
                 fixes=_fixes(context, package, below),
             )
+
+
+def _of_file(use: Use) -> Use | None:
+    """The use itself, if it names a file that is there."""
+    return use if use.kind in ("include", "file") and use.target is not None else None
 
 
 def _package_of(context: Context, path: str) -> Package | None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
@@ -26,10 +27,10 @@ class _Given:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     given: dict[str, list[tuple[LaunchNode, Location]]] = {}
-    for node in context.tree.nodes:
-        for source in node.param_sources:
-            if source.path is not None:
-                given.setdefault(source.path, []).append((node, source.origin[-1]))
+    for path, node, location in chain.from_iterable(context.kept.each(_files_of, context.tree.nodes)):
+        given.setdefault(path, []).append((node, location))
+    if not given:
+        return
     beside = _beside(context)
     names = {node.name for node in context.tree.nodes}.union(*beside.values())
     for path, nodes in given.items():
@@ -54,6 +55,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             # One file for several nodes, with nothing for this one: that is usual.
             if not each.reached and (len(nodes) == 1 or meant[each.node.name] is not None):
                 yield _about_file(rule, context, path, sections, each, meant[each.node.name])
+
+
+def _files_of(node: LaunchNode) -> tuple[tuple[str, LaunchNode, Location], ...]:
+    """The parameter files that a node is given, and where."""
+    return tuple((each.path, node, each.origin[-1]) for each in node.param_sources if each.path is not None)
 
 
 def _beside(context: Context) -> dict[str, list[str]]:

@@ -1,9 +1,10 @@
 """QOS001: publisher and subscriber of a topic whose QoS does not fit (ROS 2)."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.model import Connection
+from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -17,29 +18,39 @@ _ORDERS = {
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for channel in context.graph.topics.values() if context.graph is not None else ():
-        # A topic that all nodes share has as many pairs as nodes squared, and few settings.
-        alike: dict[str, list[Connection]] = {}
-        for offering in channel.offers:
-            alike.setdefault(_settings(offering), []).append(offering)
-        problems: dict[tuple[str, str], str | None] = {}
-        for wanting in channel.wants:
-            asked = _settings(wanting)
-            for offered, offerings in alike.items():
-                pair = offered, asked
-                if pair not in problems:
-                    problems[pair] = _problem(offerings[0], wanting)
-                problem = problems[pair]
-                for offering in offerings if problem is not None else ():
-                    assumed = wanting.endpoint.assumed or offering.endpoint.assumed
-                    yield rule.finding(
-                        f"{wanting.node.name} gets nothing of '{channel.name}' from {offering.node.name}: {problem}",
-                        connection_location(wanting),
-                        severity="warning" if assumed else None,
-                        confidence="likely" if assumed else "certain",
-                        related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
-                        ends=ends_of(wanting, offering),
-                    )
+    if context.graph is not None:
+        yield from chain.from_iterable(context.kept.each(_of_topic, context.graph.topics.values(), rule))
+
+
+def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:
+    # A topic that all nodes share has as many pairs as nodes squared, and few settings.
+    alike: dict[str, list[Connection]] = {}
+    for offering in channel.offers if channel.wants else ():
+        alike.setdefault(_settings(offering), []).append(offering)
+    problems: dict[tuple[str, str], str | None] = {}
+    found: list[Finding] = []
+    for wanting in channel.wants if channel.offers else ():
+        asked = _settings(wanting)
+        for offered, offerings in alike.items():
+            pair = offered, asked
+            if pair not in problems:
+                problems[pair] = _problem(offerings[0], wanting)
+            problem = problems[pair]
+            if problem is not None:
+                found += (_finding(rule, channel, offering, wanting, problem) for offering in offerings)
+    return tuple(found)
+
+
+def _finding(rule: Rule, channel: Channel, offering: Connection, wanting: Connection, problem: str) -> Finding:
+    assumed = wanting.endpoint.assumed or offering.endpoint.assumed
+    return rule.finding(
+        f"{wanting.node.name} gets nothing of '{channel.name}' from {offering.node.name}: {problem}",
+        connection_location(wanting),
+        severity="warning" if assumed else None,
+        confidence="likely" if assumed else "certain",
+        related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
+        ends=ends_of(wanting, offering),
+    )
 
 
 def _settings(end: Connection) -> str:
