@@ -341,6 +341,30 @@ def test_a_parameter_that_the_nodes_are_known_to_read_or_not_to_read_needs_no_gu
     assert [finding.rule for finding in findings] == ["PRM001"]
 
 
+def test_a_file_that_comes_to_be_between_two_edits_is_there(tmp_path: Path) -> None:
+    share = tmp_path / "p"
+    share.mkdir()
+    text = '<launch><param name="map" value="$(find p)/office.yaml"/><node pkg="p" type="t" name="n{}"/></launch>'
+    launch = share / "main.launch"
+    launch.write_text(text)
+    packages = {"p": Package("p", str(share), f"{share}/package.xml")}
+    sources = Sources()
+    workspace = Workspace(Environment(1, "noetic", {}, (), packages, {}, (), (), None), sources, str(share))
+
+    def rules() -> list[str]:
+        return [finding.rule for finding in workspace.static(str(launch)).findings]
+
+    assert "PRM005" in rules()
+    sources.open(str(launch), text.format(1))
+    assert "PRM005" in rules()
+    (share / "office.yaml").write_text("a: 1")
+    sources.open(str(launch), text.format(2))
+    assert "PRM005" not in rules()
+    (share / "office.yaml").unlink()
+    sources.open(str(launch), text.format(3))
+    assert "PRM005" in rules()
+
+
 def test_a_file_that_a_parameter_names_and_that_is_not_there() -> None:
     check("""
         <launch>

@@ -18,7 +18,8 @@ class Kept:
     """What functions of single items gave, for the next time the whole is made: `Kept(before)` has the results of
     `before`, and no older ones. Used by one thread at a time.
 
-    The functions are pure: they look at their arguments and at nothing else.
+    The functions are pure: they look at their arguments and at nothing else, nor at the `span` of a location in
+    these, which moves as lines come and go above it.
     """
 
     __slots__ = ("_before", "_each_before", "_each_now", "_now")
