@@ -45,7 +45,10 @@ def _channels(ends: list[End]) -> dict[str, Channel]:
 
 def _context(topics: dict[str, Channel]) -> Any:
     """As much of a context as is looked at."""
-    return SimpleNamespace(kept=Kept(), graph=SimpleNamespace(channels=lambda kind: topics, blind=0))
+    graph = SimpleNamespace(channels=lambda kind: topics if kind == "topics" else {}, blind=0)
+    context = SimpleNamespace(kept=Kept(), graph=graph)
+    context.once = lambda make: make(context)
+    return context
 
 
 def _told(found: tuple[NearMiss, ...]) -> list[tuple[Any, ...]]:

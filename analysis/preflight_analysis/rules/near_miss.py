@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 from typing import Literal
 
 from preflight_analysis.documents.span import Location
@@ -211,15 +211,34 @@ def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
 
 def dangling_wants(context: Context, kind: ChannelKind) -> list[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
-    channels = context.graph.channels(kind) if context.graph is not None else {}
-    return [end for ends in context.kept.each(_lone_wants, channels.values()) for end in ends]
+    return [end for ends in context.once(_all_lone_wants)[kind] for end in ends]
 
 
 def dangling_offers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     channels = context.graph.channels(kind) if context.graph is not None else {}
-    found = zip(channels, context.kept.each(_lone_offers, channels.values()), strict=True)
+    found = zip(channels, context.once(_all_lone_offers)[kind], strict=True)
     return [end for name, ends in found if ends and not _read_otherwise(name, channels) for end in ends]
+
+
+_Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
+"""The ends of each channel of a kind, in the order of the graph."""
+
+
+def _all_lone_wants(context: Context) -> _Lone:
+    return _of_all_channels(context, _lone_wants)
+
+
+def _all_lone_offers(context: Context) -> _Lone:
+    return _of_all_channels(context, _lone_offers)
+
+
+def _of_all_channels(context: Context, lone: Callable[[Channel], tuple[Connection, ...]]) -> _Lone:
+    graph = context.graph
+    kinds: tuple[ChannelKind, ...] = ("topics", "services", "actions")
+    channels = {kind: tuple(graph.channels(kind).values()) if graph is not None else () for kind in kinds}
+    found = iter(context.kept.each(lone, chain.from_iterable(channels.values())))
+    return {kind: tuple(islice(found, len(some))) for kind, some in channels.items()}
 
 
 def dangling_topic_offers(context: Context) -> list[Connection]:
