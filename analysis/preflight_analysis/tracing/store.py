@@ -242,10 +242,7 @@ def any_changed_since(paths: Iterable[str], moment: float) -> bool:
     """
     seen: set[str] = set()
     return any(
-        _changed_since(at, moment)
-        for path in paths
-        for given in _spellings(path)
-        for at in _way_to(given, seen)
+        _changed_since(at, moment) for path in paths for given in _spellings(path) for at in _way_to(given, seen)
     )
 
 

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import replace
+from typing import TypeVar
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
-from preflight_analysis.incremental.database import Database, Input, query
+from preflight_analysis.incremental.database import Cancelled, Database, Input, query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import read_launch
 
+T = TypeVar("T")
+_TRIES = 3
+"""A file that is being written all the time is looked at so often, and then again when somebody asks."""
 Signature = tuple[int, int, int, int]
 """What tells one state of a file on the disk from the next: time, size, inode and mode."""
 
@@ -174,6 +179,19 @@ class Sources:
                 for key in outdated:
                     write.reload(SIGNATURE, *key)
         return bool(outdated)
+
+    def in_one_revision(self, work: Callable[[], T], files: Callable[[T], Iterable[str]], likely: Iterable[str]) -> T:
+        """What `work` gives while no text changes, with the files that it read, `files(result)`, as they are on the
+        disk now. It begins again where one changes meanwhile; `likely` are those that it probably reads."""
+        self.look(likely)
+        for _ in range(_TRIES):
+            while True:
+                with suppress(Cancelled), self.db.reading():
+                    result = work()
+                    break
+            if not self.look(files(result)):
+                break
+        return result
 
     def digest(self, path: str) -> str:
         """Names the content as it is now, and its lines: while it is the same, locations in the file are right. ""

@@ -201,11 +201,11 @@ class Workspace:
         severities = self._project_settings().severities
         if known is not None and known.severities == severities and self.is_current(known.tree):
             return known
-        view = self._view(path)
-        tree = self._remembering_tree(path, args, view)
-        if known is not None:
-            tree = taken_over(tree, known.tree)
-        documents, launch_files = self._documents(tree)
+        view, tree, documents, launch_files = self.sources.in_one_revision(
+            lambda: self._looked_into(path, args, known),
+            files=lambda found: found[1].inputs,
+            likely=known.tree.inputs if known is not None else (),
+        )
         context = Context(
             path,
             tree,
@@ -223,6 +223,15 @@ class Workspace:
             if len(self._static) > MAX_ANALYSES:
                 del self._static[next(iter(self._static))]
         return analysis
+
+    def _looked_into(
+        self, path: str, args: Mapping[str, str], known: Analysis | None
+    ) -> tuple[_View, LaunchTree, dict[str, Document], dict[str, LaunchFile]]:
+        view = self._view(path)
+        tree = self._remembering_tree(path, args, view)
+        if known is not None:
+            tree = taken_over(tree, known.tree)
+        return view, tree, *self._documents(tree)
 
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered."""
