@@ -42,7 +42,7 @@ def value(db: Database, name: str, depth: int) -> int:
     return result
 
 
-@query(keep=2)
+@query
 def sign(db: Database, name: str) -> bool:
     return value(db, name, 0) > 10
 
@@ -75,7 +75,9 @@ def step(db: Database, what: str, name: str, text: str) -> None:
     elif what == "disk":
         DISK[name] = text
         with db.writing() as write:
-            write.reload_all(FILE)
+            for kind, key in list(db.cells):
+                if kind is FILE:
+                    write.reload(FILE, *key)
     elif what == "read":
         report(db)
     else:

@@ -65,16 +65,6 @@ def chosen(db: Database, name: str) -> tuple[int, ...]:
     return numbers(db, "a" if TYPED(db, name) else "b")
 
 
-@query(keep=1)
-def large(db: Database, name: str) -> list[str]:
-    return [TEXT(db, name)] * 1000
-
-
-@query
-def size(db: Database, name: str) -> int:
-    return len(large(db, name))
-
-
 @query
 def forever(db: Database, name: str) -> int:
     return forever(db, name) + 1
@@ -148,9 +138,11 @@ def test_an_input_is_loaded_once_and_again_when_told() -> None:
     OUTSIDE["b"] = "8"
     assert numbers(db, "b") == (8,)
     OUTSIDE.update(a="0", b="0")
-    assert db.outdated(TEXT, [("a",), ("b",), ("c",), ("never read",)]) == [("a",), ("b",)]
+    outdated = db.outdated(TEXT, [("a",), ("b",), ("c",), ("never read",)])
+    assert outdated == [("a",), ("b",)]
     with db.writing() as write:
-        write.reload_all(TEXT)
+        for key in outdated:
+            write.reload(TEXT, *key)
     assert numbers(db, "a") == numbers(db, "b") == (0,)
 
 
@@ -159,7 +151,7 @@ def test_a_write_that_changes_nothing_is_no_revision() -> None:
     numbers(db, "a")
     before = db.revision
     with db.writing() as write:
-        write.reload_all(TEXT)
+        write.reload(TEXT, "a")
         write.set(TEXT, "1 2", "a", durable=True)
         write.reload(TEXT, "never read")
     assert db.revision == before
@@ -204,24 +196,6 @@ def test_a_query_that_needs_itself_is_an_error() -> None:
         forever(Database(), "a")
 
 
-def test_values_beyond_those_kept_are_made_again_but_not_what_they_led_to() -> None:
-    it = Made()
-    for name in "abc":
-        assert size(it.db, name) == 1000
-    it.names()
-    for number in range(UNUSED_AFTER):
-        change(it.db, "other", str(number))
-        assert [size(it.db, name) for name in "abc"] == [1000] * 3
-    assert it.names() == []
-    for name in "abc":
-        large(it.db, name)
-    assert 2 <= len(it.names()) <= 3
-    assert [size(it.db, name) for name in "abc"] == [1000] * 3
-    assert it.names() == []
-    change(it.db, "a", "new")
-    assert large(it.db, "a") == ["new"] * 1000
-
-
 def test_what_nobody_asks_for_any_more_is_forgotten() -> None:
     db = Database()
     for number in range(20 * UNUSED_AFTER):
@@ -233,6 +207,13 @@ def test_what_nobody_asks_for_any_more_is_forgotten() -> None:
 
         by_text(db, str(number))
     assert len(db.cells) <= 3 * UNUSED_AFTER
+
+
+def test_keys_are_given_by_their_places() -> None:
+    with pytest.raises(TypeError, match="by places"):
+        numbers(Database(), name="a")
+    with pytest.raises(TypeError, match="by places"):
+        TEXT(Database(), name="a")
 
 
 def test_a_query_cannot_write() -> None:

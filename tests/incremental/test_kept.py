@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from preflight_analysis.incremental.kept import Kept
@@ -90,3 +91,10 @@ def test_equal_objects_are_not_the_same() -> None:
     first.get(described, "pair", (alike, "x", True), None)
     first.get(described, "pair", (alike, "x"), None)
     assert len(CALLS) == 4
+
+
+def test_arguments_with_names_are_refused() -> None:
+    with pytest.raises(TypeError, match="by their places"):
+        Kept().get(int, "a", "10", base=2)
+    with pytest.raises(TypeError, match="by their places"):
+        Kept().each(int, ["10"], base=2)

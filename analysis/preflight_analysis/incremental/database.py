@@ -19,9 +19,9 @@ again by itself.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any, Concatenate, Generic, ParamSpec, TypeVar, cast, overload
+from typing import Any, Concatenate, Generic, ParamSpec, TypeVar, cast
 
 P = ParamSpec("P")
 V = TypeVar("V")
@@ -55,6 +55,7 @@ class Input(Generic[P, V]):
 
     def __call__(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V:
         """The value as it is in this revision."""
+        _refuse(none)
         return cast(V, db.read(self, key))
 
     def __repr__(self) -> str:
@@ -62,31 +63,30 @@ class Input(Generic[P, V]):
 
 
 class Query(Generic[P, V]):
-    """A derived value, made by `function`. Of one with `keep`, only the values of so many keys stay in memory."""
+    """A derived value, made by `function`."""
 
-    def __init__(self, function: Callable[Concatenate[Database, P], V], keep: int | None = None) -> None:
+    def __init__(self, function: Callable[Concatenate[Database, P], V]) -> None:
         self.function = function
-        self.keep = keep
         self.name = function.__name__
         self.__doc__ = function.__doc__
 
     def __call__(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V:
         """The value as it is in this revision. Raises what the function raises; that is not remembered."""
+        _refuse(none)
         return cast(V, db.read(self, key))
 
     def __repr__(self) -> str:
         return f"Query({self.name})"
 
 
-@overload
-def query(function: Callable[Concatenate[Database, P], V], /) -> Query[P, V]: ...
-@overload
-def query(*, keep: int) -> Callable[[Callable[Concatenate[Database, P], V]], Query[P, V]]: ...
-def query(function: Any = None, /, *, keep: int | None = None) -> Any:
+def query(function: Callable[Concatenate[Database, P], V]) -> Query[P, V]:
     """Make a function a query."""
-    if function is not None:
-        return Query(function)
-    return lambda function: Query(function, keep)
+    return Query(function)
+
+
+def _refuse(keywords: Mapping[str, object]) -> None:
+    if keywords:
+        raise TypeError("a key is given by places: names are no part of it")
 
 
 class _Cell:
@@ -134,12 +134,6 @@ class Write:
         """Take what `load` gives now. Nothing happens where nobody has read it."""
         if (kind, key) in self._db.cells:
             self._put(kind, key, kind.load(*key), kind.durable)
-
-    def reload_all(self, kind: Input[Any, Any]) -> None:
-        """As `reload`, for all keys that have been read. Those that were set are loaded, too."""
-        for known, key in list(self._db.cells):
-            if known is kind:
-                self.reload(kind, *key)
 
     def _put(self, kind: Input[Any, Any], key: Key, value: object, durable: bool) -> None:
         db = self._db
@@ -235,7 +229,7 @@ class Database:
         thread = self._thread
         if not thread.readings:
             known = self.cells.get((kind, key))
-            if known is not None and known.value is not _NONE and known.verified_at >= self.revision:
+            if known is not None and known.verified_at >= self.revision:
                 return known.value
             while True:
                 with suppress(Cancelled), self.reading():
@@ -247,14 +241,14 @@ class Database:
             cell = self.cells.setdefault((kind, key), _Cell(kind, key))
         if thread.reads:
             thread.reads[-1][cell] = None
-        if cell.verified_at < self.revision or cell.value is _NONE:
-            self._bring_up_to_date(cell, True)
+        if cell.verified_at < self.revision:
+            self._bring_up_to_date(cell)
         return cell.value
 
     # How a value comes up to date
 
-    def _bring_up_to_date(self, cell: _Cell, wanted: bool) -> None:
-        """Make the cell valid for this revision, and its value be there if that is `wanted`."""
+    def _bring_up_to_date(self, cell: _Cell) -> None:
+        """Make the cell's value that of this revision."""
         thread = self._thread
         if cell in thread.running:
             raise CycleError(f"{cell.kind.name}{cell.key} needs its own value")
@@ -262,7 +256,7 @@ class Database:
             # Who has claims of his own does not wait, lest two wait for each other: the work is done twice then.
             while cell.claimed and not thread.claims and not self._writers:
                 self._condition.wait()
-            if cell.verified_at >= self.revision and not (wanted and cell.value is _NONE):
+            if cell.verified_at >= self.revision:
                 return
             mine, cell.claimed = not cell.claimed, True
             thread.claims += mine
@@ -270,10 +264,8 @@ class Database:
         try:
             if isinstance(cell.kind, Input):
                 self._load(cell, cell.kind)
-            else:
-                valid = self._is_valid(cell)
-                if not valid or (wanted and cell.value is _NONE):
-                    self._execute(cell, cell.kind, valid)
+            elif not self._is_valid(cell):
+                self._execute(cell, cell.kind)
         finally:
             thread.running.discard(cell)
             if mine:
@@ -298,7 +290,7 @@ class Database:
             for each in cell.depends_on:
                 if each.verified_at < self.revision:
                     try:
-                        self._bring_up_to_date(each, False)
+                        self._bring_up_to_date(each)
                     except Exception:
                         return False  # who asks for it in earnest shall see that
                 if each.changed_at > since:
@@ -307,8 +299,7 @@ class Database:
         cell.verified_at = self.revision
         return True
 
-    def _execute(self, cell: _Cell, kind: Query[Any, Any], valid: bool) -> None:
-        """Make the value; of one that is `valid`, and only forgotten, it is the same again."""
+    def _execute(self, cell: _Cell, kind: Query[Any, Any]) -> None:
         reads: dict[_Cell, None] = {}
         self._thread.reads.append(reads)
         if self._on_execute is not None:
@@ -321,32 +312,16 @@ class Database:
             raise
         finally:
             self._thread.reads.pop()
-        same = valid or (cell.value is not _NONE and cell.value == value)
+        same = cell.value is not _NONE and cell.value == value
         with self._condition:
             if not same:
-                cell.changed_at = self.revision
-            if not same or cell.value is _NONE:
-                cell.value = value
+                cell.value, cell.changed_at = value, self.revision
             cell.depends_on, cell.verified_at = tuple(reads), self.revision
             cell.durable = all(each.durable for each in reads)
 
     def _forget(self) -> None:
         """Let go of what was not asked for in a long time. A cell stays in the memory of those that read it."""
         old = self.revision - UNUSED_AFTER
-        kept: dict[Query[Any, Any], list[_Cell]] = {}
-        gone = []
-        for name, cell in self.cells.items():
-            kind = cell.kind
-            if isinstance(kind, Input):
-                continue
-            if kind.keep is not None and cell.value is not _NONE:
-                kept.setdefault(kind, []).append(cell)
-            if cell.verified_at < old and not cell.durable:
-                gone.append(name)
-        for name in gone:
-            del self.cells[name]
-        for kind, cells in kept.items():
-            if len(cells) > (kind.keep or 0):
-                cells.sort(key=lambda cell: cell.verified_at)
-                for cell in cells[: len(cells) - (kind.keep or 0)]:
-                    cell.value = _NONE
+        for name, cell in list(self.cells.items()):
+            if isinstance(cell.kind, Query) and cell.verified_at < old and not cell.durable:
+                del self.cells[name]

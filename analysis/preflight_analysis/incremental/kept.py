@@ -3,8 +3,7 @@ said of that one is made again."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
-from functools import partial
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from itertools import compress, repeat
 from operator import is_not, itemgetter
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
@@ -40,11 +39,12 @@ class Kept:
     ) -> list[V]:
         """`[function(item, *shared) for item in items]`, for many items: those that are the same objects as last time
         are not looked at, if what they share is equal. Ask once for each function and what is shared."""
+        _refuse(none)
         now = list(items)
         before = self._each_before.get(function)
 
         def make(some: Iterable[T]) -> Iterable[V]:
-            return map(partial(function, **none) if none else function, some, *map(repeat, shared))
+            return map(function, some, *map(repeat, shared))
 
         if before is None or before.shared != shared:
             results = list(make(now))
@@ -57,6 +57,7 @@ class Kept:
         """`function(*arguments)`, or what it gave last time for the same arguments: the same objects, equal scalars, or
         tuples of such. `key` tells the items apart, and is the same each time for what is likely to be the same item;
         nothing else follows from it."""
+        _refuse(none)
         name = function, key
         known = self._now.get(name) or self._before.get(name)
         if known is not None and _same(known[0], arguments):
@@ -70,6 +71,11 @@ class Kept:
     def end(self) -> None:
         """The whole is made: let go of what was not used for it."""
         self._before, self._each_before = {}, {}
+
+
+def _refuse(keywords: Mapping[str, object]) -> None:
+    if keywords:
+        raise TypeError("arguments are given by their places: those with names would not be compared")
 
 
 def _same(some: tuple[Any, ...], others: tuple[Any, ...]) -> bool:

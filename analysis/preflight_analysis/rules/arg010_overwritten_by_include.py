@@ -14,9 +14,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     below: Mapping[str, set[str]] | None = None
     own: dict[tuple[str, str], str | None] = {}
     said: set[Location] = set()
-    for use in filter(
-        None, context.kept.each(_of_argument, context.tree.uses)
-    ):  # in the order in which they are evaluated
+    # In the order in which they are evaluated.
+    for use in filter(None, context.kept.each(_of_argument, context.tree.uses)):
         file, key = use.location.file, (use.location.file, use.name)
         if use.kind == "declaration":
             own[key] = use.value

@@ -19,10 +19,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     reported = {id(pair.offering) for pair in context.once(topic_near_misses)} | context.once(meant_ends)
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     at: dict[tuple[Location, str], list[Connection]] = {}
-    ends = context.once(dangling_topic_offers)
-    for end, place in zip(ends, context.kept.each(connection_location, ends), strict=True):
+    for end in context.once(dangling_topic_offers):
         if id(end) not in reported:
-            at.setdefault((place, end.node.name), []).append(end)
+            at.setdefault((connection_location(end), end.node.name), []).append(end)
     for (location, node), dangling in at.items():
         sure = graph.complete and not any(end.endpoint.uncertain for end in dangling)
         yield context.kept.get(_finding, (location, node), rule, location, tuple(dangling), sure)

@@ -6,6 +6,7 @@ Every field is checked: the node could have written the records itself. What doe
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -192,12 +193,18 @@ def place_of(record: Mapping[str, Any]) -> tuple[str | None, int | None]:
 
 
 def paths(value: object) -> Iterable[str]:
-    """The absolute paths of a list that came out of the sandbox."""
-    return (
-        (p for p in value if isinstance(p, str) and p.startswith("/") and len(p) < 4096 and "\0" not in p)
-        if (isinstance(value, list))
-        else ()
-    )
+    """The absolute paths of a list that came out of the sandbox, without what no file can be called."""
+    return (path for path in value if _is_path(path)) if isinstance(value, list) else ()
+
+
+def _is_path(value: object) -> bool:
+    if not isinstance(value, str) or not value.startswith("/") or len(value) >= 4096 or "\0" in value:
+        return False
+    try:
+        os.fsencode(value)
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _take_endpoint(record: Mapping[str, Any], found: Gathered) -> bool:

@@ -242,16 +242,11 @@ def any_changed_since(paths: Iterable[str], moment: float) -> bool:
     """
     seen: set[str] = set()
     return any(
-        _changed_since(at, moment) for path in paths for given in _spellings(path) for at in _way_to(given, seen)
+        _changed_since(at, moment)
+        for path in paths
+        for given in (path, os.path.realpath(path))
+        for at in _way_to(given, seen)
     )
-
-
-def _spellings(path: str) -> tuple[str, ...]:
-    """A path and where it leads, if a file can be called so: a node may make up any."""
-    try:
-        return path, os.path.realpath(path)
-    except (OSError, ValueError):
-        return (path,)
 
 
 def _way_to(path: str, seen: set[str]) -> Iterator[str]:
