@@ -2,7 +2,7 @@
 
   python bench/launch_files.py [-n ROUNDS | --quick] [--package-path FOLDERS] [FOLDER | FILE]...
 
-Bare: an interpreter that runs the file and calls `generate_launch_description()`, with our recording of launch, as
+Bare: an interpreter that runs the file and calls `generate_launch_description()`, with our fake of launch, as
 there need not be another one. Evaluated: its run in the sandbox without a cache, and the evaluation before and after.
 Settled: with all that it includes and with its opaque functions. Files that raise are left out. Prints the median,
 the 95th percentile and the worst of the ratios. The files run outside of the sandbox too: name only such as you trust.
@@ -35,8 +35,8 @@ ROOT = Path(__file__).parent.parent
 BARE = """
 import runpy, sys
 sys.path[0] = sys.argv[1]
-from agents.recording.base import RECORDER
-from agents.recording.modules import install
+from agents.fake_launch.base import RECORDER
+from agents.fake_launch.modules import install
 install()
 RECORDER.file, RECORDER.packages = sys.argv[2], dict(word.split('=', 1) for word in sys.argv[3:])
 runpy.run_path(sys.argv[2])['generate_launch_description']()
@@ -57,8 +57,8 @@ def timed(file: Path, environment: Environment, rounds: int) -> Sample | None:
     """The medians for one file; None if it raises."""
     python = environment.ros2_python or environment.python or sys.executable
     packages = [f"{name}={package.share}" for name, package in environment.packages.items()]
-    recording = str(Path(backend.__file__).parent)
-    bare = [python, "-c", BARE, recording, str(file), *packages]
+    fake_launch = str(Path(backend.__file__).parent)
+    bare = [python, "-c", BARE, fake_launch, str(file), *packages]
     samples: dict[str, list[float]] = {"bare": [], "evaluated": [], "settled": []}
     for _ in range(rounds):
         began = time.perf_counter()

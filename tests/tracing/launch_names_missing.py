@@ -1,4 +1,4 @@
-"""Prints which of the names on standard input the recording of launch lacks, and which take something else: as JSON."""
+"""Prints which of the names on standard input the fake of launch lacks, and which take something else: as JSON."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Any
 
-from preflight_analysis.tracing.agents.recording.modules import install
+from preflight_analysis.tracing.agents.fake_launch.modules import install
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""The recording has the names of `launch` and `launch_ros` of each distribution, and they take what those do."""
+"""The fake has the names of `launch` and `launch_ros` of each distribution, and they take what those do."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _names(distribution: str) -> Names:
 
 
 @pytest.mark.parametrize("distribution", ["humble", "jazzy", "kilted", "rolling"])
-def test_the_recording_has_all_names(distribution: str) -> None:
+def test_the_fake_has_all_names(distribution: str) -> None:
     names = _names(distribution)
     assert sum(map(len, names.values())) > 400
     script = [sys.executable, str(ROOT / "tests" / "tracing" / "launch_names_missing.py")]

@@ -1,4 +1,4 @@
-"""Python launch files: run in the sandbox against our recording of launch, evaluated like any other launch file."""
+"""Python launch files: run in the sandbox against our fake of launch, evaluated like any other launch file."""
 
 from __future__ import annotations
 

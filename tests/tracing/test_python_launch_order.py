@@ -43,8 +43,8 @@ def _started(desk: PythonDesk, *actions: str, before: str = "", args: dict[str, 
 
 
 def _kinds() -> Iterator[str]:
-    """What the recording gives as the kind of an action or a child, wherever it does."""
-    for path in (AGENTS.library / "recording").glob("*.py"):
+    """What the fake gives as the kind of an action or a child, wherever it does."""
+    for path in (AGENTS.library / "fake_launch").glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.Assign):
                 targets = [getattr(target, "attr", getattr(target, "id", "")) for target in node.targets]

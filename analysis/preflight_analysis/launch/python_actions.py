@@ -1,7 +1,7 @@
 """What a run of a Python launch file tells of it, or what is read from its text, to actions with their places.
 
-The form of the records is that of `tracing/agents/recording/tell.py`. They come from the file's own process: whatever
-has not the form is left out.
+The form of the records is that of `tracing/agents/fake_launch/serialize.py`. They come from the file's own process:
+whatever has not the form is left out.
 """
 
 from __future__ import annotations

@@ -105,8 +105,8 @@ def _within(place: Path) -> Agents:
 def _sources() -> list[tuple[str, Path]]:
     """Our modules, each with the folder of the copy that it goes to."""
     ours, woven = AGENTS.library, AGENTS.aspectlib
-    recording = sorted((ours / "recording").glob("*.py"))
-    paths = (sorted(ours.glob("*.py")), recording, sorted(woven.glob("*.py")), [AGENTS.site / "sitecustomize.py"])
+    fake_launch = sorted((ours / "fake_launch").glob("*.py"))
+    paths = (sorted(ours.glob("*.py")), fake_launch, sorted(woven.glob("*.py")), [AGENTS.site / "sitecustomize.py"])
     return [(name, path) for name, found in zip(FOLDERS, paths, strict=True) for path in found]
 
 

@@ -1,4 +1,5 @@
-"""How a Python launch file is run: as a command of the sandbox that tells what the file makes (`agents/recording/`)."""
+"""How a Python launch file is run: as a command of the sandbox that tells what the file makes
+(`agents/fake_launch/`)."""
 
 from __future__ import annotations
 
@@ -29,7 +30,7 @@ _WORD = 100_000
 _START = (
     # Our own code is beside the pipe for what is seen, wherever this run has that.
     "import os, sys; sys.path[0] = os.path.join(os.path.dirname(os.environ['PREFLIGHT_EVENTS']), 'lib'); "
-    "from preflight_agents.recording.main import main; del sys.path[0]; main()"
+    "from preflight_agents.fake_launch.main import main; del sys.path[0]; main()"
 )
 
 
@@ -51,7 +52,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
         # `ros2 launch` runs where a distribution is sourced, whatever is installed here.
         fixed["AMENT_PREFIX_PATH"] = f"/opt/ros/{environment.distro or DISTRIBUTIONS[-1]}"
     # What another version of ours told is not to be believed.
-    stable = {**recipe.stable, **fixed, "recording": _edition()}
+    stable = {**recipe.stable, **fixed, "fake_launch": _edition()}
     return replace(recipe, env={**recipe.env, **fixed}, stable=stable)
 
 
@@ -68,7 +69,7 @@ def _installed_elsewhere(environment: Environment, file: str, text: str) -> list
 def _edition() -> str:
     """Names the code that tells what a launch file makes."""
     digest = hashlib.sha256()
-    for path in sorted((AGENTS.library / "recording").glob("*.py")):
+    for path in sorted((AGENTS.library / "fake_launch").glob("*.py")):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

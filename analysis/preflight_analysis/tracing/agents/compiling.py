@@ -8,7 +8,7 @@ import py_compile
 import sys
 from typing import Any, Callable
 
-FOLDERS = ("lib/preflight_agents", "lib/preflight_agents/recording", "lib/aspectlib", "site")
+FOLDERS = ("lib/preflight_agents", "lib/preflight_agents/fake_launch", "lib/aspectlib", "site")
 
 
 def tell(root: str, temporary: str, emit: Callable[[dict[str, Any]], Any]) -> None:

@@ -32,7 +32,7 @@ class TooMuchError(Exception):
     """More actions than anyone writes."""
 
 
-class Teller:
+class Serializer:
     """Tells one launch description."""
 
     def __init__(self) -> None:
@@ -78,8 +78,8 @@ class Teller:
 
     def child(self, kind: str, **attributes: Any) -> None:
         """A child that is no object of the user's."""
-        told = {name: self._value(value) for name, value in attributes.items() if value is not None}
-        self._open[-1]["c"].append({"k": kind, "a": told, "c": []})
+        serialized = {name: self._value(value) for name, value in attributes.items() if value is not None}
+        self._open[-1]["c"].append({"k": kind, "a": serialized, "c": []})
 
     @contextlib.contextmanager
     def inside(self, kind: str) -> Iterator[None]:
@@ -94,31 +94,31 @@ class Teller:
         """A parameter of a node: `form` says how its value is to be read."""
         made: dict[str, Any] = {"k": "param", "a": {"name": self._value(name)}, "c": []}
         self._open[-1]["c"].append(made)
-        told = made["a"]
+        serialized = made["a"]
         if isinstance(value, ParameterValue):
             self._typed(made, value)
         elif isinstance(value, tuple):
             form, inner = value
-            told["form"] = [form]
+            serialized["form"] = [form]
             if form == "yaml":
-                told["value"] = self.parts(inner)
+                serialized["value"] = self.parts(inner)
             elif form == "list":
-                told["value"] = {"v": inner}
+                serialized["value"] = {"v": inner}
             else:
                 self._items(made, inner)
         else:
-            told["form"] = ["plain"]
-            told["value"] = {"v": value.decode(errors="replace") if isinstance(value, bytes) else value}
+            serialized["form"] = ["plain"]
+            serialized["value"] = {"v": value.decode(errors="replace") if isinstance(value, bytes) else value}
 
     def _typed(self, made: dict[str, Any], value: ParameterValue) -> None:
-        inner, told = value.value, made["a"]
-        told["type"] = [value.preflight_type or "yaml"]
+        inner, serialized = value.value, made["a"]
+        serialized["type"] = [value.preflight_type or "yaml"]
         if _plain(inner):
-            told["form"], told["value"] = ["plain"], {"v": inner}
+            serialized["form"], serialized["value"] = ["plain"], {"v": inner}
         elif inner and all(isinstance(each, Substitution) for each in inner):
-            told["form"], told["value"] = ["typed"], self.parts(inner)
+            serialized["form"], serialized["value"] = ["typed"], self.parts(inner)
         else:
-            told["form"] = ["items"]
+            serialized["form"] = ["items"]
             self._items(made, inner)
 
     def _items(self, made: dict[str, Any], items: Iterable[Any]) -> None:
@@ -139,7 +139,7 @@ class Teller:
         self._open[-1]["c"].append(made)
         self._open.append(made)
         try:
-            self._tell(entity)
+            self._serialize_entity(entity)
         except TooMuchError:
             raise
         except Exception as error:
@@ -147,7 +147,7 @@ class Teller:
         finally:
             self._open.pop()
 
-    def _tell(self, entity: Any) -> None:
+    def _serialize_entity(self, entity: Any) -> None:
         if isinstance(entity, LaunchDescription):
             self.kind = "inline"
             self.entities(entity.entities)
@@ -155,10 +155,10 @@ class Teller:
             self.condition(entity.condition)
             if overrides(entity, "execute"):
                 self.opaque()
-            elif hasattr(entity, "preflight_tell"):
-                entity.preflight_tell(self)
+            elif hasattr(entity, "preflight_serialize"):
+                entity.preflight_serialize(self)
         elif isinstance(entity, ComposableNode):
-            entity.preflight_tell(self)
+            entity.preflight_serialize(self)
         elif not isinstance(entity, ExecuteProcess):
             raise TypeError(f"'{type(entity).__name__}' is no action")
 
@@ -167,8 +167,8 @@ class Teller:
         made: dict[str, Any] = {"k": "unknown", "n": type(entity).__name__, "a": {}, "c": []}
         made["p"], made["i"] = getattr(entity, "preflight_place", None), 0
         self._open.append(made)
-        if hasattr(entity, "preflight_tell"):
-            entity.preflight_tell(self)
+        if hasattr(entity, "preflight_serialize"):
+            entity.preflight_serialize(self)
         self._open.pop()
         return made
 

@@ -371,7 +371,7 @@ class _Anything(actions.PushEnvironment):
         """A decorator leaves what it is given as it is."""
         return args[0] if args else self
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "test"
 
 

@@ -17,7 +17,7 @@ from typing import Any
 from . import installed
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
-from .tell import Teller
+from .serialize import Serializer
 
 MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
@@ -41,7 +41,7 @@ def main() -> None:
     except SystemExit as error:
         result = {"error": {"type": "SystemExit", "message": str(error), "frames": []}}
     except BaseException as error:
-        result = {"error": _told(error)}
+        result = {"error": _error_record(error)}
     result["files"] = _files()
     with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
         out.write(json.dumps(result))
@@ -64,7 +64,7 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
         kind = type(description).__name__
         raise TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
     changed = {k: v for k, v in os.environ.items() if environment.get(k) != v}
-    result: dict[str, Any] = {"actions": Teller().description(description.entities), "env": changed}
+    result: dict[str, Any] = {"actions": Serializer().description(description.entities), "env": changed}
     for call in job["calls"]:
         result = _call(call)
     return result
@@ -95,22 +95,22 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
             return {"text": str(thing.evaluate(context)).lower()}
         return {"text": str(thing.perform(context))}
     given = thing.execute(context)
-    teller = Teller()
-    told: list[dict[str, Any]] = [teller.plain_entity(each) for each in context.preflight_executed]
+    serializer = Serializer()
+    actions: list[dict[str, Any]] = [serializer.plain_entity(each) for each in context.preflight_executed]
     if isinstance(given, LaunchDescription):
         given = given.entities
     if given is not None:
-        told += teller.description(given if isinstance(given, (list, tuple)) else [given])
+        actions += serializer.description(given if isinstance(given, (list, tuple)) else [given])
     before, after = call["configurations"], context.launch_configurations
     return {
-        "actions": told,
+        "actions": actions,
         "set": {k: str(v) for k, v in after.items() if isinstance(k, str) and before.get(k) != v},
         "unset": [k for k in before if k not in after],
         "env": {k: v for k, v in os.environ.items() if environment.get(k) != v},
     }
 
 
-def _told(error: BaseException) -> dict[str, Any]:
+def _error_record(error: BaseException) -> dict[str, Any]:
     frames = [
         [frame.filename, frame.lineno, frame.name]
         for frame in traceback.extract_tb(error.__traceback__)
@@ -119,16 +119,16 @@ def _told(error: BaseException) -> dict[str, Any]:
     if isinstance(error, SyntaxError) and error.filename:
         frames.append([error.filename, error.lineno or 1, ""])
     message = error.msg if isinstance(error, SyntaxError) else str(error)
-    told: dict[str, Any] = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
+    record: dict[str, Any] = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
     if isinstance(error, ImportError):
-        told["module"] = error.name or ""
+        record["module"] = error.name or ""
     if isinstance(error, OSError) and isinstance(error.filename, str):
-        told["path"] = error.filename
+        record["path"] = error.filename
     if isinstance(error, OSError):
-        told["errno"] = error.errno
+        record["errno"] = error.errno
     if isinstance(error, NotHereError):
-        told["refused"] = True
-    return told
+        record["refused"] = True
+    return record
 
 
 def _files() -> dict[str, str]:

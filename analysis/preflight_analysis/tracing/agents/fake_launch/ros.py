@@ -162,7 +162,7 @@ def normalize_remap_rules(remap_rules: Any) -> Iterable[tuple[Any, Any]]:
     return map(normalize_remap_rule, remap_rules)
 
 
-def _tell_parameters(t: Any, parameters: Any) -> None:
+def _serialize_parameters(t: Any, parameters: Any) -> None:
     for param in parameters or ():
         if isinstance(param, ParameterFile):
             allow = param.allow_substs
@@ -176,7 +176,7 @@ def _tell_parameters(t: Any, parameters: Any) -> None:
                     t.parameter(list(name), value)
 
 
-def _tell_remappings(t: Any, remappings: Any) -> None:
+def _serialize_remappings(t: Any, remappings: Any) -> None:
     for source, target in remappings or ():
         t.child("remap", **{"from": list(source), "to": list(target)})
 
@@ -238,7 +238,7 @@ class Node(ExecuteProcess):
         """Its name and namespace, as given."""
         return self.__named[2], self.__named[3]
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = self.preflight_kind
         package, executable, name, namespace, exec_name = self.__named
         t.attribute("pkg", package)
@@ -250,8 +250,8 @@ class Node(ExecuteProcess):
             t.child("argument", value=word)
         for word in self.__ros_arguments or ():
             t.child("ros_argument", value=word)
-        _tell_parameters(t, self.__parameters)
-        _tell_remappings(t, self.__remappings)
+        _serialize_parameters(t, self.__parameters)
+        _serialize_remappings(t, self.__remappings)
         self.preflight_process(t)
 
 
@@ -308,15 +308,15 @@ class ComposableNode(Made):
     def condition(self) -> Any:
         return self.__condition
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "composable_node"
         t.condition(self.__condition)
         t.attribute("pkg", self.__package)
         t.attribute("plugin", self.__plugin)
         t.attribute("name", self.__name)
         t.attribute("namespace", self.__namespace)
-        _tell_parameters(t, self.__parameters)
-        _tell_remappings(t, self.__remappings)
+        _serialize_parameters(t, self.__parameters)
+        _serialize_remappings(t, self.__remappings)
 
 
 class ComposableLifecycleNode(ComposableNode):
@@ -328,8 +328,8 @@ class ComposableLifecycleNode(ComposableNode):
     def node_autostart(self) -> Any:
         return self.__autostart
 
-    def preflight_tell(self, t: Any) -> None:
-        super().preflight_tell(t)
+    def preflight_serialize(self, t: Any) -> None:
+        super().preflight_serialize(t)
         t.attribute("autostart", self.__autostart)
 
 
@@ -340,8 +340,8 @@ class ComposableNodeContainer(Node):
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__descriptions = composable_node_descriptions
 
-    def preflight_tell(self, t: Any) -> None:
-        super().preflight_tell(t)
+    def preflight_serialize(self, t: Any) -> None:
+        super().preflight_serialize(t)
         for description in self.__descriptions or ():
             t.entity(description)
 
@@ -354,8 +354,8 @@ class LifecycleNode(Node):
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.preflight_autostart = autostart
 
-    def preflight_tell(self, t: Any) -> None:
-        super().preflight_tell(t)
+    def preflight_serialize(self, t: Any) -> None:
+        super().preflight_serialize(t)
         if self.preflight_autostart is not None:
             t.attribute("autostart", self.preflight_autostart)
 
@@ -372,7 +372,7 @@ class LifecycleTransition(Action):
         if len(transition_ids) == 0:
             raise RuntimeError("No transition_ids provided.")
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "lifecycle_transition"
 
 
@@ -383,7 +383,7 @@ class LoadComposableNodes(Action):
         super().__init__(**kwargs)
         self.__descriptions, self.__target = composable_node_descriptions, target_container
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "load_composable_node"
         if isinstance(self.__target, ComposableNodeContainer):
             name, namespace = self.__target.preflight_named()
@@ -403,7 +403,7 @@ class PushROSNamespace(Action):
     def namespace(self) -> Any:
         return self.__namespace
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "push_ros_namespace"
         t.attribute("namespace", self.__namespace)
 
@@ -427,7 +427,7 @@ class SetParameter(Action):
     def value(self) -> Any:
         return next(iter(self.__params.values()))
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "set_parameter"
         for name, value in self.__params.items():
             t.attribute("name", list(name))
@@ -439,7 +439,7 @@ class SetParametersFromFile(Action):
         super().__init__(**kwargs)
         self._input_file = normalize_to_list_of_substitutions(filename)
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "set_parameters_from_file"
         t.attribute("filename", self._input_file)
 
@@ -458,7 +458,7 @@ class SetRemap(Action):
     def dst(self) -> Any:
         return self.__dst
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "set_remap"
         t.attribute("from", self.__src)
         t.attribute("to", self.__dst)
@@ -473,7 +473,7 @@ class SetUseSimTime(Action):
     def value(self) -> Any:
         return self.__value
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "set_use_sim_time"
         t.attribute("value", self.__value if isinstance(self.__value, bool) else t.parts(self.__value))
 
@@ -483,7 +483,7 @@ class SetROSLogDir(Action):
         super().__init__(**kwargs)
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "set_ros_log_dir"
         t.attribute("new_log_dir", self.__log_dir)
 

@@ -1,4 +1,5 @@
-"""`launch.actions` and `launch.descriptions` of programs that are started. `preflight_tell` is that of `actions`."""
+"""`launch.actions` and `launch.descriptions` of programs that are started. `preflight_serialize` is that of
+`actions`."""
 
 from __future__ import annotations
 
@@ -52,7 +53,7 @@ class ExecuteLocal(Action):
     ) -> None:
         super().__init__(**kwargs)
         self.__process_description = process_description
-        self.__told = (output, respawn, respawn_delay, on_exit)
+        self.__options = (output, respawn, respawn_delay, on_exit)
 
     @property
     def process_description(self) -> Any:
@@ -66,7 +67,7 @@ class ExecuteLocal(Action):
     def name(self) -> Any:
         return self.__process_description.name
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "executable"
         for word in self.__process_description.cmd:
             t.child("argument", value=word)
@@ -74,7 +75,7 @@ class ExecuteLocal(Action):
 
     def preflight_process(self, t: Any) -> None:
         prefix, _, cwd, env, additional = self.__process_description.preflight
-        output, respawn, _, on_exit = self.__told
+        output, respawn, _, on_exit = self.__options
         t.attribute("id", str(self.preflight_id))
         t.attribute("launch-prefix", prefix)
         t.attribute("cwd", cwd)

@@ -1,4 +1,4 @@
-"""`launch.actions` and `launch.launch_description_sources`. `preflight_tell` says of each what the host is told."""
+"""`launch.actions` and `launch.launch_description_sources`. `preflight_serialize` says what the host gets of each."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ class DeclareLaunchArgument(Action):
     def choices(self) -> Optional[list[str]]:
         return self.__choices
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "arg"
         t.attribute("name", self.__name)
         t.attribute("default", self.__default_value)
@@ -157,7 +157,7 @@ class _Set(Action):
     def value(self) -> list[Substitution]:
         return self.__value
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = self.preflight_kind
         t.attribute("name", self.__name)
         t.attribute("value", self.__value)
@@ -176,7 +176,7 @@ class _Unset(Action):
     def name(self) -> list[Substitution]:
         return self.__name
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = self.preflight_kind
         t.attribute("name", self.__name)
 
@@ -204,7 +204,7 @@ class AppendEnvironmentVariable(Action):
         self.__value = normalize_to_list_of_substitutions(value)
         self.__prepend, self.__separator = prepend, normalize_to_list_of_substitutions(separator)
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "append_env"
         t.attribute("name", self.__name)
         t.attribute("value", self.__value)
@@ -218,27 +218,27 @@ class _Plain(Action):
 
 
 class PushEnvironment(_Plain):
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "push_env"
 
 
 class PopEnvironment(_Plain):
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "pop_env"
 
 
 class ResetEnvironment(_Plain):
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "reset_env"
 
 
 class PushLaunchConfigurations(_Plain):
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "push_configurations"
 
 
 class PopLaunchConfigurations(_Plain):
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "pop_configurations"
 
 
@@ -247,7 +247,7 @@ class ResetLaunchConfigurations(Action):
         super().__init__(**kwargs)
         self.__kept = dict(launch_configurations or {})
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "reset"
         for name, value in self.__kept.items():
             t.child("keep", name=normalize_to_list_of_substitutions(name), value=value)
@@ -272,7 +272,7 @@ class GroupAction(Action):
         self.__actions = list(self.__actions)
         return self.__actions
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "group"
         t.attribute("scoped", bool(self.__scoped))
         t.attribute("forwarding", bool(self.__forwarding))
@@ -297,7 +297,7 @@ class IncludeLaunchDescription(Action):
     def launch_arguments(self) -> Any:
         return self.__arguments
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         description = self.__source.preflight_description
         t.kind = "include" if description is None else "inline"
         if description is None:
@@ -326,7 +326,7 @@ class Log(Action):
     def level(self) -> list[Substitution]:
         return self.__level
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "log"
         t.attribute("message", self.__msg)
         t.attribute("level", self.__level)
@@ -368,7 +368,7 @@ class TimerAction(Action):
     def cancel(self) -> None:
         return None
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "timer"
         period = self.__period
         t.attribute("period", str(period) if isinstance(period, (int, float)) else period)
@@ -384,7 +384,7 @@ class EmitEvent(Action):
     def event(self) -> Any:
         return self.__event
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "emit_event"
         t.attribute("event", type(self.__event).__name__)
 
@@ -394,7 +394,7 @@ class Shutdown(EmitEvent):
         super().__init__(event=None, **kwargs)
         self.__reason = reason
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "shutdown"
         t.attribute("reason", self.__reason)
 
@@ -408,7 +408,7 @@ class RegisterEventHandler(Action):
     def event_handler(self) -> Any:
         return self.__event_handler
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "event_handler"
         handler = self.__event_handler
         t.attribute("event", type(handler).__name__)
@@ -432,7 +432,7 @@ class UnregisterEventHandler(Action):
     def event_handler(self) -> Any:
         return self.__event_handler
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "unregister_event_handler"
         t.attribute("handler", str(self.__event_handler.preflight_id))
 
@@ -455,7 +455,7 @@ class OpaqueFunction(Action):
     def execute(self, context: LaunchContext) -> Any:
         return self.__function(context, *self.__args, **self.__kwargs)
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.opaque()
 
 
@@ -471,7 +471,7 @@ class ForLoop(Action):
         length = int(perform_substitutions(context, self.__length))
         return [entity for i in range(length) for entity in self.__function(i) or ()]
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.opaque()
 
 
@@ -487,7 +487,7 @@ class ForEach(Action):
         sets = [yaml.safe_load(each) for each in perform_substitutions(context, self.__values).strip("; ").split(";")]
         return [entity for each in sets if each for entity in self.__function(**each) or ()]
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.opaque()
 
 
@@ -497,5 +497,5 @@ class OpaqueCoroutine(Action):
     ) -> None:
         super().__init__(**left)
 
-    def preflight_tell(self, t: Any) -> None:
+    def preflight_serialize(self, t: Any) -> None:
         t.kind = "opaque_coroutine"
