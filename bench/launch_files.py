@@ -27,7 +27,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import backend
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.commands import CommandResults, run_commands
-from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -50,7 +50,7 @@ class Sample:
     file: Path
     bare: float
     evaluated: float
-    settled: float
+    resolved: float
 
 
 def timed(file: Path, environment: Environment, rounds: int) -> Sample | None:
@@ -59,7 +59,7 @@ def timed(file: Path, environment: Environment, rounds: int) -> Sample | None:
     packages = [f"{name}={package.share}" for name, package in environment.packages.items()]
     fake_launch = str(Path(backend.__file__).parent)
     bare = [python, "-c", BARE, fake_launch, str(file), *packages]
-    samples: dict[str, list[float]] = {"bare": [], "evaluated": [], "settled": []}
+    samples: dict[str, list[float]] = {"bare": [], "evaluated": [], "resolved": []}
     for _ in range(rounds):
         began = time.perf_counter()
         with tempfile.TemporaryDirectory() as folder:
@@ -76,9 +76,9 @@ def timed(file: Path, environment: Environment, rounds: int) -> Sample | None:
         if not workspace.static(str(file)).tree.nodes and not asked:
             return None
         samples["evaluated"].append(time.perf_counter() - began)
-        settled(workspace, str(file), {}, results, runner, threading.Event(), only_launch_files=True)
-        samples["settled"].append(time.perf_counter() - began)
-    return Sample(file, *(statistics.median(samples[kind]) for kind in ("bare", "evaluated", "settled")))
+        resolve_commands(workspace, str(file), {}, results, runner, threading.Event(), only_launch_files=True)
+        samples["resolved"].append(time.perf_counter() - began)
+    return Sample(file, *(statistics.median(samples[kind]) for kind in ("bare", "evaluated", "resolved")))
 
 
 def found(paths: list[Path]) -> Iterator[Path]:
@@ -100,7 +100,7 @@ def main() -> None:
     files = list(found(args.paths))
     samples = [sample for file in files if (sample := timed(file, environment, args.n)) is not None]
     print(f"{len(samples)} of {len(files)} Python launch files, bare median {_median(samples, 'bare'):.3f} s")
-    for kind in ("evaluated", "settled"):
+    for kind in ("evaluated", "resolved"):
         ratios = sorted((getattr(each, kind) / each.bare, each) for each in samples if each.bare)
         worst = ratios[-1]
         high = ratios[min(len(ratios) - 1, int(len(ratios) * 0.95))][0]

@@ -11,7 +11,7 @@ from pathlib import Path
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -60,7 +60,7 @@ class PythonDesk:
         if why_not is not None:
             return workspace.static(str(path), args)
         runner = CommandRunner(environment, str(self.folder), CommandCache(self.folder / "cache"))
-        return settled(workspace, str(path), args or {}, results, runner, threading.Event())
+        return resolve_commands(workspace, str(path), args or {}, results, runner, threading.Event())
 
 
 def line_of(analysis: Analysis, index: int = 0) -> tuple[str, int]:

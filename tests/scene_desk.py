@@ -29,7 +29,7 @@ from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.indexing import build_index
-from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_check import interface_from_json
@@ -105,7 +105,7 @@ def lay(
     for root in (index.roots_reading(path) or index.roots_of(path))[:analysed]:
         if runs:
             runner = CommandRunner(environment, str(folder), CommandCache(folder / ".cache"))
-            settled(workspace, root.path, dict(root.args), results, runner, threading.Event())
+            resolve_commands(workspace, root.path, dict(root.args), results, runner, threading.Event())
         analysis = workspace.static(root.path, dict(root.args))
         if interfaces:
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]

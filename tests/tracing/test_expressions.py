@@ -12,7 +12,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -74,7 +74,7 @@ class Desk:
         if why_not is not None:
             return workspace.static(str(path))
         runner = CommandRunner(environment, str(self.folder), self.cache)
-        return settled(workspace, str(path), {}, results, runner, threading.Event())
+        return resolve_commands(workspace, str(path), {}, results, runner, threading.Event())
 
 
 @pytest.fixture

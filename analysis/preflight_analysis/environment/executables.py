@@ -15,9 +15,9 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.environment.cmake import Build, Made
+from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.environment.packages import crawl
-from preflight_analysis.environment.shares import cmake_build, python_build
 from preflight_analysis.environment.walk import walk
 
 _COMPONENTS = os.path.join("share", "ament_index", "resource_index", "rclcpp_components")

@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.launch.check_language import LanguageProblem
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
 _ANNOTATIONS = ("topics", "services", "params", "actions")
 
 
-@per_file
+@memoize_by_file
 def check_language_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
     """Everything in the file at which launch would stop while it reads it, in document order."""
     if launch_file.root is None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.substitutions_ros2 import nested
 
 IMPLICIT = frozenset({"launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout"})
@@ -22,7 +22,7 @@ class Configurations:
     computed: bool
 
 
-@per_file
+@memoize_by_file
 def configurations_of(launch_file: LaunchFile) -> Configurations:
     """All names of one file."""
     declared: set[str] = set()

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.configurations import IMPLICIT
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile, Value
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -113,7 +113,7 @@ def _uses_others(text: str) -> bool:
     return not set(_IMPORT.findall(text)) <= _WITHOUT_NAMES
 
 
-@per_file
+@memoize_by_file
 def _arguments(launch_file: LaunchFile) -> _Arguments:
     used: set[str] = set()
     substituted: list[Value] = []

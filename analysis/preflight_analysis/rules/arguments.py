@@ -8,12 +8,12 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.xml_text import quoted_attribute
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import insert_child, remove_tag
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context
 
 
-@per_file
+@memoize_by_file
 def declarations(launch_file: LaunchFile) -> Mapping[str, tuple[Action, ...]]:
     """The `<arg>` tags of each name, those in groups too; tags in includes pass arguments and declare none."""
     found: dict[str, list[Action]] = {}

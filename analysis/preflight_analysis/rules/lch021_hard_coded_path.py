@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
 _END = r"[^\s'\":;,<>|)]*"
@@ -44,7 +44,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-@per_file
+@memoize_by_file
 def _absolute_paths(launch_file: LaunchFile) -> tuple[tuple[int, str], ...]:
     """What is written like an absolute path where a path may stand, outside of substitutions, with its offset."""
     if launch_file.root is None:

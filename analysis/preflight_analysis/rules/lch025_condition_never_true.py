@@ -10,8 +10,8 @@ from typing import Any
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import expression, values
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.substitutions import is_eval
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import CONDITIONS, has_condition
@@ -30,7 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield from _findings(launch_file)
 
 
-@per_file
+@memoize_by_file
 def _findings(launch_file: LaunchFile) -> tuple[Finding, ...]:
     if launch_file.root is None:
         return ()

@@ -10,8 +10,8 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename, shown
@@ -121,7 +121,7 @@ class _OldLanguage:
     in_order: tuple[Span, ...]
 
 
-@per_file
+@memoize_by_file
 def _old_language(launch_file: LaunchFile) -> _OldLanguage:
     masters: list[Action] = []
     in_order: list[Span] = []

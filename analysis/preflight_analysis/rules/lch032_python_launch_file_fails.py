@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.environment.shares import package_around
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.rules.installed import has_ros

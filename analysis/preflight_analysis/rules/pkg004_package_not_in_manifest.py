@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
-from preflight_analysis.environment.shares import package_around
 from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile, Substitution
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^<>]*>[^<]*</\w+>", re.MULTILINE)
@@ -54,7 +54,7 @@ def _missing(
     return (launch_file.path, owner, missing) if missing else None
 
 
-@per_file
+@memoize_by_file
 def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     """The packages that the file names, under whatever conditions, each with the first place."""
     found: dict[str, Span] = {}

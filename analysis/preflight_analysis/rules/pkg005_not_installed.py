@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.installed_paths import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.environment.model import Package
-from preflight_analysis.environment.shares import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.rule import Context, Rule

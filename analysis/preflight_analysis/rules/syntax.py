@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import remove_tag
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.rules.rule import Context
 
 CONDITIONS = ("if", "unless")
@@ -61,7 +61,7 @@ class Tags:
         return _by_start(launch_file) if launch_file is not None else {}
 
 
-@per_file
+@memoize_by_file
 def _by_start(launch_file: LaunchFile) -> Mapping[int, Tag]:
     if launch_file.root is None:
         return {}

@@ -17,8 +17,8 @@ from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.environment.ament import DISTRIBUTIONS
+from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.environment.shares import installed_elsewhere, package_around
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import ros2_recipe, sandbox
 from preflight_analysis.tracing.backend import AGENTS

@@ -16,17 +16,17 @@ from dataclasses import replace
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import compiled, limits, node_recipe, nodelets, preload, run, sandbox, windows
+from preflight_analysis.tracing import compiled, limits, node_recipe, nodelets, preload, run, sandbox, x_server
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.file_lock import file_lock
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Observation, observe
 from preflight_analysis.tracing.repositories import git_paths
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.service_types import ServiceTypes
 from preflight_analysis.tracing.store import identity
-from preflight_analysis.tracing.turns import turn
 
 _log = logging.getLogger(__name__)
 
@@ -97,7 +97,7 @@ class Tracer:
         found = None if fresh else self._kept(request)
         if found is not None:
             return found
-        with self._turn(request, cancel):
+        with self._lock(request, cancel):
             found = None if fresh else self._kept(request)
             if found is not None:
                 return found
@@ -107,13 +107,13 @@ class Tracer:
                 _log.exception("tracing %s failed", request.node)
                 return _not_run(f"the run failed: {error}")
 
-    def _turn(self, request: TraceRequest, cancel: threading.Event) -> AbstractContextManager[object]:
+    def _lock(self, request: TraceRequest, cancel: threading.Event) -> AbstractContextManager[object]:
         """Another process that shares the cache may be running the same node."""
         if self.cache is None:
             return nullcontext()
         digest = hashlib.sha256(repr(request).encode(errors="surrogatepass")).hexdigest()
         seconds = run.WALL_SECONDS + run.STRETCH_SECONDS + run.OUTER_SECONDS
-        return turn(self.cache.folder / "turns" / f"{digest[:32]}.lock", cancel, seconds)
+        return file_lock(self.cache.folder / "locks" / f"{digest[:32]}.lock", cancel, seconds)
 
     def _finished(self, found: Interface, request: TraceRequest) -> Interface:
         """What the run of the node alone does not tell, and depends on more than it did."""
@@ -139,12 +139,12 @@ class Tracer:
         shown = Visible(tuple(visible), self._repositories)
         agents = compiled.copies().of(interpreter, shown)
         raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents)
-        screen = windows.server() if (blind := windows.lacking(raw)) else None
+        screen = x_server.server() if (blind := x_server.lacking(raw)) else None
         if screen is not None:
             raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents, screen)
         observed = observe(raw, recipe, request)
         if blind and screen is None:
-            observed = replace(observed, lasting=False, interface=windows.explained(observed.interface))
+            observed = replace(observed, lasting=False, interface=x_server.explained(observed.interface))
         observed = replace(observed, interface=limits.explained(observed, visible))
         unbuilt = _unbuilt(observed.interface, self.environment, request.generation)
         unbuilt = unbuilt or nodelets.why_not_there(observed.interface, request, self.environment)

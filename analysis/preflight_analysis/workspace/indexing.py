@@ -8,9 +8,9 @@ import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.installed_paths import installed_at, package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
-from preflight_analysis.environment.shares import installed_at, package_around
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX

@@ -41,13 +41,13 @@ from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.own_names import with_own_names
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
     from_settings,
     located_problems,
     read_project_settings,
 )
+from preflight_analysis.workspace.resolve_node_names import resolve_node_names
 from preflight_analysis.workspace.sources import Sources
 
 MAX_ANALYSES = 64
@@ -309,12 +309,12 @@ class Workspace:
         root before: what has not changed since is taken over.
         """
         kept = Kept(previous.context.kept if previous is not None else None)
-        tree = with_own_names(analysis.tree, interfaces, analysis.documents)
+        tree = resolve_node_names(analysis.tree, interfaces, analysis.documents)
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
         project = self._project_settings()
         whole = self._filled_in(tree, interfaces, project, kept)
-        of_source = with_own_names(tree, whole, analysis.documents)
+        of_source = resolve_node_names(tree, whole, analysis.documents)
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             whole = self._filled_in(of_source, interfaces, project, kept)

@@ -18,7 +18,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import parse_arguments, parse_ros2_arguments
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
@@ -136,7 +136,7 @@ def _answer(job: Job, around: _Surroundings, cancel: threading.Event, *, no_run:
     if no_run:
         analysis = workspace.static(job.file, args)
     else:
-        analysis = settled(workspace, job.file, args, results, runner, cancel, only_launch_files=True)
+        analysis = resolve_commands(workspace, job.file, args, results, runner, cancel, only_launch_files=True)
     return dumps_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
 
 

@@ -20,7 +20,7 @@ from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.settle import settled
+from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -81,7 +81,9 @@ class OpenWorkspace:
             return Project(self.workspace, self.workspace.static(path, values))
         cancel = threading.Event()
         try:
-            return Project(self.workspace, settled(self.workspace, path, values, self.results, self.runner, cancel))
+            return Project(
+                self.workspace, resolve_commands(self.workspace, path, values, self.results, self.runner, cancel)
+            )
         except KeyboardInterrupt:
             cancel.set()
             raise

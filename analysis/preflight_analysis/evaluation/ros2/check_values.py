@@ -13,8 +13,8 @@ from typing import Any
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.launch.check_language import LanguageProblem
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.schema_ros2 import PARAM_TYPES, TAGS_ROS2
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 
@@ -44,7 +44,7 @@ _EXPECTED = {
 _EXPECTED_IN_YAML = {**_EXPECTED, "float": "a number with a decimal point"}
 
 
-@per_file
+@memoize_by_file
 def check_values_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
     """Everything in the file at which launch would stop while it reads the values, in document order."""
     if launch_file.root is None:

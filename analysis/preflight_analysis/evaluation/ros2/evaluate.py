@@ -9,9 +9,9 @@ from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.launch_extensions import exposed_actions
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots

@@ -8,8 +8,8 @@ import shlex
 from collections.abc import Callable, Iterable
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Executable
-from preflight_analysis.environment.shares import located
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Scope

@@ -11,7 +11,7 @@ from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.environment.shares import located
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam

@@ -27,8 +27,8 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
 from preflight_analysis.evaluation.tree import Command, Edited
 from preflight_analysis.launch.configurations import substitutions_of
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
-from preflight_analysis.launch.per_file import per_file
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_source import PythonSource
 
@@ -176,7 +176,7 @@ def called(
     return Answer(replace(place, run=run), actions, None, changed, gone, _texts(told.values.get("env")))
 
 
-@per_file
+@memoize_by_file
 def calls_own_code(launch_file: LaunchFile) -> bool:
     """Whether there is code of the file's own, which may do with configurations what it likes."""
     for action in launch_file.root.walk() if launch_file.root is not None else ():

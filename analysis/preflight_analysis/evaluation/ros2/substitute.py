@@ -13,7 +13,7 @@ from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.environment.shares import located
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.resolved import Resolved

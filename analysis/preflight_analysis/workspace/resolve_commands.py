@@ -16,7 +16,7 @@ MAX_ROUNDS = 100
 """Of runs, one after another."""
 
 
-def settled(
+def resolve_commands(
     workspace: Workspace,
     path: str,
     args: Mapping[str, str],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from preflight_analysis.tracing import windows
+from preflight_analysis.tracing import x_server
 from tracing_desk import own, trace, write_node
 
 pytestmark = pytest.mark.ros
@@ -33,14 +33,14 @@ def test_a_node_that_lacks_an_x_server_is_run_again_with_one(tmp_path: Path) -> 
 
 
 def test_where_none_is_installed_the_trace_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(windows, "server", lambda: None)
+    monkeypatch.setattr(x_server, "server", lambda: None)
     found = trace(write_node(tmp_path, WINDOW))
     assert found.outcome.status == "crashed"
     assert "it seems to need an X server: with Xvfb installed it is run with one" in found.notes
 
 
 def test_a_node_that_ends_for_another_reason_is_not_run_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(windows, "server", lambda: pytest.fail("an X server was looked for"))
+    monkeypatch.setattr(x_server, "server", lambda: pytest.fail("an X server was looked for"))
     assert trace(write_node(tmp_path, "import sys; sys.exit('no such camera')")).outcome.status == "crashed"
 
 

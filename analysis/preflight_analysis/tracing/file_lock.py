@@ -1,4 +1,4 @@
-"""One at a time, over all processes of the user: what another server or command is just finding out is waited for."""
+"""A lock over all processes of the user: one waits for what another server or command is just finding out."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _POLL = 0.05
 
 
 @contextlib.contextmanager
-def turn(path: Path, cancel: threading.Event, seconds: float) -> Iterator[None]:
+def file_lock(path: Path, cancel: threading.Event, seconds: float) -> Iterator[None]:
     """Keep the others that name this file out of their blocks.
 
     It is only meant to save work: after `seconds`, once `cancel` is set, and where files cannot be locked, nobody is

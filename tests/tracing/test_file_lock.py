@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.file_lock import file_lock
 from preflight_analysis.tracing.trace import Tracer
-from preflight_analysis.tracing.turns import turn
 from tracing_desk import environment, request, write_node
 
 pytestmark = pytest.mark.ros
@@ -29,10 +29,10 @@ def _until(condition: Callable[[], object]) -> None:
 
 
 def test_one_after_the_other(tmp_path: Path) -> None:
-    path, inside, most = tmp_path / "turns" / "a.lock", [], []
+    path, inside, most = tmp_path / "locks" / "a.lock", [], []
 
     def work() -> None:
-        with turn(path, threading.Event(), GENEROUS):
+        with file_lock(path, threading.Event(), GENEROUS):
             inside.append(1)
             time.sleep(0.02)
             most.append(len(inside))
@@ -51,17 +51,17 @@ def test_nobody_waits_for_ever(tmp_path: Path) -> None:
     path, cancel = tmp_path / "a.lock", threading.Event()
     cancel.set()
     entered = []
-    with turn(path, threading.Event(), GENEROUS):
-        with turn(path, cancel, GENEROUS):
+    with file_lock(path, threading.Event(), GENEROUS):
+        with file_lock(path, cancel, GENEROUS):
             entered.append("cancelled")
-        with turn(path, threading.Event(), 0):
+        with file_lock(path, threading.Event(), 0):
             entered.append("late")
         assert path.exists(), "those who did not have it leave it alone"
     assert entered == ["cancelled", "late"]
 
 
 def _hold(path: str) -> None:
-    with turn(Path(path), threading.Event(), GENEROUS):
+    with file_lock(Path(path), threading.Event(), GENEROUS):
         Path(path).with_name("held").touch()
         time.sleep(GENEROUS)
 
@@ -75,7 +75,7 @@ def test_a_process_that_died_in_its_turn_keeps_nobody(tmp_path: Path) -> None:
     os.kill(process.pid, signal.SIGKILL)
     process.join(GENEROUS)
     assert path.exists()
-    with turn(path, threading.Event(), GENEROUS):
+    with file_lock(path, threading.Event(), GENEROUS):
         pass
     assert not path.exists(), "it was had, and not only waited for"
 
@@ -83,7 +83,7 @@ def test_a_process_that_died_in_its_turn_keeps_nobody(tmp_path: Path) -> None:
 def test_where_nothing_can_be_written_there_are_no_turns(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     entered = []
-    with turn(tmp_path / "file" / "a.lock", threading.Event(), GENEROUS):
+    with file_lock(tmp_path / "file" / "a.lock", threading.Event(), GENEROUS):
         entered.append(1)
     assert entered
 

@@ -1,4 +1,4 @@
-"""What is found out of a launch file alone is found out once for each text, not on every key."""
+"""Memoizes what depends on one launch file alone, by the identity of that file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FILES = 4096
 """More than a workspace has; beyond it everything is forgotten."""
 
 
-def per_file(function: Callable[[LaunchFile], T]) -> Callable[[LaunchFile], T]:
+def memoize_by_file(function: Callable[[LaunchFile], T]) -> Callable[[LaunchFile], T]:
     """Remember the results of a pure function of a launch file, the last one of each path.
 
     By identity: a text that did not change is not parsed again, and a Python file is not the same in each run.

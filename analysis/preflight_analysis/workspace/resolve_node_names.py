@@ -11,7 +11,9 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.tracing.interface import Interface
 
 
-def with_own_names(tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document]) -> LaunchTree:
+def resolve_node_names(
+    tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document]
+) -> LaunchTree:
     """The tree with the real names where a run or the source told them; the same one where there is nothing to
     change."""
     if tree.generation != 2 or all(node.named for node in tree.nodes):
