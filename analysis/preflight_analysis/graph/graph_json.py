@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from preflight_analysis.evaluation.json_values import json_value
-from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
+from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.tracing.interface import Frame, Interface
 
 SCHEMA = "ros-preflight/graph/1"

@@ -8,8 +8,8 @@ from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
 from preflight_analysis.findings.markdown import block, code, escaped
-from preflight_analysis.graph.frames import frames_of
 from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.language import described

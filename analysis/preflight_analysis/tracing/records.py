@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeGuard, cast
 
-from preflight_analysis.tracing.agents.feeder import ANY_TYPE
+from preflight_analysis.tracing.agents.fake_publisher import ANY_TYPE
 from preflight_analysis.tracing.interface import Endpoint, Frame, MadeNode, ParamUse, Range, Role
 
 MAX_ENDPOINTS = 2_000
@@ -83,7 +83,7 @@ class Gathered:
     waited: bool = False
     """Whether it did: there was something new after it."""
     woven: bool = False
-    visited: bool = False
+    probed: bool = False
     """Whether somebody was there for its topics."""
     looked: bool = False
     """Whether it asked which nodes, topics or services there are."""
@@ -148,7 +148,7 @@ def take_supervisor_record(record: Mapping[str, Any], found: Gathered) -> bool:
             if role not in _ROLES or name is None or len(found.seen_endpoints) >= MAX_ENDPOINTS:
                 return False
             kind = "*" if record.get("type") == ANY_TYPE else checked_text(record.get("type"), _TYPE)
-            found.seen_endpoints.append((str(role), name, kind, found.visited))
+            found.seen_endpoints.append((str(role), name, kind, found.probed))
         case "m-param":
             access, name = record.get("access"), checked_text(record.get("name"), NAME)
             if access not in _ACCESS or name is None or len(found.seen_params) >= MAX_PARAMS:
@@ -161,8 +161,8 @@ def take_supervisor_record(record: Mapping[str, Any], found: Gathered) -> bool:
             found.lookups.append(name)
         case "started":
             pass
-        case "visited":
-            found.visited = True
+        case "probed":
+            found.probed = True
         case "maps":
             _add_files(paths(record.get("paths")), found)
         case "end":
@@ -224,7 +224,7 @@ def _take_endpoint(record: Mapping[str, Any], found: Gathered) -> bool:
         line,
         builtin=record.get("builtin") is True,
         speculative=record.get("speculative") is True,
-        on_demand=found.visited,
+        on_demand=found.probed,
         node=checked_text(record.get("node"), _FULL_NAME),
     )
     # One that it made before as well is sure.

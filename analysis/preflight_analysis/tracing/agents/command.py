@@ -51,7 +51,7 @@ def watch(run: Run, events: int) -> None:
         elif time.monotonic() > deadline:
             status = "timed-out"
         else:
-            status = run.census.exceeded() or ("abandoned" if host_is_gone() else "")
+            status = run.process_limits.exceeded() or ("abandoned" if host_is_gone() else "")
     drain(run, events, rest)
     _send(run, piece, sent)
     why = os.read(failure, 1000).decode(errors="replace") if status == "ended" and ended == 127 else ""

@@ -118,9 +118,9 @@ class _WeavingLoader(Loader):
             elif module.__name__ == genpy_weave.NAME:
                 genpy_weave.weave(module)
             else:
-                from . import peers  # noqa: PLC0415
+                from . import fake_peers  # noqa: PLC0415
 
-                peers.weave(module)
+                fake_peers.weave(module)
         except Exception as error:
             channel.send("weave-failed", message=repr(error))
         finally:

@@ -12,7 +12,7 @@ import threading
 import time
 from typing import Any, Optional
 
-from . import answers, channel
+from . import channel, mock_replies
 
 QUIET = 0.25
 """Seconds without an endpoint or parameter call before a node counts as stalled."""
@@ -155,19 +155,19 @@ class Watch:
         self._active = time.monotonic()
         if self.without_time():
             self._clock = True
-            answers.made_up("clock", "/clock")
+            mock_replies.made_up("clock", "/clock")
             threading.Thread(target=self._tick, daemon=True).start()
         elif self._missing:
             for parameter in sorted(self._missing):
-                answers.made_up("parameter", parameter)
+                mock_replies.made_up("parameter", parameter)
             self.given |= self._missing
             self._missing.clear()
         else:
             starved = self._starved()
             for impl in starved:
                 self._fed.add(id(impl))
-                answers.made_up("poll", impl.resolved_name)
-        answers.everywhere()
+                mock_replies.made_up("poll", impl.resolved_name)
+        mock_replies.everywhere()
         forget_turns()
         self._turned = self._announced = False
         channel.send("state", state="fed", seconds=min(self._period, MAX_PERIOD))
@@ -202,7 +202,7 @@ def forget_turns() -> None:
 def _feed(impl: Any) -> None:
     for turn in range(FEEDS):
         for callback, more in list(impl.callbacks or ()):
-            message = answers.empty(impl.data_class, yes=turn % 2 == 1)
+            message = mock_replies.empty(impl.data_class, yes=turn % 2 == 1)
             message._connection_header = {"topic": impl.resolved_name, "callerid": "/", "type": impl.type}
             try:
                 callback(message) if more is None else callback(message, more)

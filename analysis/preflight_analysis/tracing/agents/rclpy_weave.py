@@ -1,7 +1,7 @@
 """What is woven into rclpy: each endpoint and declared parameter is told with the name that the node gave it.
 
-Waits for other nodes are answered as those of rospy are (`answers`), and lifecycle nodes are configured and activated
-once they reach their event loop, which is where their topics are made.
+Waits for other nodes are answered as those of rospy are (`mock_replies`), and lifecycle nodes are configured and
+activated once they reach their event loop, which is where their topics are made.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import weakref
 from types import FrameType, ModuleType
 from typing import Any, Callable, Optional
 
-from . import answers, channel
+from . import channel, mock_replies
 from .variables import EXPECTED, SHARES
 
 _LIBRARIES = frozenset(("rclpy", "preflight_agents", "functools", "tf2_ros", "message_filters", "diagnostic_updater"))
@@ -178,7 +178,7 @@ def _tell_endpoint(node: Any, role: str, name: Any, described: Any, profile: Any
         file=file,
         line=line,
         builtin=internal,
-        speculative=answers.speculative(),
+        speculative=mock_replies.speculative(),
     )
 
 
@@ -471,13 +471,13 @@ def _waits(
             name = name_of(client)
             _tell_wait("wait", kind, name, flush)
             try:
-                limit = answers.grace() if seconds is None else min(float(seconds), answers.grace())
+                limit = mock_replies.grace() if seconds is None else min(float(seconds), mock_replies.grace())
                 end = time.monotonic() + limit
                 while not (there := ready(client)) and time.monotonic() < end and _is_up(client):
                     time.sleep(0.01)
                 if not there:
                     _there.add(name)
-                    answers.made_up(kind, name)
+                    mock_replies.made_up(kind, name)
                 return True
             finally:
                 _tell_wait("resume", kind, name, flush)
@@ -510,7 +510,7 @@ def _is_ready(original: Callable[..., Any]) -> Callable[..., Any]:
         if _polls[key] > 3:
             if _service_of(client) not in _there:
                 _there.add(_service_of(client))
-                answers.made_up("services", _service_of(client))
+                mock_replies.made_up("services", _service_of(client))
             return True
         return False
 
@@ -534,7 +534,7 @@ def _calls(later: bool, ready: Callable[[Any], bool]) -> Callable[..., Any]:
             # A plain call has no end without somebody who answers.
             if ready(self) or (later and _service_of(self) not in _there):
                 return original(self, *args, **kwargs)
-            answers.made_up("call", _service_of(self))
+            mock_replies.made_up("call", _service_of(self))
             response = _response(self.srv_type)
             if not later:
                 return response
@@ -557,12 +557,12 @@ def _first_message(flush: Callable[[], None]) -> Callable[..., Any]:
             name = str(arguments["topic"])
             _tell_wait("wait", "message", name, flush)
             try:
-                limit = answers.grace()
+                limit = mock_replies.grace()
                 arguments["time_to_wait"] = min(seconds, limit) if seconds >= 0 else limit
                 by_itself, message = original(**arguments)
                 if by_itself:
                     return by_itself, message
-                answers.made_up("message", name)
+                mock_replies.made_up("message", name)
                 return True, arguments["msg_type"]()
             finally:
                 _tell_wait("resume", "message", name, flush)

@@ -13,7 +13,7 @@ from typing import Any, Callable, Optional
 
 import aspectlib  # type: ignore[import-untyped]
 
-from . import answers, channel, frames, polling
+from . import channel, mock_replies, polling, tf_frames
 
 Advised = Callable[..., Any]
 
@@ -136,11 +136,11 @@ def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
             file=file,
             line=line,
             builtin=internal and given in _BUILTINS,
-            speculative=answers.speculative(),
+            speculative=mock_replies.speculative(),
             awaits=arguments.get("subscriber_listener") is not None,
         )
         if role == "publisher":
-            frames.watch(made)
+            tf_frames.watch(made)
         watch.something_new()
         if role == "subscriber" and not internal:
             watch.subscribed(made)
@@ -322,10 +322,12 @@ def _wait(
                 return cutpoint(*args, **kwargs)
             tell("wait", name)
             try:
-                by_itself, result = answers.limited(cutpoint, bound, rospy.ROSInterruptException, rospy.ROSException)
+                by_itself, result = mock_replies.limited(
+                    cutpoint, bound, rospy.ROSInterruptException, rospy.ROSException
+                )
                 if by_itself:
                     return result
-                answers.made_up(kind, name)
+                mock_replies.made_up(kind, name)
                 return answer(bound.arguments)
             finally:
                 tell("resume", name)
@@ -363,9 +365,9 @@ def _call(refused: Any) -> Callable[[Advised], Advised]:
                 return cutpoint(self, *args, **kwargs)
             except refused as error:
                 service = self.resolved_name
-                if not str(error).endswith("unavailable") or not answers.call_is_answered(service, *caller()):
+                if not str(error).endswith("unavailable") or not mock_replies.call_is_answered(service, *caller()):
                     raise
-                return answers.empty(self.response_class)
+                return mock_replies.empty(self.response_class)
 
         return advised
 
@@ -424,10 +426,10 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
     function(root.core, "signal_shutdown", _before(_ends), rospy)
 
     def there(arguments: dict[str, Any]) -> None:
-        answers.taken_to_be_there(root.names.resolve_name(arguments["service"]))
+        mock_replies.taken_to_be_there(root.names.resolve_name(arguments["service"]))
 
     def first(arguments: dict[str, Any]) -> Any:
-        return answers.empty(arguments["topic_type"])
+        return mock_replies.empty(arguments["topic_type"])
 
     function(client, "wait_for_message", _wait(root, flush, watch, "message", "topic", first), rospy)
     function(services, "wait_for_service", _wait(root, flush, watch, "service", "service", there), rospy)

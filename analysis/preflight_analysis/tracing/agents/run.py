@@ -10,11 +10,11 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, Optional
 
-from .census import Census
 from .process import become, cpu_seconds, queued_seconds
+from .process_limits import ProcessLimits
 
 if TYPE_CHECKING:
-    from .visits import Visits
+    from .probe_topics import TopicProbes
 
 MAX_LINE = 64_000
 MAX_EVENTS = 20_000
@@ -43,7 +43,9 @@ class Run:
 
     def __init__(self, job: dict[str, Any]) -> None:
         self.job = job
-        self.census = Census(job["most_processes"], job["most_memory"], job["alone"], job["written"], job["most_disk"])
+        self.process_limits = ProcessLimits(
+            job["most_processes"], job["most_memory"], job["alone"], job["written"], job["most_disk"]
+        )
         self.lock = threading.Lock()
         self.told: set[str] = set()
         self.count = 0
@@ -72,8 +74,8 @@ class Run:
         self.screen: Optional[int] = None
         """The process of the node's X server."""
         self.master: Any = None
-        self.feeder: Any = None
-        self.visits: Optional[Visits] = None
+        self.fake_publisher: Any = None
+        self.topic_probes: Optional[TopicProbes] = None
 
     def emit(self, record: dict[str, Any]) -> bool:
         """One line to the host; repetitions are left out. Whether it was new."""
@@ -117,32 +119,32 @@ class Run:
             self._state(event)
             return
         if event["ev"] == "feed":
-            self.feed(str(event.get("topic"))[:300], str(event.get("goal") or "")[:300])
+            self.publish(str(event.get("topic"))[:300], str(event.get("goal") or "")[:300])
             return
         if event["ev"] == "endpoint":
-            self._offer_visit(event)
+            self._probe_topic(event)
         if self.emit({"node": event}) and event["ev"] in ("endpoint", "param"):
             # Only what is new: a parameter that a loop reads in each turn would keep the node from ever being quiet.
             self.active = time.monotonic()
 
-    def feed(self, topic: str, goal: str = "") -> None:
+    def publish(self, topic: str, goal: str = "") -> None:
         """The node gets made-up messages. Most need none, so it is imported only now."""
         if self.master is None:
             return
-        if self.feeder is None:
-            from . import feeder  # noqa: PLC0415
+        if self.fake_publisher is None:
+            from . import fake_publisher  # noqa: PLC0415
 
-            self.feeder = feeder.Feeder(self.master)
-        self.feeder.feed(topic, goal)
+            self.fake_publisher = fake_publisher.FakePublisher(self.master)
+        self.fake_publisher.publish(topic, goal)
 
-    def _offer_visit(self, endpoint: dict[str, Any]) -> None:
+    def _probe_topic(self, endpoint: dict[str, Any]) -> None:
         """Whether somebody at the other end could make a difference."""
         role, topic = endpoint.get("role"), endpoint.get("resolved")
         lazy = (role == "publisher" and endpoint.get("awaits") is True) or (
             role == "subscriber" and endpoint.get("type") == "*"
         )
-        if self.visits is not None and lazy and isinstance(topic, str):
-            self.visits.offer(str(role), topic)
+        if self.topic_probes is not None and lazy and isinstance(topic, str):
+            self.topic_probes.add(str(role), topic)
 
     def _state(self, event: dict[str, Any]) -> None:
         state, now = event.get("state"), time.monotonic()
@@ -190,9 +192,9 @@ class Run:
     def over(self) -> Optional[str]:
         """Why to stop now: `spinning`, `timed-out`, or None."""
         why = self._over()
-        if why == "spinning" and self.visits is not None:
-            fed = self.feeder is not None and self.feeder.busy()
-            return None if self.visits.busy(self.pid, self.active, fed) else why
+        if why == "spinning" and self.topic_probes is not None:
+            fed = self.fake_publisher is not None and self.fake_publisher.busy()
+            return None if self.topic_probes.busy(self.pid, self.active, fed) else why
         return why
 
     def _leave_out_queueing(self, now: float) -> None:
@@ -213,7 +215,7 @@ class Run:
             return "timed-out"
         if self.ending:
             return None
-        if self.feeder is not None and self.feeder.busy():
+        if self.fake_publisher is not None and self.fake_publisher.busy():
             self.fed_until = max(self.fed_until, now + 0.3)
         if self.waits or now < max(self.pause_until, self.fed_until) or self._polls():
             return None

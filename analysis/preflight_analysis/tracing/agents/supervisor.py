@@ -91,12 +91,12 @@ def _main(job: dict[str, Any]) -> None:
     wake_read, failure_read = start(run)
     # After the fork on purpose: until the node reaches its first call, the sockets' backlog holds it.
     from . import stub_master  # noqa: PLC0415
-    from .visits import Visits  # noqa: PLC0415
+    from .probe_topics import TopicProbes  # noqa: PLC0415
 
     params = ParamTree()
     _load(params, job["params"])
     run.master = stub_master.serve(listening, params, run.master_report)
-    run.visits = Visits(run.master, run.feed, lambda event: run.emit({"own": {"ev": event}}))
+    run.topic_probes = TopicProbes(run.master, run.publish, lambda event: run.emit({"own": {"ev": event}}))
 
     status, code, why = _watch(run, events, wake_read)
     if status == "ended" and code == 127:
@@ -156,16 +156,16 @@ def _watch(run: Run, events: int, wake: int) -> tuple[str, Optional[int], str]:
             os.read(wake, 512)
             ended = exit_code(run.pid)
         elif followed:
-            ended = None if run.census.left_behind(run.screen) else 0
+            ended = None if run.process_limits.left_behind(run.screen) else 0
         rest = drain(run, events, rest)
-        if ended == 0 and not run.initialised and not followed and (left := run.census.left_behind(run.screen)):
+        if ended == 0 and not run.initialised and not followed and (left := run.process_limits.left_behind(run.screen)):
             # It goes on as a daemon, or was a script that started the node in the background.
             followed, run.pid, ended = True, left[0], None
             run.queued = queued_seconds(run.pid)
         if ended is not None:
-            if run.visits is not None and run.visits.made:
+            if run.topic_probes is not None and run.topic_probes.made:
                 return "spinning", None, ""  # it was, until we talked to it
             return "ended", ended, ""
-        reason = run.census.exceeded() or ("abandoned" if host_is_gone() else run.over())
+        reason = run.process_limits.exceeded() or ("abandoned" if host_is_gone() else run.over())
         if reason is not None:
             return reason, None, ""

@@ -10,7 +10,7 @@ from . import channel
 _TYPES = ("tf2_msgs/TFMessage", "tf/tfMessage")
 _MAX_FRAMES = 200
 
-_told: set[tuple[str, str, bool]] = set()
+_reported: set[tuple[str, str, bool]] = set()
 
 
 def watch(publisher: Any) -> None:
@@ -23,7 +23,7 @@ def watch(publisher: Any) -> None:
     @functools.wraps(publish)
     def published(*args: Any, **kwargs: Any) -> Any:
         try:
-            _tell(args[0] if args else kwargs.get("transforms"), static)
+            _report(args[0] if args else kwargs.get("transforms"), static)
         except Exception as error:
             channel.send("weave-failed", message=repr(error))
         return publish(*args, **kwargs)
@@ -31,14 +31,14 @@ def watch(publisher: Any) -> None:
     publisher.publish = published
 
 
-def _tell(message: Any, static: bool) -> None:
-    if len(_told) >= _MAX_FRAMES:
+def _report(message: Any, static: bool) -> None:
+    if len(_reported) >= _MAX_FRAMES:
         return
     transforms = getattr(message, "transforms", message)
     if not isinstance(transforms, (list, tuple)):
         return
     for transform in transforms[:_MAX_FRAMES]:
         frame = (str(transform.header.frame_id), str(transform.child_frame_id), static)
-        if frame not in _told:
-            _told.add(frame)
+        if frame not in _reported:
+            _reported.add(frame)
             channel.send("frame", parent=frame[0], child=frame[1], static=static)

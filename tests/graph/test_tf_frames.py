@@ -1,7 +1,7 @@
 """Frames that nodes broadcast, by their arguments."""
 
 import pytest
-from preflight_analysis.graph.frames import frames_of
+from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.tracing.interface import NOT_RUN, Frame
 from preflight_check import analyse, read_fixture
 

@@ -31,14 +31,14 @@ _TIMEOUT = 3.0
 _MAX_HEADER = 65_536
 
 
-class Visits:
-    """The visits of one run. `feed(topic)` sends messages, `report(event)` hears of the first visit."""
+class TopicProbes:
+    """The visits of one run. `publish(topic)` sends messages, `report(event)` hears of the first visit."""
 
-    def __init__(self, master: Master, feed: Callable[[str], None], report: Callable[[str], object]) -> None:
+    def __init__(self, master: Master, publish: Callable[[str], None], report: Callable[[str], object]) -> None:
         self._master = master
-        self._feed = feed
+        self._publish = publish
         self._report = report
-        self._wanted: dict[tuple[str, str], bool] = {}
+        self._probed: dict[tuple[str, str], bool] = {}
         """Role and name of the topics of the node, and whether they were visited."""
         self._began = 0.0
         self._since = 0.0
@@ -50,24 +50,24 @@ class Visits:
         """Whether there was one."""
         return self._began > 0
 
-    def offer(self, role: str, topic: str) -> None:
+    def add(self, role: str, topic: str) -> None:
         """A topic of the node that wants a visit."""
-        if len(self._wanted) < _MOST:
-            self._wanted.setdefault((role, topic), False)
+        if len(self._probed) < _MOST:
+            self._probed.setdefault((role, topic), False)
 
     def busy(self, pid: int, active: float, fed: bool) -> bool:
         """Whether the node, last `active` then and perhaps just being `fed`, may still have something to do because of
         a visit. Makes those that are due."""
-        due = [end for end, visited in self._wanted.items() if not visited]
-        if not self._wanted or (self.made and time.monotonic() - self._began > _LIMIT):
+        due = [end for end, probed in self._probed.items() if not probed]
+        if not self._probed or (self.made and time.monotonic() - self._began > _LIMIT):
             return False
         if due:
             if not self.made:
                 self._began = time.monotonic()
-                self._report("visited")
-            self._wanted.update(dict.fromkeys(due, True))
+                self._report("probed")
+            self._probed.update(dict.fromkeys(due, True))
             for topic in [topic for role, topic in due if role == "subscriber"]:
-                self._feed(topic)
+                self._publish(topic)
             lazy = [topic for role, topic in due if role == "publisher"]
             self._threads.append(threading.Thread(target=self._subscribe_to, args=(lazy,), daemon=True))
             self._threads[-1].start()

@@ -13,7 +13,7 @@ from typing import Any, Callable
 
 import aspectlib  # type: ignore[import-untyped]
 
-from . import answers, channel, polling
+from . import channel, mock_replies, polling
 from .rospy_weave import caller, in_main_thread
 
 Advised = Callable[..., Any]
@@ -41,23 +41,23 @@ class _Waiting:
     """While the node is in a wait, nothing else is made of its sleep."""
 
     def __init__(self, kind: str, name: str) -> None:
-        self._told = {"kind": kind, "name": name, "main": in_main_thread()}
+        self._event = {"kind": kind, "name": name, "main": in_main_thread()}
 
-    def _tell(self, state: str, change: int) -> None:
-        channel.send("state", state=state, **self._told)
-        if self._told["main"]:
+    def _report(self, state: str, change: int) -> None:
+        channel.send("state", state=state, **self._event)
+        if self._event["main"]:
             polling.watch().waits(change)
 
     def __enter__(self) -> None:
-        self._tell("wait", 1)
+        self._report("wait", 1)
 
     def __exit__(self, *_: object) -> None:
-        self._tell("resume", -1)
+        self._report("resume", -1)
 
 
 def _shorter(given: Any) -> Any:
     """The duration that a wait gets: zero and None have no end."""
-    grace = polling.watch().rospy.Duration.from_sec(answers.grace())
+    grace = polling.watch().rospy.Duration.from_sec(mock_replies.grace())
     return grace if not given or given.to_sec() <= 0 or given > grace else given
 
 
@@ -67,7 +67,7 @@ def _server(cutpoint: Advised) -> Advised:
             # Without time there is no end to it.
             if not polling.watch().without_time() and cutpoint(self, _shorter(timeout)):
                 return True
-            answers.made_up("action", str(self.ns))
+            mock_replies.made_up("action", str(self.ns))
             return True
 
     return advised
@@ -81,9 +81,9 @@ def _result(cutpoint: Advised) -> Advised:
         with _Waiting("result", str(client.ns)):
             if not polling.watch().without_time() and cutpoint(self, _shorter(timeout)):
                 return True
-            answers.made_up("result", str(client.ns))
-            message = answers.empty(client.ActionResult)
-            message.result = answers.empty(type(message.result))
+            mock_replies.made_up("result", str(client.ns))
+            message = mock_replies.empty(client.ActionResult)
+            message.result = mock_replies.empty(type(message.result))
             message.status.goal_id = self.gh.comm_state_machine.action_goal.goal_id
             message.status.status = _SUCCEEDED
             client._result_cb(message)
@@ -112,7 +112,7 @@ def _polled(target: Any, source: Any) -> bool:
 
 def _give(kind: str, frames: tuple[str, str]) -> None:
     _given.add(frames)
-    answers.made_up(kind, f"{frames[0]} <- {frames[1]}")
+    mock_replies.made_up(kind, f"{frames[0]} <- {frames[1]}")
 
 
 def _can_transform(cutpoint: Advised) -> Advised:

@@ -14,7 +14,7 @@ _INTERVAL = 0.1
 """Seconds between looks at memory and disk."""
 
 
-class Census:
+class ProcessLimits:
     """Looks at all processes of the sandbox, each as often as it is worth. A limit of None: none. `alone`: there are no
     others to be seen. `folders` are those that the sandbox may write to, where nothing outside bounds them: file
     systems of its own if it is alone, else folders on the host's disk."""

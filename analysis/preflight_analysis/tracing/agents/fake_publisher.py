@@ -32,33 +32,33 @@ _LONGEST = 3.0
 """Seconds until somebody who was to be fed is given up."""
 
 
-class Feeder:
+class FakePublisher:
     """Feeds the topics that it is told to."""
 
     def __init__(self, master: Master) -> None:
         self._master = master
         self._lock = threading.Lock()
         self._goals: dict[str, str] = {}
-        self._hungry: dict[str, float] = {}
+        self._waiting: dict[str, float] = {}
         """Since when they wait for the last message."""
         self._listening = socket.socket()
         self._listening.bind(("127.0.0.1", 0))
         self._listening.listen(16)
         threading.Thread(target=self._accept, daemon=True).start()
 
-    def feed(self, topic: str, goal: Optional[str] = None) -> None:
+    def publish(self, topic: str, goal: Optional[str] = None) -> None:
         """Send messages to who subscribes to `topic`, now or later; the result of `goal` if that is an action's."""
         with self._lock:
             if topic in self._goals or len(self._goals) >= MAX_TOPICS:
                 return
             self._goals[topic] = goal or ""
-            self._hungry[topic] = time.monotonic()
+            self._waiting[topic] = time.monotonic()
         self._master.offer(topic, self._listening.getsockname()[1])
 
     def busy(self) -> bool:
         """Whether something is still on its way."""
         with self._lock:
-            return any(time.monotonic() - since < _LONGEST for since in self._hungry.values())
+            return any(time.monotonic() - since < _LONGEST for since in self._waiting.values())
 
     def _accept(self) -> None:
         while True:
@@ -82,7 +82,7 @@ class Feeder:
             pass
         finally:
             with self._lock:
-                self._hungry.pop(topic, None)
+                self._waiting.pop(topic, None)
 
     def _send(self, connection: socket.socket, topic: str) -> None:
         if topic == CLOCK:
@@ -90,7 +90,7 @@ class Feeder:
                 now = time.time()
                 _message(connection, struct.pack("<II", int(now), int(now % 1 * 1e9)))
                 with self._lock:
-                    self._hungry.pop(topic, None)
+                    self._waiting.pop(topic, None)
                 time.sleep(SECONDS_BETWEEN)
         if self._goals[topic]:
             _message(connection, _result(self._goals[topic]))
@@ -99,7 +99,7 @@ class Feeder:
                 _message(connection, _ONE if turn % 2 else _ZEROS)
                 time.sleep(SECONDS_BETWEEN)
         with self._lock:
-            self._hungry.pop(topic, None)
+            self._waiting.pop(topic, None)
         # The connection stays: one that ends is made anew.
         connection.recv(1)
 
