@@ -77,23 +77,23 @@ corpus: SOURCES2 = $(realpath ../.mirror)
 corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch and ros2 launch have them, values and errors
 	@mkdir -p out
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS)/jobs.jsonl > out/ros1.jsonl
-	$(BIN)/python tests/against_roslaunch.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
+	$(BIN)/python tests/tools/against_roslaunch.py --root $(CORPUS) $(CORPUS)/expected.jsonl out/ros1.jsonl
 	$(BIN)/ros-preflight tree --no-run --batch $(CORPUS2)/jobs-xml-yaml.jsonl > out/ros2.jsonl
 	$(PYTHON) ../shared/tools/compare_ros2.py --root $(CORPUS2) $(CORPUS2)/expected-xml-yaml.jsonl out/ros2.jsonl > out/ros2.txt; \
 	tail -n 3 out/ros2.txt; grep -qE '^(19[5-9]|2[0-9][0-9]) of 223 equal' out/ros2.txt  # the others need what the corpus lacks
-	$(BIN)/python tests/ros2_python_corpus.py --corpus $(CORPUS2) --sources "$(SOURCES2)" --compare ../shared/tools/compare_ros2.py --show 0
+	$(BIN)/python tests/tools/ros2_python_corpus.py --corpus $(CORPUS2) --sources "$(SOURCES2)" --compare ../shared/tools/compare_ros2.py --show 0
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages
-	$(BIN)/python tests/real_nodes.py --write
+	$(BIN)/python tests/tools/real_nodes.py --write
 
 attacks: setup ## what a hostile node meets in the sandbox, as root and as a user, with each backend: the table of docs/security.md
-	$(BIN)/python tests/attacks.py
+	$(BIN)/python tests/tools/attacks.py
 
 fuzz: SECONDS = 600
 fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together; what was found lies in out/fuzz
 	@$(BIN)/python -m pip install --quiet --group fuzz || echo "atheris is not to be had here: inputs do not follow the coverage"
-	$(BIN)/python tests/fuzz.py --seconds $(SECONDS)
+	$(BIN)/python tests/tools/fuzz.py --seconds $(SECONDS)
 
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .

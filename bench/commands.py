@@ -23,14 +23,14 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 
 sys.path.append(str(Path(__file__).parent.parent / "tests"))
-from xacro_desk import lay_robot
+from support.xacro_package import create_robot
 
 
 def timed(rounds: int) -> None:
     print(f"{'median of ' + str(rounds):<30}{'bare':>9}{'cold':>9}{'cached':>9}{'cold/bare':>11}{'cached/bare':>13}")
     with tempfile.TemporaryDirectory() as folder:
         workspace = str(Path(folder, "workspace"))
-        lay_robot(Path(workspace))
+        create_robot(Path(workspace))
         variables = {"PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": workspace}
         environment = detect_environment(None, variables, [workspace])
         cold = CommandRunner(environment, workspace, None)

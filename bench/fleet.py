@@ -33,7 +33,7 @@ rospy.spin()
 """
 
 
-def lay(workspace: Path, count: int) -> tuple[Path, Path]:
+def create_workspace(workspace: Path, count: int) -> tuple[Path, Path]:
     """A package with that many executables, a launch file of all of them, and one of two of them many times."""
     for name in ("launch", "scripts"):
         (workspace / name).mkdir(parents=True)
@@ -89,7 +89,7 @@ def by_server(path: Path, home: Path) -> float:
 def main() -> None:
     count = Options(__doc__, n=40, quick=4, metavar="NODES").read().n
     with tempfile.TemporaryDirectory() as folder:
-        various, alike = lay(Path(folder, "workspace"), count)
+        various, alike = create_workspace(Path(folder, "workspace"), count)
         # What is compiled on first use is there already.
         fresh = Path(folder, "home")
         fresh.mkdir()

@@ -22,12 +22,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-import view_desk  # noqa: E402
 from options import Options  # noqa: E402
 from preflight_analysis.view.graph_page import graph_page  # noqa: E402
 from preflight_analysis.view.layout import lay_out  # noqa: E402
+from support import sample_graphs  # noqa: E402
 
-VIEWS = {"9 nodes, 19 topics": view_desk.robot(), "150 nodes, 600 topics": view_desk.large(150, 600)}
+VIEWS = {"9 nodes, 19 topics": sample_graphs.robot(), "150 nodes, 600 topics": sample_graphs.large(150, 600)}
 
 
 def milliseconds(work: Callable[[], object]) -> float:

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
-from made_once import VARIABLE, begin_run
+from support.build_once import VARIABLE, begin_run
 
 _QUICK = ("git", "bash", "script", Path(sys.executable).name, "ros-preflight")
 """What a test may start that is marked neither `ros` nor `editor`: `make quick` runs it where nothing else is."""

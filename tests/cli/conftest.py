@@ -1,4 +1,4 @@
-"""The command as installed, at a desk with the demo."""
+"""The command as installed, in a home folder with the demo."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import Desk, lay_desk
+from support.editor_harness import Harness, create_harness
 
 
 @dataclass(frozen=True)
@@ -27,17 +27,17 @@ class Done:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return lay_desk(tmp_path, "workspace", server_on_path=True)
+def harness(tmp_path: Path) -> Harness:
+    return create_harness(tmp_path, "workspace", server_on_path=True)
 
 
 @pytest.fixture
-def preflight(desk: Desk) -> Callable[..., Done]:
+def preflight(harness: Harness) -> Callable[..., Done]:
     def run(*arguments: str | Path, cwd: Path | None = None, environment: dict[str, str] | None = None) -> Done:
         done = subprocess.run(
-            [str(desk.server), *map(str, arguments)],
-            cwd=cwd or desk.workspace,
-            env={**desk.environment, **(environment or {})},
+            [str(harness.server), *map(str, arguments)],
+            cwd=cwd or harness.workspace,
+            env={**harness.environment, **(environment or {})},
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,

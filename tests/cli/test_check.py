@@ -14,8 +14,8 @@ from xml.etree import ElementTree
 
 import jsonschema
 import pytest
-from editor_desk import Desk
-from sarif_schema import SARIF_SCHEMA
+from support.editor_harness import Harness
+from support.sarif_schema import SARIF_SCHEMA
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -23,8 +23,8 @@ Run = Callable[..., Any]
 TWO_WARNINGS = '<launch>\n  <nod/>\n  <node pkg="preflight_demo" type="talker.py" name="a" colour="red"/>\n</launch>\n'
 
 
-def test_the_demo_in_text(desk: Desk, preflight: Run) -> None:
-    done = preflight("check", desk.launch_file)
+def test_the_demo_in_text(harness: Harness, preflight: Run) -> None:
+    done = preflight("check", harness.launch_file)
     assert done.code == 0, "a warning is below the default --fail-on"
     assert "launch/talker_listener.launch:7:31: warning (likely) TOP001 subscribed-not-published: " in done.out
     assert '  7 |     <remap from="chatter" to="chater"/>\n    |                               ^^^^^^\n' in done.out
@@ -34,7 +34,7 @@ def test_the_demo_in_text(desk: Desk, preflight: Run) -> None:
     assert done.err == ""
 
 
-def test_the_demo_in_json(desk: Desk, preflight: Run) -> None:
+def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     data = preflight("check", "launch/talker_listener.launch", "--format", "json").json
     assert set(data) == {"schema", "findings", "files", "nodes", "traced"}
     assert (data["schema"], data["files"], data["nodes"], data["traced"]) == ("ros-preflight/check/1", 1, 2, 2)
@@ -44,67 +44,69 @@ def test_the_demo_in_json(desk: Desk, preflight: Run) -> None:
         *("file", "range", "related", "roots", "fixes"),
     }
     assert (finding["rule"], finding["name"]) == ("TOP001", "subscribed-not-published")
-    assert finding["file"] == str(desk.launch_file)
+    assert finding["file"] == str(harness.launch_file)
     assert finding["range"] == {"start": {"line": 7, "column": 31}, "end": {"line": 7, "column": 37}}
-    assert finding["roots"] == [str(desk.launch_file)]
-    assert finding["related"][0]["file"] == str(desk.launch_file)
+    assert finding["roots"] == [str(harness.launch_file)]
+    assert finding["related"][0]["file"] == str(harness.launch_file)
     assert finding["fixes"] == ["Replace 'chater' by 'chatter'"]
 
 
-def test_the_mended_demo_is_clean(desk: Desk, preflight: Run) -> None:
-    done = preflight("check", desk.launch_file.with_name("fixed.launch"), "--fail-on", "hint")
+def test_the_mended_demo_is_clean(harness: Harness, preflight: Run) -> None:
+    done = preflight("check", harness.launch_file.with_name("fixed.launch"), "--fail-on", "hint")
     assert (done.code, done.out) == (0, "no findings in 1 file, 2 nodes, 2 of them traced\n")
 
 
-def test_no_run_executes_nothing(desk: Desk, preflight: Run) -> None:
-    done = preflight("check", desk.launch_file, "--no-run", "--format", "json")
+def test_no_run_executes_nothing(harness: Harness, preflight: Run) -> None:
+    done = preflight("check", harness.launch_file, "--no-run", "--format", "json")
     not_run, from_source = done.json["findings"]
     assert not_run["rule"] == "TRC004"
     assert "--no-run" in not_run["message"]
     assert [from_source[key] for key in ("rule", "severity", "confidence")] == ["TOP001", "info", "possible"]
     assert "by its source" in from_source["related"][0]["message"]
     assert done.json["traced"] == 0
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-def test_no_run_takes_what_an_earlier_run_told_that_still_holds(desk: Desk, preflight: Run) -> None:
-    before = preflight("check", desk.launch_file, "--format", "json").json
-    starts = desk.sandbox_starts()
-    assert preflight("check", desk.launch_file, "--no-run", "--format", "json").json == before
-    desk.launch_file.write_text(desk.launch_file.read_text().replace('value="5"', 'value="6"'))
-    changed = preflight("check", desk.launch_file, "--no-run", "--format", "json").json
+def test_no_run_takes_what_an_earlier_run_told_that_still_holds(harness: Harness, preflight: Run) -> None:
+    before = preflight("check", harness.launch_file, "--format", "json").json
+    starts = harness.sandbox_starts()
+    assert preflight("check", harness.launch_file, "--no-run", "--format", "json").json == before
+    harness.launch_file.write_text(harness.launch_file.read_text().replace('value="5"', 'value="6"'))
+    changed = preflight("check", harness.launch_file, "--no-run", "--format", "json").json
     assert changed["traced"] == 1, "the talker reads the rate"
     (not_run,) = [f for f in changed["findings"] if f["rule"] == "TRC004"]
     assert "not run: /talker; --no-run was given" in not_run["message"]
-    assert desk.sandbox_starts() == starts
+    assert harness.sandbox_starts() == starts
 
 
 @pytest.mark.parametrize(
     ("fail_on", "code"), [("error", 0), ("warning", 1), ("info", 1), ("hint", 1), ("never", 0), (None, 0)]
 )
-def test_fail_on(desk: Desk, preflight: Run, fail_on: str | None, code: int) -> None:
-    desk.launch_file.write_text(TWO_WARNINGS)
+def test_fail_on(harness: Harness, preflight: Run, fail_on: str | None, code: int) -> None:
+    harness.launch_file.write_text(TWO_WARNINGS)
     options = ["--fail-on", fail_on] if fail_on else []
-    assert preflight("check", desk.launch_file, "--no-run", *options).code == code
+    assert preflight("check", harness.launch_file, "--no-run", *options).code == code
 
 
-def test_an_error_is_exit_code_1(desk: Desk, preflight: Run) -> None:
-    desk.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
-    assert preflight("check", desk.launch_file, "--no-run").code == 1
-    assert preflight("check", desk.launch_file, "--no-run", "--fail-on", "never").code == 0
+def test_an_error_is_exit_code_1(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
+    assert preflight("check", harness.launch_file, "--no-run").code == 1
+    assert preflight("check", harness.launch_file, "--no-run", "--fail-on", "never").code == 0
 
 
-def test_launch_arguments_may_stand_anywhere(desk: Desk, preflight: Run) -> None:
-    desk.launch_file.write_text("<launch><arg name='x'/><param name='p' value='$(arg x)'/><arg name='y'/></launch>")
-    assert preflight("check", desk.launch_file, "--no-run", "--fail-on", "info").code == 1
-    assert preflight("check", desk.launch_file, "x:=1", "--no-run", "y:=a:=b", "--fail-on", "info").code == 0
+def test_launch_arguments_may_stand_anywhere(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text("<launch><arg name='x'/><param name='p' value='$(arg x)'/><arg name='y'/></launch>")
+    assert preflight("check", harness.launch_file, "--no-run", "--fail-on", "info").code == 1
+    assert preflight("check", harness.launch_file, "x:=1", "--no-run", "y:=a:=b", "--fail-on", "info").code == 0
 
 
-def test_package_path_means_there_and_nowhere_else(desk: Desk, preflight: Run, tmp_path: Path) -> None:
+def test_package_path_means_there_and_nowhere_else(harness: Harness, preflight: Run, tmp_path: Path) -> None:
     options = ("--no-run", "--format", "json")
-    done = preflight("check", desk.launch_file, "--package-path", tmp_path / "nothing", *options)
+    done = preflight("check", harness.launch_file, "--package-path", tmp_path / "nothing", *options)
     assert {"PKG001"} <= {f["rule"] for f in done.json["findings"]}
-    done = preflight("check", desk.launch_file, "--package-path", f"{tmp_path / 'nothing'}:{desk.workspace}", *options)
+    done = preflight(
+        "check", harness.launch_file, "--package-path", f"{tmp_path / 'nothing'}:{harness.workspace}", *options
+    )
     assert [f["rule"] for f in done.json["findings"]] == ["TRC004", "TOP001"]
 
 
@@ -126,19 +128,19 @@ def test_what_cannot_be_done_is_exit_code_2(preflight: Run, arguments: list[str]
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n\0", b"<launch>" * 3, b" " * (5 << 20)])
-def test_bad_files_are_findings(desk: Desk, preflight: Run, content: bytes) -> None:
-    desk.launch_file.write_bytes(content)
-    done = preflight("check", desk.launch_file, "--format", "json")
+def test_bad_files_are_findings(harness: Harness, preflight: Run, content: bytes) -> None:
+    harness.launch_file.write_bytes(content)
+    done = preflight("check", harness.launch_file, "--format", "json")
     assert done.code == 1
     assert done.json["findings"]
-    assert desk.sandbox_starts() <= 1, "at most the probe"
+    assert harness.sandbox_starts() <= 1, "at most the probe"
 
 
-def test_a_file_that_is_included_twice_is_told_of_once(desk: Desk, preflight: Run) -> None:
-    inner = desk.workspace / "inner.launch"
+def test_a_file_that_is_included_twice_is_told_of_once(harness: Harness, preflight: Run) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text('<launch>\n  <arg name="id"/>\n  <include file="$(dirname)/$(arg id).launch"/>\n</launch>\n')
     include = '  <include file="$(dirname)/inner.launch"><arg name="id" value="{}"/></include>\n'
-    outer = desk.workspace / "outer.launch"
+    outer = harness.workspace / "outer.launch"
     outer.write_text("<launch>\n" + "".join(include.format(name) for name in ("north", "south")) + "</launch>\n")
     (finding,) = preflight("check", outer, "--no-run", "--format", "json").json["findings"]
     assert (finding["rule"], finding["file"], finding["roots"]) == ("LCH013", str(inner), [str(outer)])
@@ -146,10 +148,10 @@ def test_a_file_that_is_included_twice_is_told_of_once(desk: Desk, preflight: Ru
     assert related == [("included here", str(outer), 2), ("in another context", str(outer), 3)]
 
 
-def test_what_is_wrong_with_the_settings_is_a_finding(desk: Desk, preflight: Run) -> None:
-    settings = desk.workspace / ".ros-preflight.yaml"
+def test_what_is_wrong_with_the_settings_is_a_finding(harness: Harness, preflight: Run) -> None:
+    settings = harness.workspace / ".ros-preflight.yaml"
     settings.write_text("external:\n  topic: [/a]\n")
-    fixed = desk.launch_file.with_name("fixed.launch")
+    fixed = harness.launch_file.with_name("fixed.launch")
     done = preflight("check", fixed, "--no-run", "--fail-on", "warning")
     assert done.code == 1
     assert ".ros-preflight.yaml:2:3: warning LCH031 settings-file: in the settings: 'topic' does not" in done.out
@@ -161,17 +163,17 @@ def test_what_is_wrong_with_the_settings_is_a_finding(desk: Desk, preflight: Run
     assert (finding["file"], finding["range"]["start"]) == (str(settings), {"line": 2, "column": 3})
 
 
-def test_sarif_junit_and_github(desk: Desk, preflight: Run) -> None:
-    run = json.loads(preflight("check", desk.launch_file, "--format", "sarif").out)
+def test_sarif_junit_and_github(harness: Harness, preflight: Run) -> None:
+    run = json.loads(preflight("check", harness.launch_file, "--format", "sarif").out)
     jsonschema.validate(run, SARIF_SCHEMA)
     (result,) = run["runs"][0]["results"]
     assert result["ruleId"] == "TOP001"
     assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "launch/talker_listener.launch"
-    done = preflight("check", desk.launch_file, "--format", "junit", "--fail-on", "warning")
+    done = preflight("check", harness.launch_file, "--format", "junit", "--fail-on", "warning")
     assert done.code == 1
     (failure,) = ElementTree.fromstring(done.out).iter("failure")
     assert str(failure.get("message")).startswith("none of the 2 nodes of this launch publishes '/chater'")
-    out = preflight("check", desk.launch_file, "--format", "github").out
+    out = preflight("check", harness.launch_file, "--format", "github").out
     assert out.startswith(
         "::warning file=launch/talker_listener.launch,line=7,endLine=7,col=31,endColumn=37,title=TOP001"
     )
@@ -181,8 +183,8 @@ def test_sarif_junit_and_github(desk: Desk, preflight: Run) -> None:
     ("environment", "coloured"),
     [({"TERM": "xterm"}, True), ({"TERM": "xterm", "NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)],
 )
-def test_colours_on_a_terminal_only(desk: Desk, environment: dict[str, str], coloured: bool) -> None:
-    out = on_terminal([str(desk.server), "check", str(desk.launch_file), "--no-run"], desk, environment)
+def test_colours_on_a_terminal_only(harness: Harness, environment: dict[str, str], coloured: bool) -> None:
+    out = on_terminal([str(harness.server), "check", str(harness.launch_file), "--no-run"], harness, environment)
     assert ("\x1b[34minfo (possible) TOP001" in out) == coloured
     assert ("\x1b[34m^^^^^^\x1b[0m" in out) == coloured
     assert "talker_listener.launch:7:31" in out
@@ -192,11 +194,11 @@ def test_colours_on_a_terminal_only(desk: Desk, environment: dict[str, str], col
     assert ("\r\x1b[Klaunch/talker_listener.launch:1:1: " in out) == (environment["TERM"] == "xterm")
 
 
-def on_terminal(command: list[str], desk: Desk, environment: dict[str, str]) -> str:
+def on_terminal(command: list[str], harness: Harness, environment: dict[str, str]) -> str:
     """What a command shows on a terminal, on either stream."""
     ours, its = pty.openpty()
     process = subprocess.Popen(
-        command, stdout=its, stderr=its, cwd=desk.workspace, env={**desk.environment, **environment}
+        command, stdout=its, stderr=its, cwd=harness.workspace, env={**harness.environment, **environment}
     )
     os.close(its)
     shown = b""

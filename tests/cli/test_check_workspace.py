@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import Desk
+from support.editor_harness import Harness
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -20,7 +20,7 @@ OUTER = '<launch>\n  <include file="$(dirname)/inner.launch"><arg name="id" valu
 PROFILES = '<launch>\n  <arg name="sim"/>\n  <include file="$(dirname)/$(arg sim).launch"/>\n</launch>\n'
 
 
-def lay(folder: Path, **files: str) -> Path:
+def create_workspace(folder: Path, **files: str) -> Path:
     for name, text in files.items():
         path = folder / f"{name}.launch"
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -29,11 +29,11 @@ def lay(folder: Path, **files: str) -> Path:
 
 
 @pytest.fixture
-def workspace(desk: Desk) -> Path:
+def workspace(harness: Harness) -> Path:
     """Beside the demo: a file that only holds as it is included, and two that include nothing."""
-    folder = desk.workspace.parent / "robots"
+    folder = harness.workspace.parent / "robots"
     (folder / ".git").mkdir(parents=True)
-    return lay(folder, inner=INNER, outer=OUTER, alone="<launch/>")
+    return create_workspace(folder, inner=INNER, outer=OUTER, alone="<launch/>")
 
 
 def rules(data: Any) -> list[tuple[str, str]]:
@@ -49,7 +49,7 @@ def test_a_workspace_is_checked_as_it_is_launched(workspace: Path, preflight: Ru
 
 
 def test_every_profile_of_the_settings_is_launched(workspace: Path, preflight: Run) -> None:
-    lay(workspace, profiles=PROFILES, real="<launch/>")
+    create_workspace(workspace, profiles=PROFILES, real="<launch/>")
     settings = (
         "roots:\n  - {file: profiles.launch, args: {sim: real}}\n  - {file: profiles.launch, args: {sim: gone}}\n"
     )
@@ -113,7 +113,7 @@ def test_what_cannot_be_done(tmp_path: Path, preflight: Run, arguments: list[str
     folder = tmp_path / "empty"
     folder.mkdir()
     if "x.launch" in arguments:
-        lay(folder, x="<launch/>")
+        create_workspace(folder, x="<launch/>")
     done = preflight("check", "--no-run", *arguments, cwd=folder)
     assert (done.code, done.out) == (2, "")
     assert message in done.err
@@ -147,7 +147,7 @@ def test_a_list_that_is_none_is_exit_code_2(workspace: Path, preflight: Run, con
 
 
 @pytest.fixture
-def repository(workspace: Path, desk: Desk) -> Callable[..., None]:
+def repository(workspace: Path, harness: Harness) -> Callable[..., None]:
     (workspace / ".git").rmdir()
     identity = {
         "GIT_AUTHOR_NAME": "a",
@@ -157,7 +157,7 @@ def repository(workspace: Path, desk: Desk) -> Callable[..., None]:
     }
 
     def git(*arguments: str) -> None:
-        environment = {**desk.environment, **identity, "GIT_CONFIG_GLOBAL": os.devnull}
+        environment = {**harness.environment, **identity, "GIT_CONFIG_GLOBAL": os.devnull}
         subprocess.run(["git", "-C", str(workspace), *arguments], check=True, env=environment, capture_output=True)
 
     git("init", "-b", "main")
@@ -181,7 +181,7 @@ def test_only_launches_that_changed(workspace: Path, repository: Callable[..., N
     assert checked() == 2, "inner.launch, in the launch that includes it"
     repository("commit", "-am", "second")
     assert (checked(), checked("HEAD~1"), checked("main~1")) == (0, 2, 2)
-    lay(workspace, new="<launch/>")
+    create_workspace(workspace, new="<launch/>")
     assert checked() == 1, "one that git does not know yet"
     (workspace / ".ros-preflight.yaml").write_text("external: {}\n")
     assert checked() == 4, "the settings speak of every launch"
@@ -193,7 +193,7 @@ def test_a_change_in_a_package_is_one_of_the_launches_of_its_nodes(
     package = workspace / "src" / "drivers"
     (package / "scripts").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>drivers</name></package>")
-    lay(workspace, alone='<launch><node pkg="drivers" type="lidar" name="lidar"/></launch>')
+    create_workspace(workspace, alone='<launch><node pkg="drivers" type="lidar" name="lidar"/></launch>')
     repository("add", ".")
     repository("commit", "-m", "second")
     (package / "scripts" / "lidar.py").write_text("")
@@ -216,15 +216,15 @@ def test_the_repository_cannot_make_git_run_something(
 
 
 @pytest.mark.parametrize("way", ["option", "variable"])
-def test_the_cache_folder_can_be_one_that_a_ci_keeps(desk: Desk, preflight: Run, way: str) -> None:
+def test_the_cache_folder_can_be_one_that_a_ci_keeps(harness: Harness, preflight: Run, way: str) -> None:
     option = ("--cache-dir", "ci cache") if way == "option" else ()
     variable = {"ROS_PREFLIGHT_CACHE_DIR": "ci cache"} if way == "variable" else {}
-    done = preflight("check", desk.launch_file, *option, environment=variable)
+    done = preflight("check", harness.launch_file, *option, environment=variable)
     assert "2 nodes, 2 of them traced" in done.out
-    kept = desk.workspace / "ci cache"
+    kept = harness.workspace / "ci cache"
     assert list(kept.iterdir())
-    assert not list((desk.home / ".cache").iterdir())
-    starts = desk.sandbox_starts()
-    moved = kept.rename(desk.home / "restored")
-    again = preflight("check", desk.launch_file, "--cache-dir", moved)
-    assert (again.out, desk.sandbox_starts()) == (done.out, starts), "not even the probe"
+    assert not list((harness.home / ".cache").iterdir())
+    starts = harness.sandbox_starts()
+    moved = kept.rename(harness.home / "restored")
+    again = preflight("check", harness.launch_file, "--cache-dir", moved)
+    assert (again.out, harness.sandbox_starts()) == (done.out, starts), "not even the probe"

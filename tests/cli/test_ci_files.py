@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 import yaml
-from editor_desk import Desk
+from support.editor_harness import Harness
 
 pytestmark = pytest.mark.ros
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,7 +23,7 @@ def load(path: str) -> Any:
     return yaml.safe_load((ROOT / path).read_text())
 
 
-def test_the_hook_checks_what_the_commit_matters_to(desk: Desk, preflight: Run) -> None:
+def test_the_hook_checks_what_the_commit_matters_to(harness: Harness, preflight: Run) -> None:
     (hook,) = load(".pre-commit-hooks.yaml")
     assert (hook["id"], hook["language"], hook["pass_filenames"]) == ("ros-preflight", "python", False)
     for name in ("a.launch", "a.launch.py", "x/a_launch.yaml", ".ros-preflight.yaml", "package.xml", "CMakeLists.txt"):
@@ -32,26 +32,28 @@ def test_the_hook_checks_what_the_commit_matters_to(desk: Desk, preflight: Run) 
     command = [*shlex.split(hook["entry"])[1:], *hook["args"]]
     identity = ["-c", "user.name=a", "-c", "user.email=a@b"]
     for arguments in (["init"], ["add", "."], [*identity, "commit", "-m", "first"]):
-        subprocess.run(["git", *arguments], cwd=desk.workspace, env=desk.environment, check=True, capture_output=True)
+        subprocess.run(
+            ["git", *arguments], cwd=harness.workspace, env=harness.environment, check=True, capture_output=True
+        )
     assert "in 0 files" in preflight(*command).out
-    desk.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
+    harness.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
     done = preflight(*command)
     assert (done.code, "in 1 file," in done.out) == (1, True)
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-def action_step(desk: Desk, folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
+def action_step(harness: Harness, folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
     """The last step of the action, as a runner calls it."""
     *_, step = load(".github/actions/check/action.yml")["runs"]["steps"]
     program = folder / "ros-preflight" / "bin" / "ros-preflight"
     program.parent.mkdir(parents=True, exist_ok=True)
     program.unlink(missing_ok=True)
-    program.symlink_to(desk.server)
+    program.symlink_to(harness.server)
     given = dict.fromkeys(step["env"], "") | inputs
     return subprocess.run(
         ["bash", "--noprofile", "--norc", "-e", "-o", "pipefail", "-c", step["run"]],
-        cwd=desk.workspace,
-        env={**desk.environment, "RUNNER_TEMP": str(folder), **given},
+        cwd=harness.workspace,
+        env={**harness.environment, "RUNNER_TEMP": str(folder), **given},
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
@@ -60,18 +62,18 @@ def action_step(desk: Desk, folder: Path, **inputs: str) -> subprocess.Completed
     )
 
 
-def test_the_action_writes_annotations_and_sarif(desk: Desk, tmp_path: Path) -> None:
-    (desk.workspace / "setup.bash").write_text("export SAID_BY_SETUP=$UNSET_BEFORE\n")
+def test_the_action_writes_annotations_and_sarif(harness: Harness, tmp_path: Path) -> None:
+    (harness.workspace / "setup.bash").write_text("export SAID_BY_SETUP=$UNSET_BEFORE\n")
     arguments = "launch/talker_listener.launch\n--fail-on warning"
-    done = action_step(desk, tmp_path / "runner", ARGUMENTS=arguments, SETUP="./setup.bash", SARIF_FILE="out.sarif")
+    done = action_step(harness, tmp_path / "runner", ARGUMENTS=arguments, SETUP="./setup.bash", SARIF_FILE="out.sarif")
     assert (done.returncode, done.stderr) == (1, "")
     assert done.stdout.startswith("::warning file=launch/talker_listener.launch,line=7,")
-    assert '"version": "2.1.0"' in (desk.workspace / "out.sarif").read_text()
+    assert '"version": "2.1.0"' in (harness.workspace / "out.sarif").read_text()
     assert os.listdir(tmp_path / "runner" / "ros-preflight-cache")
 
 
-def test_the_action_without_inputs_checks_the_workspace(desk: Desk, tmp_path: Path) -> None:
-    done = action_step(desk, tmp_path / "runner")
+def test_the_action_without_inputs_checks_the_workspace(harness: Harness, tmp_path: Path) -> None:
+    done = action_step(harness, tmp_path / "runner")
     assert (done.returncode, done.stderr) == (0, "")
     assert "in 2 files" in done.stdout
 

@@ -9,20 +9,20 @@ from typing import Any
 
 import pytest
 import yaml
-from editor_desk import Desk
-from xacro_desk import lay_robot
+from support.editor_harness import Harness
+from support.xacro_package import create_robot
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
 
 
 @pytest.fixture
-def robot(desk: Desk) -> Path:
+def robot(harness: Harness) -> Path:
     """The launch file of a robot that xacro describes."""
-    return lay_robot(desk.home / "robots")
+    return create_robot(harness.home / "robots")
 
 
-def test_the_tree_has_what_roslaunch_would_set(desk: Desk, robot: Path, preflight: Run) -> None:
+def test_the_tree_has_what_roslaunch_would_set(harness: Harness, robot: Path, preflight: Run) -> None:
     robot.write_text(
         robot.read_text().replace(
             "</launch>",
@@ -37,11 +37,11 @@ def test_the_tree_has_what_roslaunch_would_set(desk: Desk, robot: Path, prefligh
             </launch>""",
         )
     )
-    environment = {**desk.environment, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(desk.home / "robots")}
+    environment = {**harness.environment, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(harness.home / "robots")}
     real = subprocess.run(
         ["/usr/bin/roslaunch", "--dump-params", str(robot), "side:=left"],
         env=environment,
-        cwd=desk.home / "robots",
+        cwd=harness.home / "robots",
         capture_output=True,
         text=True,
         check=True,
@@ -55,34 +55,34 @@ def test_the_tree_has_what_roslaunch_would_set(desk: Desk, robot: Path, prefligh
     assert {name: type(value) for name, value in params.items()} == {n: type(v) for n, v in expected.items()}
 
 
-def test_a_second_time_nothing_is_started(desk: Desk, robot: Path, preflight: Run) -> None:
+def test_a_second_time_nothing_is_started(harness: Harness, robot: Path, preflight: Run) -> None:
     first = preflight("tree", robot, "--format", "json").json
-    assert desk.sandbox_starts() == 3, "the probe, our own code to be compiled and one command"
+    assert harness.sandbox_starts() == 3, "the probe, our own code to be compiled and one command"
     assert preflight("tree", robot, "--format", "json").json == first
-    assert desk.sandbox_starts() == 3
+    assert harness.sandbox_starts() == 3
     macros = robot.parents[1] / "urdf/macros.xacro"
     macros.write_text(macros.read_text().replace("link", "joint"))
     again = preflight("tree", robot, "--format", "json").json
     assert again["params"]["/robot_description"] == first["params"]["/robot_description"].replace("link", "joint")
-    assert desk.sandbox_starts() == 5
+    assert harness.sandbox_starts() == 5
 
 
-def test_nothing_is_run_with_no_run_or_in_a_batch(desk: Desk, robot: Path, preflight: Run) -> None:
+def test_nothing_is_run_with_no_run_or_in_a_batch(harness: Harness, robot: Path, preflight: Run) -> None:
     line = f"{robot.parents[2]}/xacro/xacro {robot.parents[1]}/urdf/arm.xacro side:=right"
     data = preflight("tree", robot, "--no-run", "--format", "json").json
     assert data["params"] == {"/robot_description": {"command": line}}
     assert data["errors"] == []
-    jobs = desk.home / "jobs.jsonl"
+    jobs = harness.home / "jobs.jsonl"
     jobs.write_text('{"file": "%s", "package_path": ["%s"]}\n' % (robot, robot.parents[2]))
     assert f'{{"command": "{line}"}}' in preflight("tree", "--batch", jobs).out
     done = preflight("check", robot, "--no-run", "--format", "json")
     (finding,) = done.json["findings"]
     assert (finding["rule"], finding["severity"]) == ("LCH018", "hint")
     assert "--no-run was given" in finding["message"]
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-def test_a_failing_command_is_an_error(desk: Desk, robot: Path, preflight: Run) -> None:
+def test_a_failing_command_is_an_error(harness: Harness, robot: Path, preflight: Run) -> None:
     (robot.parents[1] / "urdf/macros.xacro").write_text("<robot><link></robot>")
     done = preflight("check", robot, "--format", "json")
     (finding,) = done.json["findings"]
@@ -94,7 +94,7 @@ def test_a_failing_command_is_an_error(desk: Desk, robot: Path, preflight: Run) 
     assert data["params"] == {}
 
 
-def test_nodes_get_the_value(desk: Desk, robot: Path, preflight: Run) -> None:
+def test_nodes_get_the_value(harness: Harness, robot: Path, preflight: Run) -> None:
     script = robot.parents[1] / "reader.py"
     script.write_text(
         "#!/usr/bin/env python3\nimport rospy\nfrom std_msgs.msg import String\nrospy.init_node('n')\n"
@@ -108,7 +108,7 @@ def test_nodes_get_the_value(desk: Desk, robot: Path, preflight: Run) -> None:
     assert topics["/is_robot_1"]["publishers"] == ["/n"]
 
 
-def test_a_missing_program(desk: Desk, robot: Path, preflight: Run) -> None:
+def test_a_missing_program(harness: Harness, robot: Path, preflight: Run) -> None:
     robot.write_text(robot.read_text().replace("/xacro ", "/xacro.py "))
     for more in ((), ("--no-run",)):
         findings = preflight("check", robot, "--format", "json", *more).json["findings"]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import Desk
+from support.editor_harness import Harness
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -58,21 +58,21 @@ def git(folder: Path, *arguments: str) -> None:
 
 
 @pytest.fixture
-def repository(desk: Desk) -> Path:
-    git(desk.workspace, "init", "--quiet")
-    git(desk.workspace, "add", "--all")
-    git(desk.workspace, "commit", "--quiet", "--message", "First")
-    return desk.workspace
+def repository(harness: Harness) -> Path:
+    git(harness.workspace, "init", "--quiet")
+    git(harness.workspace, "add", "--all")
+    git(harness.workspace, "commit", "--quiet", "--message", "First")
+    return harness.workspace
 
 
-def revisions(desk: Desk) -> list[Path]:
+def revisions(harness: Harness) -> list[Path]:
     """The folders of revisions that are still there."""
-    return list((desk.home / "tmp").glob("ros-preflight-revision-*"))
+    return list((harness.home / "tmp").glob("ros-preflight-revision-*"))
 
 
-def runs(desk: Desk) -> bool:
+def runs(harness: Harness) -> bool:
     """Whether the talker is being run."""
-    return any("talker.py" in command for command in desk.processes())
+    return any("talker.py" in command for command in harness.processes())
 
 
 def until(condition: Callable[[], bool]) -> None:
@@ -82,31 +82,31 @@ def until(condition: Callable[[], bool]) -> None:
         time.sleep(0.02)
 
 
-def test_a_snapshot_reads_well_and_is_the_same_as_what_it_was_made_of(desk: Desk, preflight: Run) -> None:
-    kept = desk.workspace / "expected.yaml"
-    done = preflight("snapshot", desk.launch_file, "--output", kept)
+def test_a_snapshot_reads_well_and_is_the_same_as_what_it_was_made_of(harness: Harness, preflight: Run) -> None:
+    kept = harness.workspace / "expected.yaml"
+    done = preflight("snapshot", harness.launch_file, "--output", kept)
     assert (done.code, done.out, done.err) == (0, "", "")
     assert kept.read_text() == DEMO
-    done = preflight("diff", kept, desk.launch_file)
+    done = preflight("diff", kept, harness.launch_file)
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"before: {kept}\nafter:  {desk.launch_file}\n\nno differences\n"
-    data = preflight("snapshot", desk.launch_file, "--format", "json").json
+    assert done.out == f"before: {kept}\nafter:  {harness.launch_file}\n\nno differences\n"
+    data = preflight("snapshot", harness.launch_file, "--format", "json").json
     assert data["schema"] == "ros-preflight/snapshot/1"
     assert data["nodes"]["/talker"]["publishers"] == {
         "/chatter": {"type": "std_msgs/String", "latch": False, "queue_size": 10}
     }
 
 
-def test_a_snapshot_is_the_same_in_another_folder(desk: Desk, preflight: Run) -> None:
-    elsewhere = desk.home / "other/place"
-    shutil.copytree(desk.workspace, elsewhere)
-    other = elsewhere / desk.launch_file.relative_to(desk.workspace)
+def test_a_snapshot_is_the_same_in_another_folder(harness: Harness, preflight: Run) -> None:
+    elsewhere = harness.home / "other/place"
+    shutil.copytree(harness.workspace, elsewhere)
+    other = elsewhere / harness.launch_file.relative_to(harness.workspace)
     assert preflight("snapshot", other, cwd=elsewhere).out == DEMO
 
 
-def test_snapshot_as_nodl_is_a_document_for_each_executable(desk: Desk, preflight: Run) -> None:
-    folder = desk.workspace / "described"
-    done = preflight("snapshot", desk.launch_file, "--format", "nodl", "--output", folder)
+def test_snapshot_as_nodl_is_a_document_for_each_executable(harness: Harness, preflight: Run) -> None:
+    folder = harness.workspace / "described"
+    done = preflight("snapshot", harness.launch_file, "--format", "nodl", "--output", folder)
     assert (done.code, done.out) == (0, "")
     assert sorted(str(path.relative_to(folder)) for path in folder.rglob("*.yaml")) == [
         "preflight_demo/listener.nodl.yaml",
@@ -114,12 +114,12 @@ def test_snapshot_as_nodl_is_a_document_for_each_executable(desk: Desk, prefligh
     ]
     text = (folder / "preflight_demo/talker.nodl.yaml").read_text()
     assert "publishers:\n- name: chatter\n  type: std_msgs/String\n" in text
-    done = preflight("snapshot", desk.launch_file, "--format", "nodl")
+    done = preflight("snapshot", harness.launch_file, "--format", "nodl")
     assert (done.code, "--output" in done.err) == (2, True)
 
 
-def test_diff_of_a_file_with_two_lists_of_arguments(desk: Desk, preflight: Run) -> None:
-    path = desk.launch_file.with_name("arguments.launch")
+def test_diff_of_a_file_with_two_lists_of_arguments(harness: Harness, preflight: Run) -> None:
+    path = harness.launch_file.with_name("arguments.launch")
     path.write_text(
         '<launch><arg name="n" default="1"/><arg name="second" default="false"/>'
         '<node pkg="preflight_demo" type="talker.py" name="a"><param name="rate" value="$(arg n)"/></node>'
@@ -138,14 +138,14 @@ def test_diff_of_a_file_with_two_lists_of_arguments(desk: Desk, preflight: Run) 
         "1 node added, 1 node changed, 1 connection added",
     ]
     assert preflight("diff", path, "n:=2", "--no-run", path, "n:=2").code == 0
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-def test_diff_of_revisions(desk: Desk, preflight: Run, repository: Path) -> None:
+def test_diff_of_revisions(harness: Harness, preflight: Run, repository: Path) -> None:
     talker = repository / "scripts/talker.py"
     talker.write_text(talker.read_text().replace("queue_size=10", "queue_size=1").replace('"chatter"', '"chat"'))
-    desk.launch_file.write_text(desk.launch_file.read_text().replace('value="5"', 'value="6"'))
-    file = desk.launch_file.relative_to(repository)
+    harness.launch_file.write_text(harness.launch_file.read_text().replace('value="5"', 'value="6"'))
+    file = harness.launch_file.relative_to(repository)
     done = preflight("diff", f"HEAD:{file}", file)
     assert done.code == 1, done.err
     assert done.out == (
@@ -156,12 +156,12 @@ def test_diff_of_revisions(desk: Desk, preflight: Run, repository: Path) -> None
         "  ~ parameter rate  5 -> 6\n"
         "\n1 node changed\n"
     )
-    assert preflight("diff", f"HEAD:./{file.name}", f"main:{file}", cwd=desk.launch_file.parent).code == 0
-    assert revisions(desk) == []
+    assert preflight("diff", f"HEAD:./{file.name}", f"main:{file}", cwd=harness.launch_file.parent).code == 0
+    assert revisions(harness) == []
 
 
-def test_diff_of_a_revision_runs_nothing_of_the_repository(desk: Desk, preflight: Run, repository: Path) -> None:
-    ran = desk.home / "ran"
+def test_diff_of_a_revision_runs_nothing_of_the_repository(harness: Harness, preflight: Run, repository: Path) -> None:
+    ran = harness.home / "ran"
     hook = repository / ".git/hooks/post-checkout"
     hook.write_text(f"#!/bin/sh\ntouch {ran}\n")
     hook.chmod(0o755)
@@ -170,19 +170,19 @@ def test_diff_of_a_revision_runs_nothing_of_the_repository(desk: Desk, preflight
     git(repository, "commit", "--quiet", "--message", "Attributes")
     for setting in ("filter.evil.smudge", "core.fsmonitor"):
         git(repository, "config", setting, f"touch {ran}")
-    file = desk.launch_file.relative_to(repository)
+    file = harness.launch_file.relative_to(repository)
     assert preflight("diff", f"HEAD~1:{file}", f"HEAD:{file}", "--no-run").code == 0
     assert not ran.exists()
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
 def test_a_revision_is_launched_with_the_packages_and_files_it_had(
-    desk: Desk, preflight: Run, repository: Path
+    harness: Harness, preflight: Run, repository: Path
 ) -> None:
-    file = desk.launch_file.relative_to(repository)
-    desk.launch_file.with_name("old.launch").write_text(desk.launch_file.read_text())
+    file = harness.launch_file.relative_to(repository)
+    harness.launch_file.with_name("old.launch").write_text(harness.launch_file.read_text())
     (repository / "rates.yaml").write_text("rate: 7\n")
-    desk.launch_file.write_text(
+    harness.launch_file.write_text(
         '<launch><include file="$(find preflight_demo)/launch/old.launch"/>'
         '<rosparam file="$(find preflight_demo)/rates.yaml"/></launch>'
     )
@@ -196,12 +196,12 @@ def test_a_revision_is_launched_with_the_packages_and_files_it_had(
     assert done.code == 1
 
 
-def test_diff_as_markdown_and_json(desk: Desk, preflight: Run) -> None:
-    fixed = desk.launch_file.with_name("fixed.launch")
-    done = preflight("diff", "--format", "markdown", desk.launch_file, fixed)
+def test_diff_as_markdown_and_json(harness: Harness, preflight: Run) -> None:
+    fixed = harness.launch_file.with_name("fixed.launch")
+    done = preflight("diff", "--format", "markdown", harness.launch_file, fixed)
     assert done.code == 1
     assert done.out == (
-        f"### Launch configuration\n\n`{desk.launch_file}` → `{fixed}`: **1 node changed, 1 connection added**\n\n"
+        f"### Launch configuration\n\n`{harness.launch_file}` → `{fixed}`: **1 node changed, 1 connection added**\n\n"
         "| | node | what | before | after |\n"
         "| --- | --- | --- | --- | --- |\n"
         "| - | `/listener` | subscribes to `/chater` | `std_msgs/String` |  |\n"
@@ -211,7 +211,7 @@ def test_diff_as_markdown_and_json(desk: Desk, preflight: Run) -> None:
         "| --- | --- | --- | --- |\n"
         "| + | topic `/chatter` | `/talker` | `/listener` |\n"
     )
-    data = preflight("diff", "--format", "json", desk.launch_file, fixed).json
+    data = preflight("diff", "--format", "json", harness.launch_file, fixed).json
     assert set(data) == {"schema", "before", "after", "same", "changes", "connections", "not_compared"}
     assert (data["schema"], data["same"]) == ("ros-preflight/diff/1", False)
     assert data["before"]["launch"] == "$(find preflight_demo)/launch/talker_listener.launch"
@@ -228,12 +228,12 @@ def test_diff_as_markdown_and_json(desk: Desk, preflight: Run) -> None:
     ]
 
 
-def test_a_node_that_crashes_is_a_difference_and_not_the_loss_of_all_it_does(desk: Desk, preflight: Run) -> None:
-    kept = desk.workspace / "expected.yaml"
+def test_a_node_that_crashes_is_a_difference_and_not_the_loss_of_all_it_does(harness: Harness, preflight: Run) -> None:
+    kept = harness.workspace / "expected.yaml"
     kept.write_text(DEMO)
-    script = desk.workspace / "scripts/talker.py"
+    script = harness.workspace / "scripts/talker.py"
     script.write_text('#!/usr/bin/env python3\nraise RuntimeError("no laser here")\n')
-    done = preflight("diff", kept, desk.launch_file)
+    done = preflight("diff", kept, harness.launch_file)
     assert done.code == 1
     assert "  ~ outcome  spinning -> crashed\n" in done.out
     assert "publishes" not in done.out
@@ -272,21 +272,21 @@ def test_a_revision_needs_a_repository(preflight: Run) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
-def test_a_revision_is_cleaned_up_whatever_ends_the_command(desk: Desk, repository: Path, number: int) -> None:
+def test_a_revision_is_cleaned_up_whatever_ends_the_command(harness: Harness, repository: Path, number: int) -> None:
     (repository / "scripts/talker.py").write_text("#!/usr/bin/env python3\nimport time\ntime.sleep(60)\n")
     git(repository, "commit", "--quiet", "--all", "--message", "Slow")
-    file = desk.launch_file.relative_to(repository)
+    file = harness.launch_file.relative_to(repository)
     with subprocess.Popen(
-        [str(desk.server), "diff", f"HEAD:{file}", str(file)],
+        [str(harness.server), "diff", f"HEAD:{file}", str(file)],
         cwd=repository,
-        env=desk.environment,
+        env=harness.environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     ) as process:
-        until(lambda: process.poll() is not None or runs(desk))
-        assert len(revisions(desk)) == 1
+        until(lambda: process.poll() is not None or runs(harness))
+        assert len(revisions(harness)) == 1
         process.send_signal(number)
         process.wait(60)
     assert process.returncode == 2
-    assert revisions(desk) == []
-    until(lambda: not runs(desk))
+    assert revisions(harness) == []
+    until(lambda: not runs(harness))

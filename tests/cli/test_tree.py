@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import Desk
+from support.editor_harness import Harness
 
 Run = Callable[..., Any]
 
@@ -44,8 +44,8 @@ NODE_KEYS = {
 
 
 @pytest.fixture
-def launch(desk: Desk) -> Path:
-    path = desk.launch_file.with_name("all.launch")
+def launch(harness: Harness) -> Path:
+    path = harness.launch_file.with_name("all.launch")
     path.write_text(LAUNCH)
     path.with_name("p.yaml").write_text("gain: 1.5\nlimits: {low: .inf, names: [a, größe]}\n")
     path.with_name("b").write_bytes(b"\0\1")
@@ -109,9 +109,9 @@ def test_text(launch: Path, preflight: Run) -> None:
     assert "need" in done.err
 
 
-def test_a_batch_answers_each_job_in_order_from_its_own_environment(desk: Desk, preflight: Run) -> None:
-    jobs = desk.workspace / "jobs.jsonl"
-    launch = desk.workspace / "launch/env.launch"
+def test_a_batch_answers_each_job_in_order_from_its_own_environment(harness: Harness, preflight: Run) -> None:
+    jobs = harness.workspace / "jobs.jsonl"
+    launch = harness.workspace / "launch/env.launch"
     launch.write_text(
         '<launch><param name="a" value="$(optenv A none)"/><param name="home" value="$(env HOME)"/>'
         '<param name="x" value="$(arg x)"/><param name="at" value="$(find preflight_demo)"/></launch>'
@@ -123,10 +123,10 @@ def test_a_batch_answers_each_job_in_order_from_its_own_environment(desk: Desk, 
         {"file": "launch/missing.launch", "args": [], "env": {}, "package_path": ["."]},
     ]
     jobs.write_text("\n".join(json.dumps(job) for job in given) + "\n\n")
-    done = preflight("tree", "--batch", jobs, "--no-run", cwd=desk.home, environment={"A": "of the process"})
+    done = preflight("tree", "--batch", jobs, "--no-run", cwd=harness.home, environment={"A": "of the process"})
     assert done.code == 0
     first, second, third, fourth = (json.loads(line) for line in done.out.splitlines())
-    root = str(desk.workspace)
+    root = str(harness.workspace)
     assert {**first["params"]} == {"/a": root, "/home": "/home/robot", "/x": f"{root}/x", "/at": root}
     assert (second["params"]["/a"], second["params"]["/at"]) == ("none", root)
     assert [e["rule"] for e in third["errors"]] == ["PKG001"]
@@ -209,16 +209,16 @@ def test_a_batch_runs_python_launch_files_side_by_side(tmp_path: Path, preflight
     ("line", "message"),
     [("{", "jobs.jsonl:2"), ("[]", "jobs.jsonl:2"), ('{"args": []}', "jobs.jsonl:2"), ('{"file": 3}', "jobs.jsonl:2")],
 )
-def test_a_line_that_is_no_job(desk: Desk, preflight: Run, line: str, message: str) -> None:
-    jobs = desk.workspace / "jobs.jsonl"
+def test_a_line_that_is_no_job(harness: Harness, preflight: Run, line: str, message: str) -> None:
+    jobs = harness.workspace / "jobs.jsonl"
     jobs.write_text(f"\n{line}\n")
     done = preflight("tree", "--batch", jobs)
     assert done.code == 2
     assert message in done.err
 
 
-def test_batch_and_file_exclude_each_other(desk: Desk, preflight: Run) -> None:
-    assert preflight("tree", desk.launch_file, "--batch", "jobs.jsonl").code == 2
+def test_batch_and_file_exclude_each_other(harness: Harness, preflight: Run) -> None:
+    assert preflight("tree", harness.launch_file, "--batch", "jobs.jsonl").code == 2
     assert preflight("tree").code == 2
     assert preflight("tree", "--batch", "missing.jsonl").code == 2
 
@@ -230,8 +230,8 @@ def test_the_page(launch: Path, preflight: Run) -> None:
     assert "preflight_demo/talker.py" in done.out
 
 
-def test_text_is_coloured_by_file_on_a_terminal_that_wants_it(desk: Desk) -> None:
-    robot = desk.launch_file.with_name("robot.launch")
+def test_text_is_coloured_by_file_on_a_terminal_that_wants_it(harness: Harness) -> None:
+    robot = harness.launch_file.with_name("robot.launch")
     robot.write_text(
         '<launch><include file="$(dirname)/talker_listener.launch"/>'
         '<node pkg="preflight_demo" type="talker.py" name="other"/></launch>'
@@ -240,8 +240,8 @@ def test_text_is_coloured_by_file_on_a_terminal_that_wants_it(desk: Desk) -> Non
     def shown(**environment: str) -> str:
         # A terminal of its own, from util-linux.
         done = subprocess.run(
-            ["script", "-qec", f"{desk.server} tree {robot} --no-run", "/dev/null"],
-            env={**desk.environment, "TERM": "xterm", **environment},
+            ["script", "-qec", f"{harness.server} tree {robot} --no-run", "/dev/null"],
+            env={**harness.environment, "TERM": "xterm", **environment},
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
@@ -257,6 +257,6 @@ def test_text_is_coloured_by_file_on_a_terminal_that_wants_it(desk: Desk) -> Non
     assert "\x1b[" not in shown(TERM="dumb")
 
 
-def test_text_holds_no_control_characters(desk: Desk, preflight: Run) -> None:
-    desk.launch_file.write_text('<launch><node pkg="p" type="t" name="n" args="&#x9b;31m\x7f"/></launch>')
-    assert "\x9b" not in preflight("tree", desk.launch_file, "--no-run").out
+def test_text_holds_no_control_characters(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text('<launch><node pkg="p" type="t" name="n" args="&#x9b;31m\x7f"/></launch>')
+    assert "\x9b" not in preflight("tree", harness.launch_file, "--no-run").out

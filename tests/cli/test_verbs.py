@@ -11,15 +11,15 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from editor_desk import Desk
 from preflight_analysis.rules.registry import all_rules
+from support.editor_harness import Harness
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
 
 
-def test_graph_in_json(desk: Desk, preflight: Run) -> None:
-    data = preflight("graph", desk.launch_file, "--format", "json").json
+def test_graph_in_json(harness: Harness, preflight: Run) -> None:
+    data = preflight("graph", harness.launch_file, "--format", "json").json
     assert set(data) == {"schema", "nodes", "topics", "services", "actions"}
     assert data["schema"] == "ros-preflight/graph/1"
     talker, listener = data["nodes"]
@@ -40,20 +40,20 @@ def test_graph_in_json(desk: Desk, preflight: Run) -> None:
     assert all(end["builtin"] for end in talker["services"])
 
 
-def test_graph_in_text(desk: Desk, preflight: Run) -> None:
-    done = preflight("graph", desk.launch_file)
+def test_graph_in_text(harness: Harness, preflight: Run) -> None:
+    done = preflight("graph", harness.launch_file)
     assert (done.code, done.err) == (0, "")
     assert "topic /chatter  std_msgs/String  /talker -> nobody" in done.out
     assert "/rosout" not in done.out
 
 
-def test_graph_without_runs_has_what_annotations_and_sources_tell(desk: Desk, preflight: Run) -> None:
-    desk.launch_file.write_text(
+def test_graph_without_runs_has_what_annotations_and_sources_tell(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text(
         '<launch><node pkg="preflight_demo" type="talker.py" name="a">'
         '<topics><topic name="t" type="std_msgs/String" class="pub"/></topics></node>'
         '<node pkg="preflight_demo" type="listener.py" name="b"/></launch>'
     )
-    data = preflight("graph", desk.launch_file, "--no-run", "--format", "json").json
+    data = preflight("graph", harness.launch_file, "--no-run", "--format", "json").json
     assert [(n["interface_source"], n["outcome"]) for n in data["nodes"]] == [
         ("annotation", "not-run"),
         ("source", "not-run"),
@@ -62,10 +62,10 @@ def test_graph_without_runs_has_what_annotations_and_sources_tell(desk: Desk, pr
         "/chatter": {"types": ["std_msgs/String"], "publishers": [], "subscribers": ["/b"]},
         "/t": {"types": ["std_msgs/String"], "publishers": ["/a"], "subscribers": []},
     }
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-def test_graph_in_pictures(desk: Desk, preflight: Run) -> None:
+def test_graph_in_pictures(harness: Harness, preflight: Run) -> None:
     begins = {
         "dot": "digraph ros {\n",
         "mermaid": "flowchart LR\n",
@@ -73,49 +73,49 @@ def test_graph_in_pictures(desk: Desk, preflight: Run) -> None:
         "html": "<!doctype html>\n",
     }
     for format_, begin in begins.items():
-        done = preflight("graph", desk.launch_file, "--format", format_)
+        done = preflight("graph", harness.launch_file, "--format", format_)
         assert (done.code, done.err) == (0, "")
         assert done.out.startswith(begin)
         assert "/chatter" in done.out
         assert ("/rosout" in done.out) is (format_ == "html"), "the page has a switch"
-    assert "/rosout" in preflight("graph", desk.launch_file, "--format", "svg", "--builtin").out
+    assert "/rosout" in preflight("graph", harness.launch_file, "--format", "svg", "--builtin").out
 
 
-def test_trace_in_json(desk: Desk, preflight: Run) -> None:
-    data = preflight("trace", desk.launch_file, "--format", "json").json
+def test_trace_in_json(harness: Harness, preflight: Run) -> None:
+    data = preflight("trace", harness.launch_file, "--format", "json").json
     assert data["schema"] == "ros-preflight/trace/1"
     talker, listener = data["nodes"]
     (endpoint,) = [e for e in listener["endpoints"] if not e["builtin"]]
     assert (endpoint["role"], endpoint["name"], endpoint["type"]) == ("subscriber", "chatter", "std_msgs/String")
     assert endpoint["source"]["file"].endswith("scripts/listener.py")
     assert (talker["outcome"]["status"], talker["cached"]) == ("spinning", False)
-    assert preflight("trace", desk.launch_file, "--format", "json").json["nodes"][0]["cached"] is True
+    assert preflight("trace", harness.launch_file, "--format", "json").json["nodes"][0]["cached"] is True
 
 
-def test_like_nodes_in_other_namespaces_are_run_once(desk: Desk, preflight: Run) -> None:
-    path = desk.launch_file.with_name("fleet.launch")
+def test_like_nodes_in_other_namespaces_are_run_once(harness: Harness, preflight: Run) -> None:
+    path = harness.launch_file.with_name("fleet.launch")
     node = '<node pkg="preflight_demo" type="talker.py" name="talker_{0}" ns="robot_{0}"/>'
     path.write_text(f"<launch>{''.join(map(node.format, range(6)))}</launch>")
     done = preflight("trace", path, "--jobs", "3", "--format", "json")
     assert [node["name"] for node in done.json["nodes"]] == [f"/robot_{n}/talker_{n}" for n in range(6)]
     assert {node["outcome"]["status"] for node in done.json["nodes"]} == {"spinning"}
-    assert desk.sandbox_starts() == 3, "the probe, our own code to be compiled and one node"
+    assert harness.sandbox_starts() == 3, "the probe, our own code to be compiled and one node"
 
 
-def test_trace_of_one_node(desk: Desk, preflight: Run) -> None:
-    done = preflight("trace", desk.launch_file, "--node", "listener")
+def test_trace_of_one_node(harness: Harness, preflight: Run) -> None:
+    done = preflight("trace", harness.launch_file, "--node", "listener")
     assert "subscriber chatter  std_msgs/String" in done.out
     assert "/talker" not in done.out
-    assert desk.sandbox_starts() == 3, "the probe, our own code to be compiled and one node"
-    done = preflight("trace", desk.launch_file, "--node", "speaker")
+    assert harness.sandbox_starts() == 3, "the probe, our own code to be compiled and one node"
+    done = preflight("trace", harness.launch_file, "--node", "speaker")
     assert done.code == 2
     assert "/talker, /listener" in done.err
 
 
-def test_trace_says_how_a_node_crashed(desk: Desk, preflight: Run) -> None:
-    script = desk.launch_file.parents[1] / "scripts/talker.py"
+def test_trace_says_how_a_node_crashed(harness: Harness, preflight: Run) -> None:
+    script = harness.launch_file.parents[1] / "scripts/talker.py"
     script.write_text('#!/usr/bin/env python3\nraise RuntimeError("no laser here")\n')
-    done = preflight("trace", desk.launch_file, "--node", "/talker")
+    done = preflight("trace", harness.launch_file, "--node", "/talker")
     assert "crashed" in done.out
     assert "no laser here" in done.out
 
@@ -134,21 +134,21 @@ def test_rules_lists_all_and_explains_one(preflight: Run) -> None:
     assert (done.code, done.out) == (2, "")
 
 
-def test_doctor(desk: Desk, preflight: Run) -> None:
+def test_doctor(harness: Harness, preflight: Run) -> None:
     done = preflight("doctor")
     assert "sandbox" in done.out
     assert "works" in done.out
-    data = preflight("doctor", desk.workspace, "--format", "json").json
+    data = preflight("doctor", harness.workspace, "--format", "json").json
     assert data["schema"] == "ros-preflight/doctor/1"
-    assert data["packages"]["preflight_demo"] == str(desk.workspace)
+    assert data["packages"]["preflight_demo"] == str(harness.workspace)
     assert (data["sandbox"]["works"], data["sandbox"]["reason"]) == (True, None)
     assert "files read-only, no network, own processes" in data["sandbox"]["guarantees"]
     assert [row for row in data["sandbox"]["guarantees"] if row not in done.out] == []
     assert preflight("doctor", "nowhere").code == 2
 
 
-def test_doctor_says_why_there_is_no_sandbox(desk: Desk, preflight: Run) -> None:
-    empty = desk.home / "empty"
+def test_doctor_says_why_there_is_no_sandbox(harness: Harness, preflight: Run) -> None:
+    empty = harness.home / "empty"
     empty.mkdir()
     environment = {"PATH": str(empty), "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
     done = preflight("doctor", environment=environment)
@@ -157,21 +157,21 @@ def test_doctor_says_why_there_is_no_sandbox(desk: Desk, preflight: Run) -> None
     assert preflight("doctor", "--fail-on", "never", environment=environment).code == 0
 
 
-def test_without_a_sandbox_check_runs_nothing_and_says_why(desk: Desk, preflight: Run) -> None:
-    empty = desk.home / "empty"
+def test_without_a_sandbox_check_runs_nothing_and_says_why(harness: Harness, preflight: Run) -> None:
+    empty = harness.home / "empty"
     empty.mkdir()
     environment = {"PATH": str(empty), "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
-    done = preflight("check", desk.launch_file, "--format", "json", environment=environment)
+    done = preflight("check", harness.launch_file, "--format", "json", environment=environment)
     finding, from_source = done.json["findings"]
     assert (finding["rule"], from_source["severity"]) == ("TRC004", "info")
     assert "bubblewrap is not installed" in finding["message"]
 
 
-def test_a_reader_that_has_enough_is_no_error(desk: Desk) -> None:
+def test_a_reader_that_has_enough_is_no_error(harness: Harness) -> None:
     with subprocess.Popen(
-        [str(desk.server), "doctor", "--format", "json", "--no-run"],
-        env=desk.environment,
-        cwd=desk.workspace,
+        [str(harness.server), "doctor", "--format", "json", "--no-run"],
+        env=harness.environment,
+        cwd=harness.workspace,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     ) as process:
@@ -181,33 +181,33 @@ def test_a_reader_that_has_enough_is_no_error(desk: Desk) -> None:
         assert process.stderr.read() == b""
 
 
-def test_an_interrupt_ends_the_runs(desk: Desk) -> None:
-    script = desk.launch_file.parents[1] / "scripts/talker.py"
+def test_an_interrupt_ends_the_runs(harness: Harness) -> None:
+    script = harness.launch_file.parents[1] / "scripts/talker.py"
     script.write_text("#!/usr/bin/env python3\nimport time\ntime.sleep(60)\n")
     with subprocess.Popen(
-        [str(desk.server), "check", str(desk.launch_file)],
-        env=desk.environment,
+        [str(harness.server), "check", str(harness.launch_file)],
+        env=harness.environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         # Tests that a shell started in the background inherit that the signal is ignored, and so would the command.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as process:
-        while desk.sandbox_starts() < 3:
+        while harness.sandbox_starts() < 3:
             time.sleep(0.05)
         started = time.monotonic()
         os.kill(process.pid, signal.SIGINT)
         out, err = process.communicate(timeout=10)
     assert time.monotonic() - started < 3
     assert (process.returncode, out, err) == (2, "", "ros-preflight: interrupted\n")
-    assert desk.processes() == []
+    assert harness.processes() == []
 
 
-def test_lsp_takes_what_editors_add(desk: Desk) -> None:
+def test_lsp_takes_what_editors_add(harness: Harness) -> None:
     body = json.dumps({"jsonrpc": "2.0", "method": "exit"}).encode()
     done = subprocess.run(
-        [str(desk.server), "lsp", "--stdio", "--clientProcessId=1"],
-        env=desk.environment,
+        [str(harness.server), "lsp", "--stdio", "--clientProcessId=1"],
+        env=harness.environment,
         input=b"Content-Length: %d\r\n\r\n%s" % (len(body), body),
         capture_output=True,
         timeout=30,
@@ -236,12 +236,12 @@ def test_bad_usage_is_exit_code_2(preflight: Run, arguments: list[str]) -> None:
     assert preflight(*arguments).code == 2
 
 
-def test_a_launch_prefix_does_not_stand_in_the_way(desk: Desk, preflight: Run) -> None:
-    desk.launch_file.write_text(
+def test_a_launch_prefix_does_not_stand_in_the_way(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text(
         '<launch><node pkg="preflight_demo" type="talker.py" name="a" launch-prefix="xterm -e gdb -ex run --args"/>'
         "</launch>"
     )
-    (node,) = preflight("graph", desk.launch_file, "--format", "json").json["nodes"]
+    (node,) = preflight("graph", harness.launch_file, "--format", "json").json["nodes"]
     assert (node["interface_source"], node["outcome"]) == ("trace", "spinning")
 
 

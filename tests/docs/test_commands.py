@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from ros2_desk import ros2_prefix
+from support.ros2_harness import ros2_prefix
 
 pytestmark = pytest.mark.ros
 

@@ -8,37 +8,37 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk, lay_desk
+from support.editor_harness import Harness, create_harness
 
 
 @contextmanager
-def desk(workspace_name: str, *, server_on_path: bool = True) -> Iterator[Desk]:
+def harness(workspace_name: str, *, server_on_path: bool = True) -> Iterator[Harness]:
     # Not tmp_path: browsers make sockets in their home, and the path of a socket has at most 107 characters.
-    with tempfile.TemporaryDirectory(prefix="desk-") as folder:
-        laid = lay_desk(Path(folder), workspace_name, server_on_path=server_on_path)
-        yield laid
+    with tempfile.TemporaryDirectory(prefix="editor-") as folder:
+        created = create_harness(Path(folder), workspace_name, server_on_path=server_on_path)
+        yield created
         deadline = time.monotonic() + 20
-        while laid.processes() and time.monotonic() < deadline:
+        while created.processes() and time.monotonic() < deadline:
             time.sleep(0.1)
-        assert laid.processes() == [], "the editor left these running"
+        assert created.processes() == [], "the editor left these running"
 
 
 @pytest.fixture
-def trusted_desk() -> Iterator[Desk]:
+def trusted_harness() -> Iterator[Harness]:
     """The demo in the folder that docs/neovim.md takes for trusted."""
-    with desk("catkin_ws") as laid:
-        yield laid
+    with harness("catkin_ws") as created:
+        yield created
 
 
 @pytest.fixture
-def untrusted_desk() -> Iterator[Desk]:
-    with desk("downloads") as laid:
-        yield laid
+def untrusted_harness() -> Iterator[Harness]:
+    with harness("downloads") as created:
+        yield created
 
 
 @pytest.fixture
-def desk_without_server() -> Iterator[Desk]:
+def harness_without_server() -> Iterator[Harness]:
     """The command `ros-preflight` is not on PATH, and what it needs cannot be fetched."""
-    with desk("catkin_ws", server_on_path=False) as laid:
-        laid.environment.update({"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull})
-        yield laid
+    with harness("catkin_ws", server_on_path=False) as created:
+        created.environment.update({"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull})
+        yield created

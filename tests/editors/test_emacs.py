@@ -10,25 +10,25 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import ROOT, Desk
+from support.editor_harness import ROOT, Harness
 
 pytestmark = pytest.mark.editor
 
 DRIVER = Path(__file__).with_name("emacs") / "drive.el"
 
 
-def drive(desk: Desk, scenario: str) -> dict[str, Any]:
+def drive(harness: Harness, scenario: str) -> dict[str, Any]:
     emacs = shutil.which("emacs")
     assert emacs is not None, "Emacs is missing: apt-get install emacs-nox elpa-eglot"
     (block,) = re.findall(
         r"^```elisp\n(.*?)^```$", (ROOT / "docs/other_editors.md").read_text(), re.DOTALL | re.MULTILINE
     )
-    init, result = desk.home / "init.el", desk.home / "result.json"
+    init, result = harness.home / "init.el", harness.home / "result.json"
     init.write_text("(package-initialize)\n" + block)
     done = subprocess.run(
-        [emacs, "--batch", "-l", init, "-l", DRIVER, "-f", "drive", "--", desk.launch_file, result, scenario],
-        cwd=desk.workspace,
-        env=desk.environment,
+        [emacs, "--batch", "-l", init, "-l", DRIVER, "-f", "drive", "--", harness.launch_file, result, scenario],
+        cwd=harness.workspace,
+        env=harness.environment,
         capture_output=True,
         text=True,
         timeout=180,
@@ -39,17 +39,17 @@ def drive(desk: Desk, scenario: str) -> dict[str, Any]:
     return found
 
 
-def test_a_finding_is_shown_and_mended(trusted_desk: Desk) -> None:
-    seen = drive(trusted_desk, "trusted")
+def test_a_finding_is_shown_and_mended(trusted_harness: Harness) -> None:
+    seen = drive(trusted_harness, "trusted")
     finding = next(each for each in seen["before"] if "did you mean" in each["text"])
     assert finding["underlined"] == "chater"
     assert "Replace 'chater' by 'chatter'" in seen["offered"]
     assert [each["line"] for each in seen["after"]] == [7]
     assert "remapped to itself" in seen["after"][0]["text"]
-    assert 'to="chatter"' in trusted_desk.launch_file.read_text()
+    assert 'to="chatter"' in trusted_harness.launch_file.read_text()
 
 
-def test_nothing_is_run_in_a_folder_that_is_not_trusted(untrusted_desk: Desk) -> None:
-    seen = drive(untrusted_desk, "untrusted")
+def test_nothing_is_run_in_a_folder_that_is_not_trusted(untrusted_harness: Harness) -> None:
+    seen = drive(untrusted_harness, "untrusted")
     assert any("not trusted" in each["text"] for each in seen["before"])
-    assert untrusted_desk.sandbox_starts() == 0
+    assert untrusted_harness.sandbox_starts() == 0

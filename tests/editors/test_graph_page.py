@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import view_desk
-from editor_desk import ROOT
 from lxml import etree
 from preflight_analysis.view.graph_page import graph_page
+from support import sample_graphs
+from support.editor_harness import ROOT
 
 # The browser's driver is installed with VS Code's.
 pytestmark = [pytest.mark.editor, pytest.mark.vscode]
@@ -30,9 +30,9 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Any]:
     folder = tmp_path_factory.mktemp("pages")
     pages = {}
     for name, view in {
-        "robot": view_desk.robot(),
-        "hostile": view_desk.hostile(),
-        "large": view_desk.large(150, 600),
+        "robot": sample_graphs.robot(),
+        "hostile": sample_graphs.hostile(),
+        "large": sample_graphs.large(150, 600),
     }.items():
         pages[name] = str(folder / f"{name}.html")
         Path(pages[name]).write_text(graph_page(view, "/"), encoding="utf-8")

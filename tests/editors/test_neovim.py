@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import ROOT, Desk
+from support.editor_harness import ROOT, Harness
 
 pytestmark = pytest.mark.editor
 
@@ -53,18 +53,18 @@ def neovim(request: pytest.FixtureRequest) -> Neovim:
     return chosen
 
 
-def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -> dict[str, Any]:
-    folder, file = (desk.workspace, desk.launch_file) if file is None else (file.parent, file)
-    init = desk.home / ".config/nvim/init.lua"
+def drive(neovim: Neovim, harness: Harness, scenario: str, file: Path | None = None) -> dict[str, Any]:
+    folder, file = (harness.workspace, harness.launch_file) if file is None else (file.parent, file)
+    init = harness.home / ".config/nvim/init.lua"
     init.parent.mkdir()
     init.write_text(neovim.set_up())
-    (desk.home / "ros-preflight").symlink_to(ROOT)
-    result = desk.home / "result.json"
+    (harness.home / "ros-preflight").symlink_to(ROOT)
+    result = harness.home / "result.json"
     # Once it has started: `vim.lsp.enable` says nothing to open files before.
     start = f"lua vim.schedule(function() vim.cmd('luafile {DRIVER}') end)"
     done = subprocess.run(
         [neovim.program, "--headless", "-n", "-i", "NONE", str(file), "-c", start],
-        env={**desk.environment, "PREFLIGHT_SCENARIO": scenario, "PREFLIGHT_RESULT": str(result)},
+        env={**harness.environment, "PREFLIGHT_SCENARIO": scenario, "PREFLIGHT_RESULT": str(result)},
         cwd=folder,
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -74,19 +74,19 @@ def drive(neovim: Neovim, desk: Desk, scenario: str, file: Path | None = None) -
     )
     assert result.exists(), f"the driver gave no result:\n{done.stdout}{done.stderr}"
     answer: dict[str, Any] = json.loads(result.read_text())
-    logs = "".join(log.read_text() for log in desk.home.rglob("lsp.log"))
+    logs = "".join(log.read_text() for log in harness.home.rglob("lsp.log"))
     assert "error" not in answer, f"{answer['error']}\n{done.stderr}\n{logs}"
     return answer
 
 
 @pytest.mark.parametrize("before_remap", ["", "<!-- \u00e9\u20ac\U0001d11e -->"], ids=["ascii", "non-ascii"])
-def test_misspelt_topic_is_shown_and_fixed(neovim: Neovim, trusted_desk: Desk, before_remap: str) -> None:
-    original = trusted_desk.launch_file.read_text()
+def test_misspelt_topic_is_shown_and_fixed(neovim: Neovim, trusted_harness: Harness, before_remap: str) -> None:
+    original = trusted_harness.launch_file.read_text()
     assert original.count('to="chater"') == 1
     text = original.replace("<remap", f"{before_remap}<remap")
-    trusted_desk.launch_file.write_text(text)
+    trusted_harness.launch_file.write_text(text)
 
-    seen = drive(neovim, trusted_desk, "fix")
+    seen = drive(neovim, trusted_harness, "fix")
 
     assert '"chater"' in seen["before"][seen["line"]]
     assert seen["covered"].strip('"') == "chater"
@@ -97,20 +97,20 @@ def test_misspelt_topic_is_shown_and_fixed(neovim: Neovim, trusted_desk: Desk, b
     assert "std_msgs/String" in seen["hover"]
     fixed = text.replace('to="chater"', 'to="chatter"')
     assert seen["after"] == fixed.splitlines()
-    assert trusted_desk.launch_file.read_text() == fixed
-    assert trusted_desk.sandbox_starts() > 0
+    assert trusted_harness.launch_file.read_text() == fixed
+    assert trusted_harness.sandbox_starts() > 0
 
 
-def test_untrusted_workspace_runs_nothing_and_says_why(neovim: Neovim, untrusted_desk: Desk) -> None:
-    seen = drive(neovim, untrusted_desk, "untrusted")
+def test_untrusted_workspace_runs_nothing_and_says_why(neovim: Neovim, untrusted_harness: Harness) -> None:
+    seen = drive(neovim, untrusted_harness, "untrusted")
 
     assert "not trusted" in seen["reason"]
     assert seen["chatter"] == 1, "what the sources of the nodes tell, for information"
-    assert untrusted_desk.sandbox_starts() == 0
+    assert untrusted_harness.sandbox_starts() == 0
 
 
-def test_the_user_chooses_in_whose_context_a_file_is_shown(neovim: Neovim, untrusted_desk: Desk) -> None:
-    seen = drive(neovim, untrusted_desk, "root")
+def test_the_user_chooses_in_whose_context_a_file_is_shown(neovim: Neovim, untrusted_harness: Harness) -> None:
+    seen = drive(neovim, untrusted_harness, "root")
 
     assert seen["before"] == ["0 includers", "2 nodes", "launched by this file"]
     assert seen["offered"] == ["launch/talker_listener.launch"]
@@ -150,14 +150,14 @@ def generate_launch_description():
 
 
 @pytest.mark.parametrize(("suffix", "filetype"), [("xml", "roslaunch"), ("yaml", "yaml"), ("py", "python")])
-def test_launch_files_of_ros_2(neovim: Neovim, trusted_desk: Desk, suffix: str, filetype: str) -> None:
-    package = trusted_desk.home / "ros2_ws/src/robot"
+def test_launch_files_of_ros_2(neovim: Neovim, trusted_harness: Harness, suffix: str, filetype: str) -> None:
+    package = trusted_harness.home / "ros2_ws/src/robot"
     for name, text in ROS2.items():
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         (package / name).write_text(text)
     path = package / f"launch/a.launch.{suffix}"
 
-    seen = drive(neovim, trusted_desk, "ros2", path)
+    seen = drive(neovim, trusted_harness, "ros2", path)
 
     assert seen["filetype"] == filetype
     assert seen["covered"] == "talkr"
@@ -187,8 +187,8 @@ INNER = """<launch>
 """
 
 
-def lay_robot(desk: Desk) -> Path:
-    path = desk.launch_file.with_name("robot.launch")
+def create_robot(harness: Harness) -> Path:
+    path = harness.launch_file.with_name("robot.launch")
     path.write_text(ROBOT)
     path.with_name("inner.launch").write_text(INNER)
     return path
@@ -209,8 +209,8 @@ robot.launch  3 nodes
 MISSPELT = "none of the 3 nodes of this launch publishes '/front/chater'"
 
 
-def test_tree(neovim: Neovim, trusted_desk: Desk) -> None:
-    seen = drive(neovim, trusted_desk, "tree", lay_robot(trusted_desk))
+def test_tree(neovim: Neovim, trusted_harness: Harness) -> None:
+    seen = drive(neovim, trusted_harness, "tree", create_robot(trusted_harness))
 
     assert (seen["filetype"], seen["modifiable"]) == ("rospreflighttree", False)
     assert seen["lines"] == TREE
@@ -232,8 +232,8 @@ def test_tree(neovim: Neovim, trusted_desk: Desk) -> None:
     assert (seen["windows_at_end"], seen["gone"]) == (1, True)
 
 
-def test_graph(neovim: Neovim, trusted_desk: Desk) -> None:
-    seen = drive(neovim, trusted_desk, "graph", lay_robot(trusted_desk))
+def test_graph(neovim: Neovim, trusted_harness: Harness) -> None:
+    seen = drive(neovim, trusted_harness, "graph", create_robot(trusted_harness))
 
     assert seen["filetype"] == "rospreflightgraph"
     keys, title, topics, *lines = seen["lines"]
@@ -264,8 +264,8 @@ def test_graph(neovim: Neovim, trusted_desk: Desk) -> None:
     assert seen["folded"] == [*seen["edited"][:-3], "▸ /front/chatter  std_msgs/String"]
 
 
-def test_maintenance(neovim: Neovim, trusted_desk: Desk) -> None:
-    seen = drive(neovim, trusted_desk, "maintenance")
+def test_maintenance(neovim: Neovim, trusted_harness: Harness) -> None:
+    seen = drive(neovim, trusted_harness, "maintenance")
 
     assert seen["one"] == "ros-preflight: running /talker"
     assert seen["all"] == "ros-preflight: running /talker, /listener"
@@ -276,8 +276,8 @@ def test_maintenance(neovim: Neovim, trusted_desk: Desk) -> None:
     assert (seen["clients"], seen["old_is_gone"], seen["status"]) == (1, True, "")
 
 
-def test_tree_and_graph_where_nothing_may_be_run(neovim: Neovim, untrusted_desk: Desk) -> None:
-    seen = drive(neovim, untrusted_desk, "views_untrusted")
+def test_tree_and_graph_where_nothing_may_be_run(neovim: Neovim, untrusted_harness: Harness) -> None:
+    seen = drive(neovim, untrusted_harness, "views_untrusted")
 
     refused = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
     for shown in (seen["tree"], seen["graph"]):
@@ -288,10 +288,10 @@ def test_tree_and_graph_where_nothing_may_be_run(neovim: Neovim, untrusted_desk:
     assert seen["tabs"] == 2, "a modifier says where it opens"
     assert seen["trace"] == f"ros-preflight: {refused}"
     assert seen["status"] == "nodes are not run"
-    assert untrusted_desk.sandbox_starts() == 0
+    assert untrusted_harness.sandbox_starts() == 0
 
 
-def test_types_of_files(neovim: Neovim, untrusted_desk: Desk) -> None:
+def test_types_of_files(neovim: Neovim, untrusted_harness: Harness) -> None:
     launch, other = "<?xml version='1.0'?>\n<launch/>\n", "<project/>\n"
     files = {
         "workspace/a.launch": launch,
@@ -309,13 +309,15 @@ def test_types_of_files(neovim: Neovim, untrusted_desk: Desk) -> None:
         "elsewhere/i_launch.yaml": "launch: []\n",
     }
     for name, text in files.items():
-        path = untrusted_desk.home / "types" / name
+        path = untrusted_harness.home / "types" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    (untrusted_desk.home / "types/workspace/package.xml").touch()
-    untrusted_desk.environment["PREFLIGHT_FILES"] = ":".join(f"{untrusted_desk.home}/types/{name}" for name in files)
+    (untrusted_harness.home / "types/workspace/package.xml").touch()
+    untrusted_harness.environment["PREFLIGHT_FILES"] = ":".join(
+        f"{untrusted_harness.home}/types/{name}" for name in files
+    )
 
-    seen = drive(neovim, untrusted_desk, "files")
+    seen = drive(neovim, untrusted_harness, "files")
 
     for name in ("a.launch", "b.launch.xml", "c.test", "d_launch.xml"):
         assert seen[name] == ["roslaunch", True, "<!-- %s -->", "xml"]
@@ -330,8 +332,8 @@ def test_types_of_files(neovim: Neovim, untrusted_desk: Desk) -> None:
     assert seen["i_launch.yaml"][:2] == ["yaml", True]
 
 
-def test_trust_ends_where_the_trusted_folder_ends(neovim: Neovim, untrusted_desk: Desk) -> None:
-    home = untrusted_desk.home
+def test_trust_ends_where_the_trusted_folder_ends(neovim: Neovim, untrusted_harness: Harness) -> None:
+    home = untrusted_harness.home
     for folder in (".git", "catkin_ws/src/a/launch", "catkin_ws/src/b/.git", "catkin_wsx/src", "mono/.git", "mono/x"):
         (home / folder).mkdir(parents=True)
     (home / "catkin_ws/src/a/package.xml").touch()
@@ -346,15 +348,15 @@ def test_trust_ends_where_the_trusted_folder_ends(neovim: Neovim, untrusted_desk
         "catkin_wsx/src/x.launch": ("", False),  # a home that is a repository is no workspace
         "mono/x/x.launch": ("mono", False),
     }
-    untrusted_desk.environment["PREFLIGHT_FILES"] = ":".join(f"{home}/{name}" for name in expected)
+    untrusted_harness.environment["PREFLIGHT_FILES"] = ":".join(f"{home}/{name}" for name in expected)
 
-    seen = drive(neovim, untrusted_desk, "workspace")
+    seen = drive(neovim, untrusted_harness, "workspace")
 
     assert seen == [[str(home / root) if root else "", trusted] for root, trusted in expected.values()]
 
 
-def test_missing_server_is_told_once(neovim: Neovim, desk_without_server: Desk) -> None:
-    seen = drive(neovim, desk_without_server, "missing")
+def test_missing_server_is_told_once(neovim: Neovim, harness_without_server: Harness) -> None:
+    seen = drive(neovim, harness_without_server, "missing")
 
     (told,) = seen["told"]
     assert told.startswith("ros-preflight: ros-preflight-that-is-not-there is not on PATH. In a clone")

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import ROOT, Desk
-from editor_launch_files import lay_formats, lay_robot
-from live_desk import Ros1System, until
+from support.editor_harness import ROOT, Harness
+from support.editor_launch_files import create_formats, create_robot
+from support.live_harness import Ros1System, until
 
 pytestmark = [pytest.mark.editor, pytest.mark.vscode]
 
@@ -21,7 +21,7 @@ VSIX = ROOT / "out/ros-preflight.vsix"
 SCREENSHOTS = ROOT / "out/screenshots"
 
 
-def drive(desk: Desk, scenario: str, **more: Any) -> dict[str, Any]:
+def drive(harness: Harness, scenario: str, **more: Any) -> dict[str, Any]:
     if not (HERE / "node_modules/.installed").exists():
         pytest.fail("code-server is missing: run tests/editors/install.sh")
     if not VSIX.exists():
@@ -29,51 +29,51 @@ def drive(desk: Desk, scenario: str, **more: Any) -> dict[str, Any]:
     chromium = shutil.which("chromium")
     if chromium is None:
         pytest.fail("chromium is missing: apt-get install chromium")
-    log = desk.home / "code-server.log"
+    log = harness.home / "code-server.log"
     given = {
-        "home": str(desk.home),
-        "workspace": str(desk.workspace),
-        "launchFile": str(desk.launch_file),
-        "sandboxRecord": str(desk.sandbox_record),
+        "home": str(harness.home),
+        "workspace": str(harness.workspace),
+        "launchFile": str(harness.launch_file),
+        "sandboxRecord": str(harness.sandbox_record),
         "vsix": str(VSIX),
         "screenshots": str(SCREENSHOTS),
         "chromium": chromium,
         "log": str(log),
-        "server": str(desk.server),
+        "server": str(harness.server),
         **more,
     }
     done = subprocess.run(
         ["node", str(HERE / "drive.mjs"), scenario, json.dumps(given)],
-        env=desk.environment,
+        env=harness.environment,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
         timeout=400,
         check=False,
     )
-    logs = "".join(f"\n--- {p}\n{p.read_text()}" for p in sorted(desk.home.glob("data/logs/**/*ROS Preflight.log")))
+    logs = "".join(f"\n--- {p}\n{p.read_text()}" for p in sorted(harness.home.glob("data/logs/**/*ROS Preflight.log")))
     assert done.returncode == 0, f"{done.stderr}{done.stdout}{logs}"
     seen: dict[str, Any] = json.loads(done.stdout)
     print(json.dumps(seen["seconds"]))
     return seen
 
 
-def test_finding_is_seen_and_fixed(trusted_desk: Desk) -> None:
-    original = trusted_desk.launch_file.read_text()
+def test_finding_is_seen_and_fixed(trusted_harness: Harness) -> None:
+    original = trusted_harness.launch_file.read_text()
 
-    seen = drive(trusted_desk, "fix")
+    seen = drive(trusted_harness, "fix")
 
     assert "/chatter" in seen["hoverOnTopic"]
     assert "std_msgs/String" in seen["hoverOnNode"]
     assert "chatter" in seen["quickFix"]
     assert seen["fixed"] == original.replace('to="chater"', 'to="chatter"')
-    assert trusted_desk.sandbox_starts() > 0
+    assert trusted_harness.sandbox_starts() > 0
 
 
-def test_tree_leads_to_the_files_and_names_are_renamed_across_them(trusted_desk: Desk) -> None:
-    folder = lay_robot(trusted_desk)
+def test_tree_leads_to_the_files_and_names_are_renamed_across_them(trusted_harness: Harness) -> None:
+    folder = create_robot(trusted_harness)
 
-    seen = drive(trusted_desk, "tree")
+    seen = drive(trusted_harness, "tree")
 
     assert seen["tree"] == [
         "base/",
@@ -100,43 +100,43 @@ def test_tree_leads_to_the_files_and_names_are_renamed_across_them(trusted_desk:
     assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in robot
 
 
-def test_each_format_of_ros_2_shows_its_finding(trusted_desk: Desk) -> None:
-    lay_formats(trusted_desk)
+def test_each_format_of_ros_2_shows_its_finding(trusted_harness: Harness) -> None:
+    create_formats(trusted_harness)
 
-    seen = drive(trusted_desk, "formats")
+    seen = drive(trusted_harness, "formats")
 
     assert set(seen["problems"]) == {"first.launch.xml", "second.launch.yaml", "third.launch.py"}
     for problems in seen["problems"].values():
         assert "argument 'sped' is not declared; did you mean 'speed'?" in problems[0]
 
 
-def test_server_is_installed_where_there_is_none(desk_without_server: Desk) -> None:
-    desk_without_server.environment["PIP_FIND_LINKS"] = str(ROOT / "out/tools/wheels")
+def test_server_is_installed_where_there_is_none(harness_without_server: Harness) -> None:
+    harness_without_server.environment["PIP_FIND_LINKS"] = str(ROOT / "out/tools/wheels")
     # Trusted or not, the workspace has no say in what is started without a sandbox.
-    started = desk_without_server.home / "started"
+    started = harness_without_server.home / "started"
     hostile = ["sh", "-c", f"touch {started}"]
-    settings = desk_without_server.workspace / ".vscode/settings.json"
+    settings = harness_without_server.workspace / ".vscode/settings.json"
     settings.parent.mkdir()
     settings.write_text(json.dumps({"rosPreflight.server.command": hostile, "rosPreflight.server.install": False}))
 
-    seen = drive(desk_without_server, "installs")
+    seen = drive(harness_without_server, "installs")
 
     python, *arguments = seen["command"]
-    assert python.startswith(str(desk_without_server.home))
+    assert python.startswith(str(harness_without_server.home))
     assert arguments == ["-I", "-m", "preflight_server", "lsp"]
     assert not started.exists()
 
 
-def test_tree_shows_what_the_running_robot_does(trusted_desk: Desk, tmp_path: Path) -> None:
-    system = Ros1System(tmp_path, elsewhere=trusted_desk.workspace)
-    trusted_desk.environment["ROS_MASTER_URI"] = system.environment["ROS_MASTER_URI"]
-    trusted_desk.environment["ROS_IP"] = "127.0.0.1"
+def test_tree_shows_what_the_running_robot_does(trusted_harness: Harness, tmp_path: Path) -> None:
+    system = Ros1System(tmp_path, elsewhere=trusted_harness.workspace)
+    trusted_harness.environment["ROS_MASTER_URI"] = system.environment["ROS_MASTER_URI"]
+    trusted_harness.environment["ROS_IP"] = "127.0.0.1"
     try:
-        system.launch(trusted_desk.launch_file)
+        system.launch(trusted_harness.launch_file)
         victims: list[int] = []
         until(lambda: registered(system, "/talker") and registered(system, "/listener", victims))
 
-        seen = drive(trusted_desk, "watch", victim=victims[0])
+        seen = drive(trusted_harness, "watch", victim=victims[0])
     finally:
         system.close()
 
@@ -155,37 +155,37 @@ def registered(system: Ros1System, name: str, pids: list[int] | None = None) -> 
     return True
 
 
-def test_set_ups_are_sourced(trusted_desk: Desk) -> None:
-    setup = trusted_desk.home / "overlay.bash"
+def test_set_ups_are_sourced(trusted_harness: Harness) -> None:
+    setup = trusted_harness.home / "overlay.bash"
     setup.write_text("echo sourcing\nexport ROS_PACKAGE_PATH=/opt/of/the/overlay\n")
 
-    seen = drive(trusted_desk, "setups", setup=str(setup))
+    seen = drive(trusted_harness, "setups", setup=str(setup))
 
     assert "does not exist" in seen["missing"]
     assert f"{setup}, sourced" in seen["doctor"]
     assert "/opt/of/the/overlay" in seen["doctor"]
 
 
-def test_untrusted_workspace_says_why_and_trust_needs_no_restart(untrusted_desk: Desk) -> None:
-    seen = drive(untrusted_desk, "untrusted")
+def test_untrusted_workspace_says_why_and_trust_needs_no_restart(untrusted_harness: Harness) -> None:
+    seen = drive(untrusted_harness, "untrusted")
 
     assert any("not trusted" in problem for problem in seen["problems"])
     assert seen["squiggles"] == 0
     assert seen["sandboxStarts"] == 0
     assert seen["sameServer"]
-    assert untrusted_desk.sandbox_starts() > 0
+    assert untrusted_harness.sandbox_starts() > 0
 
 
-def test_server_is_asked_for_and_started_again_when_it_dies(desk_without_server: Desk) -> None:
-    seen = drive(desk_without_server, "restarts")
+def test_server_is_asked_for_and_started_again_when_it_dies(harness_without_server: Harness) -> None:
+    seen = drive(harness_without_server, "restarts")
 
     assert "No matching distribution found" in seen["missing"]
     assert {"Show Log", "Choose Python", "Set Path"} <= set(seen["buttons"])
     assert seen["told"] == 1
 
 
-def test_the_graph_is_shown_leads_to_lines_and_follows(trusted_desk: Desk) -> None:
-    seen = drive(trusted_desk, "graph")
+def test_the_graph_is_shown_leads_to_lines_and_follows(trusted_harness: Harness) -> None:
+    seen = drive(trusted_harness, "graph")
 
     assert seen["shown"] == [
         "node /listener",

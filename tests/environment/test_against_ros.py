@@ -8,9 +8,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from environment_workspace import file, package, script, space
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.executables import ExecutableIndex
+from support.package_folders import file, package, script, space
 
 ORACLE = """
 import json, os, sys

@@ -16,7 +16,7 @@ def read(path: str) -> str | None:
     return file.read_text() if file.is_file() else None
 
 
-class Desk:
+class Harness:
     """A package folder."""
 
     def __init__(self, folder: Path) -> None:
@@ -37,12 +37,12 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return Desk(tmp_path)
+def harness(tmp_path: Path) -> Harness:
+    return Harness(tmp_path)
 
 
-def test_executables_and_the_libraries_of_the_package_they_are_linked_with(desk: Desk) -> None:
-    build = desk.build(
+def test_executables_and_the_libraries_of_the_package_they_are_linked_with(harness: Harness) -> None:
+    build = harness.build(
         """
         cmake_minimum_required(VERSION 3.0.2)
         project(demo)  # a comment (with parentheses)
@@ -56,18 +56,18 @@ def test_executables_and_the_libraries_of_the_package_they_are_linked_with(desk:
         #[[ add_executable(none src/none.cpp) ]]
         """
     )
-    assert desk.sources(build, "demo_node") == ["src/node.cpp", "src/more.cpp", "src/core.cpp", "src/base.cc"]
+    assert harness.sources(build, "demo_node") == ["src/node.cpp", "src/more.cpp", "src/core.cpp", "src/base.cc"]
     assert build.executable("none") is None
     library = build.library("libdemo_core")
     assert library is not None and library.name == "demo_core"
     assert build.library("demo_core.so") is library and build.library("other") is None
 
 
-def test_variables_lists_and_globs(desk: Desk) -> None:
+def test_variables_lists_and_globs(harness: Harness) -> None:
     for name in ("src/b.cpp", "src/a.cpp", "src/deep/c.cpp", "src/a.hpp", "gen/x.cpp"):
-        desk.write(name)
-    desk.write("src/short.cc")
-    build = desk.build(
+        harness.write(name)
+    harness.write("src/short.cc")
+    build = harness.build(
         """
         project(demo)
         set(SRCS src/one.cpp
@@ -86,16 +86,16 @@ def test_variables_lists_and_globs(desk: Desk) -> None:
         add_executable(${A}named_${A} src/n.cpp)
         """
     )
-    assert desk.sources(build, "listed") == ["src/one.cpp", "src/two.cpp", "src/three.cpp"]
-    assert desk.sources(build, "globbed") == ["src/a.cpp", "src/b.cpp"]
-    assert desk.sources(build, "deep") == ["src/a.cpp", "src/b.cpp", "src/deep/c.cpp"]
-    assert desk.sources(build, "without") == ["src/short.cc"]
-    assert desk.sources(build, "aux") == ["gen/x.cpp"]
-    assert desk.sources(build, "named_") == ["src/n.cpp"]
+    assert harness.sources(build, "listed") == ["src/one.cpp", "src/two.cpp", "src/three.cpp"]
+    assert harness.sources(build, "globbed") == ["src/a.cpp", "src/b.cpp"]
+    assert harness.sources(build, "deep") == ["src/a.cpp", "src/b.cpp", "src/deep/c.cpp"]
+    assert harness.sources(build, "without") == ["src/short.cc"]
+    assert harness.sources(build, "aux") == ["gen/x.cpp"]
+    assert harness.sources(build, "named_") == ["src/n.cpp"]
 
 
-def test_names_of_files(desk: Desk) -> None:
-    build = desk.build(
+def test_names_of_files(harness: Harness) -> None:
+    build = harness.build(
         """
         add_executable(demo_a a.cpp)
         add_executable(demo_b b.cpp)
@@ -108,10 +108,10 @@ def test_names_of_files(desk: Desk) -> None:
     assert [t.output for t in build.targets.values()] == ["a", "b", "c"]
 
 
-def test_loops_macros_and_folders(desk: Desk) -> None:
-    desk.write("below/CMakeLists.txt", "add_executable(inner inner.cpp ../src/shared.cpp)\n")
-    desk.write("cmake/more.cmake", "add_executable(included src/included.cpp)\n")
-    build = desk.build(
+def test_loops_macros_and_folders(harness: Harness) -> None:
+    harness.write("below/CMakeLists.txt", "add_executable(inner inner.cpp ../src/shared.cpp)\n")
+    harness.write("cmake/more.cmake", "add_executable(included src/included.cpp)\n")
+    build = harness.build(
         """
         project(demo)
         macro(node name)
@@ -138,8 +138,8 @@ def test_loops_macros_and_folders(desk: Desk) -> None:
         add_executable(last${HIDDEN} last.cpp)
         """
     )
-    assert desk.sources(build, "first") == ["src/first.cpp", "src/common.cpp"]
-    assert desk.sources(build, "inner") == ["below/inner.cpp", "src/shared.cpp"]
+    assert harness.sources(build, "first") == ["src/first.cpp", "src/common.cpp"]
+    assert harness.sources(build, "inner") == ["below/inner.cpp", "src/shared.cpp"]
     assert {t.output for t in build.targets.values()} >= {"x", "y", "linux", "included", "last"}
     assert build.executable("windows") is None
 
@@ -148,9 +148,9 @@ def places(build: Build, folder: Path) -> list[tuple[str, str, str]]:
     return [(str(Path(i.source).relative_to(folder)), i.destination, i.name) for i in build.installed]
 
 
-def test_what_is_installed_under_conditions_and_from_included_files(desk: Desk) -> None:
-    desk.write("cmake/rules.cmake", "install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/maps DESTINATION share/demo)\n")
-    build = desk.build(
+def test_what_is_installed_under_conditions_and_from_included_files(harness: Harness) -> None:
+    harness.write("cmake/rules.cmake", "install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/maps DESTINATION share/demo)\n")
+    build = harness.build(
         """
         project(demo)
         set(where share/${PROJECT_NAME})
@@ -174,7 +174,7 @@ def test_what_is_installed_under_conditions_and_from_included_files(desk: Desk) 
         ament_auto_package(USE_SCOPED_HEADER_INSTALL_DIR INSTALL_TO_SHARE config)
         """
     )
-    assert places(build, desk.folder) == [
+    assert places(build, harness.folder) == [
         ("cmake/maps", "share/demo", "maps"),
         ("launch", "share/demo", ""),
         ("arm", "share/demo", "arm"),
@@ -200,13 +200,13 @@ def test_what_is_installed_under_conditions_and_from_included_files(desk: Desk) 
         ("include(../more.cmake)\n", False),
     ],
 )
-def test_whether_all_that_is_installed_is_known(desk: Desk, text: str, complete: bool) -> None:
-    assert desk.build(f"project(demo)\n{text}ament_package()\n").complete == complete
-    assert not read_build(str(desk.folder / "nothing"), "demo", read).complete
+def test_whether_all_that_is_installed_is_known(harness: Harness, text: str, complete: bool) -> None:
+    assert harness.build(f"project(demo)\n{text}ament_package()\n").complete == complete
+    assert not read_build(str(harness.folder / "nothing"), "demo", read).complete
 
 
-def test_scripts(desk: Desk) -> None:
-    build = desk.build(
+def test_scripts(harness: Harness) -> None:
+    build = harness.build(
         """
         catkin_install_python(PROGRAMS scripts/a.py scripts/b.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
         install(PROGRAMS scripts/c.py DESTINATION bin RENAME c)
@@ -214,15 +214,17 @@ def test_scripts(desk: Desk) -> None:
         """
     )
     assert set(build.programs) == {"a.py", "b.py", "c"}
-    assert build.made_of("b.py") == Made(str(desk.folder / "scripts/b.py"), True)
-    assert build.made_of("c") == Made(str(desk.folder / "scripts/c.py"), False)
+    assert build.made_of("b.py") == Made(str(harness.folder / "scripts/b.py"), True)
+    assert build.made_of("c") == Made(str(harness.folder / "scripts/c.py"), False)
     assert build.made_of("x") is None
 
 
-def test_an_executable_of_several_files_is_told_by_the_one_with_its_name(desk: Desk) -> None:
-    build = desk.build("add_executable(Driver a.cpp driver.cpp)\nadd_executable(b a.cpp main.cpp)\nadd_executable(c)")
-    assert build.made_of("Driver") == Made(str(desk.folder / "driver.cpp"), True)
-    assert build.made_of("b") == Made(str(desk.folder / "main.cpp"), True)
+def test_an_executable_of_several_files_is_told_by_the_one_with_its_name(harness: Harness) -> None:
+    build = harness.build(
+        "add_executable(Driver a.cpp driver.cpp)\nadd_executable(b a.cpp main.cpp)\nadd_executable(c)"
+    )
+    assert build.made_of("Driver") == Made(str(harness.folder / "driver.cpp"), True)
+    assert build.made_of("b") == Made(str(harness.folder / "main.cpp"), True)
     assert build.made_of("c") is None
 
 
@@ -241,8 +243,8 @@ def test_an_executable_of_several_files_is_told_by_the_one_with_its_name(desk: D
         "add_executable(a a.cpp)",
     ],
 )
-def test_odd_files_end_soon_and_raise_nothing(desk: Desk, text: str) -> None:
-    assert desk.sources(desk.build(text), "a") == ["a.cpp"]
+def test_odd_files_end_soon_and_raise_nothing(harness: Harness, text: str) -> None:
+    assert harness.sources(harness.build(text), "a") == ["a.cpp"]
 
 
 PIECES = [*'()"#[]=${};\\ \nab', "set", "foreach", "endforeach", "macro", "add_executable", "add_subdirectory"]

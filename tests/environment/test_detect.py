@@ -4,10 +4,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from environment_workspace import file, package, script, space
 from preflight_analysis.environment.detect import detect, detect_environment, workspace_of
 from preflight_analysis.environment.doctor import describe
 from preflight_analysis.environment.view import of_generation
+from support.package_folders import file, package, script, space
 
 
 def install_ros(prefix: Path, python: str = "python3") -> None:

@@ -2,10 +2,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from environment_workspace import file, package, script, space
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Executable
+from support.package_folders import file, package, script, space
 
 
 def index(root: Path, *spaces: Path) -> ExecutableIndex:

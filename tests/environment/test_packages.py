@@ -3,8 +3,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from environment_workspace import file, package
 from preflight_analysis.environment.packages import crawl, find_packages
+from support.package_folders import file, package
 
 
 def shares(*path: Path) -> dict[str, str]:

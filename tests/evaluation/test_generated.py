@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from against_roslaunch import differences
 from hypothesis import HealthCheck, given, settings
-from launch_strategies import cases
-from meaning_desk import Roslaunch, ask_us, write_case
+from support.launch_strategies import cases
+from support.meaning_harness import Roslaunch, ask_us, write_case
+from tools.against_roslaunch import differences
 
 pytestmark = pytest.mark.ros
 

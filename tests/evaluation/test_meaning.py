@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from against_roslaunch import differences
-from meaning_desk import Job, Roslaunch, ask_us, write_case
+from support.meaning_harness import Job, Roslaunch, ask_us, write_case
+from tools.against_roslaunch import differences
 
 pytestmark = pytest.mark.ros
 

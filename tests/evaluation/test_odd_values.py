@@ -9,7 +9,7 @@ import pytest
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.workspace.tree_json import tree_json
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
 
 ODD = {
     "a date that is none": "2024-13-45",

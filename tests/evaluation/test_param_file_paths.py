@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from environment_workspace import file
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.package_folders import file
 
 XML = '<launch><node pkg="p" exec="e" name="n"><param from="$(dirname)/../config/a.yaml"/></node></launch>'
 YAML = 'launch:\n- node: {pkg: p, exec: e, name: n, param: [{from: "$(dirname)/../config/a.yaml"}]}\n'

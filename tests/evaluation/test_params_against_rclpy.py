@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 import yaml
-from preflight_check import analyse, read_fixture
-from ros2_desk import ros2_prefix
+from support.check import analyse, read_fixture
+from support.ros2_harness import ros2_prefix
 
 pytestmark = pytest.mark.ros
 

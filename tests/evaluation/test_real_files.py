@@ -9,8 +9,8 @@ import os
 from pathlib import Path
 
 import pytest
-from against_roslaunch import differences
-from meaning_desk import ENV, Job, Roslaunch, ask_us
+from support.meaning_harness import ENV, Job, Roslaunch, ask_us
+from tools.against_roslaunch import differences
 
 pytestmark = pytest.mark.ros
 

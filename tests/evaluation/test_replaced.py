@@ -1,7 +1,7 @@
 """What lost against a later setting is kept with the one that won."""
 
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
 
 
 def tree(text: str) -> LaunchTree:

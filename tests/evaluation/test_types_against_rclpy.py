@@ -10,8 +10,8 @@ import yaml
 from preflight_analysis.evaluation.ros2 import rcl_yaml
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed
 from preflight_analysis.rules.registry import run_rules
-from preflight_check import analyse, read_fixture
-from ros2_desk import ros2_prefix
+from support.check import analyse, read_fixture
+from support.ros2_harness import ros2_prefix
 
 pytestmark = pytest.mark.ros
 

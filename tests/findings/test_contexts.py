@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import pytest
-from places import location
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
+from support.locations import location
 
 
 def finding(rule: str, file: str, at: int = 0, message: str = "m") -> Finding:

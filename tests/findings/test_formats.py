@@ -8,7 +8,6 @@ import xml.etree.ElementTree as ET
 from typing import Any
 
 import jsonschema
-from places import location
 from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
@@ -18,7 +17,8 @@ from preflight_analysis.findings.junit import to_junit
 from preflight_analysis.findings.report import Report
 from preflight_analysis.findings.sarif import FINGERPRINT, to_sarif
 from preflight_analysis.rules.registry import all_rules
-from sarif_schema import SARIF_SCHEMA
+from support.locations import location
+from support.sarif_schema import SARIF_SCHEMA
 
 MAIN = '<launch>\n  <remap from="chatter" to="chater"/>\n  <remap from="chatter" to="chater"/>\n</launch>\n'
 OTHER = "<!-- 日本 --><launch/>\n"

@@ -2,12 +2,12 @@
 
 import json
 
-from places import location
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.findings.report import Report, to_json, to_text
 from preflight_analysis.rules.registry import run_rules
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
+from support.locations import location
 
 TALKERS = """
     <launch>

@@ -1,6 +1,6 @@
 """Comments that silence findings, and those that silence nothing (LCH019)."""
 
-from preflight_check import apply, check
+from support.check import apply, check
 
 
 def test_on_the_line_and_on_the_line_above() -> None:

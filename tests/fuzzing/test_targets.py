@@ -6,12 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import fuzz
-import fuzz_targets
 import pytest
-from fuzz_targets import TARGETS, Target, TooLong, Wrong, bounded
 from hypothesis import HealthCheck, given, settings
 from preflight_analysis.documents.span import Span
+from tools import fuzz
+
+from fuzzing import targets
+from fuzzing.targets import TARGETS, Target, TooLong, Wrong, bounded
 
 SHORT = settings(
     max_examples=30, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck)
@@ -26,7 +27,7 @@ def test_whatever_it_is_given_the_promises_are_kept(target: Target) -> None:
         bounded(target.run, seed)
 
     @SHORT
-    @given(fuzz_targets.inputs(target))
+    @given(targets.inputs(target))
     def some(data: bytes) -> None:
         bounded(target.run, data)
 
@@ -46,11 +47,11 @@ def _hangs(data: bytes) -> None:
 
 
 def _beyond(data: bytes) -> None:
-    fuzz_targets.check_spans([Span(0, 3)], "ab")
+    targets.check_spans([Span(0, 3)], "ab")
 
 
 def _drives_a_terminal(data: bytes) -> None:
-    fuzz_targets.check_printable("a\x1b[2J")
+    targets.check_printable("a\x1b[2J")
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, Role
-from preflight_check import analyse, read_fixture
-from tracing_desk import SYSTEM_PYTHON
+from support.check import analyse, read_fixture
+from support.tracing_harness import SYSTEM_PYTHON
 
 TYPES = {
     "goal": "m/GoActionGoal",

@@ -16,7 +16,7 @@ from preflight_analysis.graph.annotations import (
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, ParamUse
-from preflight_check import analyse, interface_from_json, read_fixture
+from support.check import analyse, interface_from_json, read_fixture
 
 
 def node_action(text: str) -> Action:

@@ -4,7 +4,7 @@ import pytest
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.tracing.interface import NOT_RUN
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
 
 
 def graph_of(text: str) -> Graph:

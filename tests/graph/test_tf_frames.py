@@ -3,7 +3,7 @@
 import pytest
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.tracing.interface import NOT_RUN, Frame
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
 
 
 def frames(package: str, args: str) -> tuple[Frame, ...]:

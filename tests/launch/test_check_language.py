@@ -1,6 +1,6 @@
 """What does not depend on any context, in texts that nobody would write."""
 
-from preflight_check import findings_of
+from support.check import findings_of
 
 
 def test_stray_text_is_looked_for_in_elements_nested_without_end() -> None:

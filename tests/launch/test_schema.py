@@ -3,7 +3,7 @@
 import pytest
 from preflight_analysis.launch.schema import one_of
 from preflight_analysis.launch.schema_ros1 import TAGS
-from preflight_check import check
+from support.check import check
 
 
 @pytest.mark.parametrize("name", TAGS)

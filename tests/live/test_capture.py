@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 import yaml
-from live_desk import Done, Ros1System, preflight, private_domain, until
-from ros2_desk import Ros2Desk, node_of, ros2_prefix
+from support.live_harness import Done, Ros1System, preflight, private_domain, until
+from support.ros2_harness import Ros2Harness, node_of, ros2_prefix
 
 pytestmark = pytest.mark.ros
 
@@ -115,14 +115,14 @@ def test_nodes_of_ros2_are_captured(tmp_path: Path) -> None:
     self.create_client(Trigger, '/map/load')
     """
     with private_domain() as domain:
-        desk = Ros2Desk(tmp_path, talker=node_of(body, "from std_srvs.srv import Trigger"))
+        harness = Ros2Harness(tmp_path, talker=node_of(body, "from std_srvs.srv import Trigger"))
         launch = (
             "<launch>\n  <node pkg='pkg' exec='talker' name='talker' namespace='robot'>"
             "<remap from='chatter' to='/elsewhere'/></node>\n</launch>\n"
         )
-        file = desk.write("launch/a.launch.xml", launch)
+        file = harness.write("launch/a.launch.xml", launch)
         environment = {
-            **desk.variables,
+            **harness.variables,
             "XDG_CACHE_HOME": str(tmp_path / "cache"),
             "ROS_DOMAIN_ID": str(domain),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -132,7 +132,7 @@ def test_nodes_of_ros2_are_captured(tmp_path: Path) -> None:
         node = subprocess.Popen(
             [ros2_prefix() / "bin/python3", "-c", "from pkg.talker import main; main()", "--ros-args", *remaps],
             env=environment,
-            cwd=desk.package,
+            cwd=harness.package,
         )
         wanted = """<!--
       <topics>

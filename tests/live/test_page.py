@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from live_desk import COMMAND, LIMIT_SECONDS, Ros1System, preflight, until
+from support.live_harness import COMMAND, LIMIT_SECONDS, Ros1System, preflight, until
 
 pytestmark = pytest.mark.ros
 

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from live_desk import Done, Ros1System, Watching, differences, preflight, until
 from preflight_analysis.live.model import CannotObserveError
 from preflight_analysis.live.observe_ros1 import Ros1Observer
+from support.live_harness import Done, Ros1System, Watching, differences, preflight, until
 
 pytestmark = pytest.mark.ros
 

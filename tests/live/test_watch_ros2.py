@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from live_desk import LIMIT_SECONDS, Watching, preflight, private_domain
-from ros2_desk import Ros2Desk, node_of, ros2_prefix
+from support.live_harness import LIMIT_SECONDS, Watching, preflight, private_domain
+from support.ros2_harness import Ros2Harness, node_of, ros2_prefix
 
 pytestmark = pytest.mark.ros
 
@@ -57,12 +57,12 @@ class System:
     """Nodes of the package `pkg` in a domain of their own."""
 
     def __init__(self, folder: Path, domain: int) -> None:
-        self.desk = Ros2Desk(
+        self.harness = Ros2Harness(
             folder, talker=TALKER, listener=LISTENER, other=OTHER, caller=CALLER, camera=CAMERA.format(then="pass")
         )
-        self.file = self.desk.write("launch/a.launch.xml", LAUNCH)
+        self.file = self.harness.write("launch/a.launch.xml", LAUNCH)
         self.environment = {
-            **self.desk.variables,
+            **self.harness.variables,
             "XDG_CACHE_HOME": str(folder / "cache"),
             "ROS_DOMAIN_ID": str(domain),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -76,7 +76,7 @@ class System:
         process = subprocess.Popen(
             [ros2_prefix() / "bin/python3", "-c", f"from pkg.{module} import main; main()", "--ros-args", *remaps],
             env=self.environment,
-            cwd=self.desk.package,
+            cwd=self.harness.package,
             stdin=subprocess.DEVNULL,
         )
         self.running.append(process)
@@ -191,14 +191,14 @@ def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
         """,
         "from std_srvs.srv import Trigger",
     )
-    system.desk.write("pkg/acting.py", parts)
+    system.harness.write("pkg/acting.py", parts)
     system.start("acting")
     watch.until(told("/own offers the action /go (std_msgs/msg/String), which was not expected"))
     assert watch.seen[-1]["actions"] == {"/go": "extra"}
 
 
 def test_a_lifecycle_node_that_is_not_active_is_said_to_be_so(system: System) -> None:
-    file = system.desk.write(
+    file = system.harness.write(
         "launch/camera.launch.xml", "<launch><node pkg='pkg' exec='camera' name='camera'/></launch>"
     )
     watch = Watching(system.environment, file, "--settle", "0")
@@ -210,7 +210,7 @@ def test_a_lifecycle_node_that_is_not_active_is_said_to_be_so(system: System) ->
         camera.wait()
         watch.until_told("/camera is not running")
         then = "node.trigger_configure(); node.trigger_activate()"
-        system.desk.write("pkg/camera_up.py", CAMERA.format(then=then))
+        system.harness.write("pkg/camera_up.py", CAMERA.format(then=then))
         system.start("camera_up")
         active = watch.until_told()
         assert active["nodes"] == {"/camera": "present"}
@@ -226,8 +226,8 @@ def test_once_waits_until_the_system_is_as_expected(system: System) -> None:
 
 
 def test_quality_of_service_is_compared(system: System, watch: Watching) -> None:
-    body = (system.desk.package / "pkg/other.py").read_text().replace("Int32", "String")
-    system.desk.write("pkg/other.py", body)
+    body = (system.harness.package / "pkg/other.py").read_text().replace("Int32", "String")
+    system.harness.write("pkg/other.py", body)
     system.start("other", "__node:=talker", "__ns:=/robot")
     event: dict[str, Any] = watch.until(
         lambda event: event["event"] == "state" and any(i["kind"] == "wrong-qos" for i in event["issues"])

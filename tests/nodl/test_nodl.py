@@ -59,7 +59,7 @@ LAUNCH = '<launch><node pkg="laser" exec="driver" name="front" namespace="robot"
 INSTALLED = "share/ament_index/resource_index"
 
 
-def lay(folder: Path, files: dict[str, str]) -> Workspace:
+def create_workspace(folder: Path, files: dict[str, str]) -> Workspace:
     for name, text in {"package.xml": MANIFEST, "launch/robot.launch.xml": LAUNCH, **files}.items():
         path = folder / "src/laser" / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -83,7 +83,7 @@ def told(interface: Interface) -> list[tuple[str, str, str | None]]:
 def test_the_document_of_an_executable_and_what_it_includes(tmp_path: Path) -> None:
     names = ("driver.nodl.yaml", "common.nodl.yaml", "more.nodl.json")
     files = {f"nodl/{name}": text for name, text in zip(names, (DRIVER, COMMON, MORE), strict=True)}
-    found = graph(lay(tmp_path, files))
+    found = graph(create_workspace(tmp_path, files))
     (interface,) = found.interfaces
     assert (interface.source, interface.complete) == ("nodl", True)
     assert told(interface) == [
@@ -107,14 +107,14 @@ def test_the_document_of_an_executable_and_what_it_includes(tmp_path: Path) -> N
     "place", ["nodl/driver.nodl.yaml", "driver.nodl.yaml", "nodl/driver.yaml", "nodl/Driver.nodl.yml"]
 )
 def test_places_of_a_document(tmp_path: Path, place: str) -> None:
-    assert graph(lay(tmp_path, {place: DRIVER})).interfaces[0].source == "nodl"
+    assert graph(create_workspace(tmp_path, {place: DRIVER})).interfaces[0].source == "nodl"
 
 
 @pytest.mark.parametrize(
     "place", ["nodl/other.nodl.yaml", "driver.yaml", "nodl/driver.nodl.txt", "config/driver.nodl.yaml"]
 )
 def test_what_is_no_document_of_the_node(tmp_path: Path, place: str) -> None:
-    assert graph(lay(tmp_path, {place: DRIVER})).interfaces[0].source == "none"
+    assert graph(create_workspace(tmp_path, {place: DRIVER})).interfaces[0].source == "none"
 
 
 def test_documents_of_the_ament_index(tmp_path: Path) -> None:
@@ -122,13 +122,13 @@ def test_documents_of_the_ament_index(tmp_path: Path) -> None:
     for name, text in (("packages/laser", ""), ("nodl/laser__driver", DRIVER), ("nodl/laser__more", MORE)):
         (index / name).parent.mkdir(parents=True, exist_ok=True)
         (index / name).write_text(text)
-    (interface,) = graph(lay(tmp_path, {})).interfaces
+    (interface,) = graph(create_workspace(tmp_path, {})).interfaces
     assert interface.source == "nodl"
     assert ("publisher", "heat", "std_msgs/msg/Float32") in told(interface)
 
 
 def test_version_1_names_its_executables(tmp_path: Path) -> None:
-    (interface,) = graph(lay(tmp_path, {"laser.nodl.xml": VERSION_1})).interfaces
+    (interface,) = graph(create_workspace(tmp_path, {"laser.nodl.xml": VERSION_1})).interfaces
     assert told(interface) == [
         ("action_client", "dock", "nav_msgs/action/Dock"),
         ("publisher", "scan", "sensor_msgs/msg/LaserScan"),
@@ -139,7 +139,7 @@ def test_version_1_names_its_executables(tmp_path: Path) -> None:
 
 
 def test_annotations_and_settings_count_before_and_the_source_after(tmp_path: Path) -> None:
-    workspace = lay(tmp_path, {"nodl/driver.nodl.yaml": DRIVER})
+    workspace = create_workspace(tmp_path, {"nodl/driver.nodl.yaml": DRIVER})
     launch = tmp_path / "src/laser/launch/robot.launch.xml"
     annotation = '<topics><topic name="a" type="b/C" class="pub"/></topics>'
     launch.write_text(LAUNCH.replace("/></launch>", f"><!-- {annotation} --></node></launch>"))
@@ -153,7 +153,7 @@ def test_annotations_and_settings_count_before_and_the_source_after(tmp_path: Pa
 
 
 def test_a_run_counts_before_and_a_crashed_one_is_added_to(tmp_path: Path) -> None:
-    workspace = lay(tmp_path, {"nodl/driver.nodl.yaml": DRIVER})
+    workspace = create_workspace(tmp_path, {"nodl/driver.nodl.yaml": DRIVER})
     seen = (Endpoint("publisher", "seen", "a/msg/B"),)
     assert graph(workspace, Interface("trace", Outcome("spinning"), seen)).interfaces[0].source == "trace"
     (interface,) = graph(workspace, Interface("trace", Outcome("crashed"), seen)).interfaces
@@ -161,7 +161,7 @@ def test_a_run_counts_before_and_a_crashed_one_is_added_to(tmp_path: Path) -> No
 
 
 def test_a_changed_document_is_read_again(tmp_path: Path) -> None:
-    workspace = lay(tmp_path, {"nodl/driver.nodl.yaml": DRIVER})
+    workspace = create_workspace(tmp_path, {"nodl/driver.nodl.yaml": DRIVER})
     before = graph(workspace).interfaces[0]
     assert graph(workspace).interfaces[0] is before, "what did not change is not made anew"
     (tmp_path / "src/laser/nodl/driver.nodl.yaml").write_text(DRIVER.replace("name: scan", "name: front_scan"))
@@ -200,12 +200,12 @@ def test_an_end_whose_type_is_none_stays_without_one(type_: str) -> None:
 
 def test_written_and_read_again_is_the_same(tmp_path: Path) -> None:
     files = {"nodl/driver.nodl.yaml": DRIVER}
-    workspace = lay(tmp_path / "a", files)
+    workspace = create_workspace(tmp_path / "a", files)
     written = nodl_files(graph(workspace))
     assert list(written) == ["laser/driver.nodl.yaml"]
     text = written["laser/driver.nodl.yaml"]
     assert "# Left out: parameter ~port: type not known\n" in text, "it has no default to tell it"
-    again = lay(tmp_path / "b", {"nodl/driver.nodl.yaml": text})
+    again = create_workspace(tmp_path / "b", {"nodl/driver.nodl.yaml": text})
     one, other = (
         snapshot_of(w.static(f"{w.environment.workspace}/src/laser/launch/robot.launch.xml"), graph(w))
         for w in (workspace, again)

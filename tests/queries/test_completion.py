@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from preflight_analysis.queries.completion import TRIGGERS, complete
 from preflight_analysis.queries.completion_items import Completion
-from query_desk import Executables, at_cursor
+from support.query_harness import Executables, at_cursor
 
 
 def completed(text: str, trigger: str | None = None, **options: object) -> Completion | None:

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.queries.definition import definition
-from scene_desk import lay
+from support.workspace_harness import create_workspace
 
 
 def gone_to(tmp_path: Path, text: str) -> list[str]:
-    stage = lay(tmp_path, text)
-    return [stage.shown(target.location) for target in definition(stage.scene, stage.offset, ())]
+    workspace = create_workspace(tmp_path, text)
+    return [workspace.shown(target.location) for target in definition(workspace.scene, workspace.offset, ())]
 
 
 def test_an_argument_that_is_passed_leads_into_the_included_file(tmp_path: Path) -> None:

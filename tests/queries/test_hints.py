@@ -5,7 +5,7 @@ from __future__ import annotations
 from preflight_analysis.documents.span import Span
 from preflight_analysis.queries.hints import Hint, hints
 from preflight_analysis.workspace.sources import Sources
-from query_desk import at_cursor
+from support.query_harness import at_cursor
 
 
 def hinted(text: str, within: Span | None = None) -> list[str]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.workspace.index import Root
-from scene_desk import lay
+from support.workspace_harness import create_workspace
 
 INCLUDES = """
     //- robots/fast.launch
@@ -22,8 +22,8 @@ INCLUDES = """
 
 def hovered(tmp_path: Path, text: str, *, named: tuple[Root, ...] = (), unseen: int = 0) -> list[str]:
     """The lines of the hover at the cursor, without the empty ones."""
-    stage = lay(tmp_path, text, named=named)
-    found = hover(stage.scene.analyses, stage.scene.path, stage.offset, unseen)
+    workspace = create_workspace(tmp_path, text, named=named)
+    found = hover(workspace.scene.analyses, workspace.scene.path, workspace.offset, unseen)
     return [line for line in found.markdown.split("\n") if line] if found else []
 
 
@@ -103,8 +103,8 @@ def test_many_roots(tmp_path: Path) -> None:
         for n in range(12)
     )
     text = '    <launch><arg name="rate"/><param name="a" value="$(arg $0rate)"/></launch>' + roots
-    stage = lay(tmp_path, text, analysed=12)
-    found = hover(stage.scene.analyses, stage.scene.path, stage.offset, 3)
+    workspace = create_workspace(tmp_path, text, analysed=12)
+    found = hover(workspace.scene.analyses, workspace.scene.path, workspace.offset, 3)
     assert found is not None
     lines = found.markdown.split("\n")
     assert len([word for line in lines for word in line.split() if word.startswith("`r")]) == 8 + 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from preflight_analysis.queries.hover import hover
-from query_desk import at_cursor
+from support.query_harness import at_cursor
 
 
 def told(text: str) -> tuple[str, str] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.queries.links import links
-from query_desk import at_cursor
+from support.query_harness import at_cursor
 
 
 def linked(text: str) -> list[tuple[str, str]]:

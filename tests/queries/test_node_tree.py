@@ -8,8 +8,8 @@ import pytest
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.queries.node_tree import Item, node_tree
 from preflight_analysis.workspace.workspace import Analysis
-from python_launch_desk import PythonDesk
-from scene_desk import Stage, lay
+from support.python_launch_harness import PythonHarness
+from support.workspace_harness import TestWorkspace, create_workspace
 
 ROBOT = """
     $0<launch>
@@ -40,7 +40,7 @@ def outline(items: tuple[Item, ...], depth: int = 0) -> list[str]:
     return lines
 
 
-def treed(stage: Stage, analysis: Analysis) -> tuple[Item, ...]:
+def treed(workspace: TestWorkspace, analysis: Analysis) -> tuple[Item, ...]:
     files = frozenset(analysis.tree.files)
     findings = by_file([RootFindings(analysis.root, files, analysis.findings)], frozenset())
     return node_tree(analysis, findings).items
@@ -52,9 +52,9 @@ def named(items: tuple[Item, ...], name: str) -> Item:
 
 
 def test_namespaces_nodes_includes_and_what_is_left_out(tmp_path: Path) -> None:
-    stage = lay(tmp_path, ROBOT)
-    analysis = stage.scene.analyses[0]
-    items = treed(stage, analysis)
+    workspace = create_workspace(tmp_path, ROBOT)
+    analysis = workspace.scene.analyses[0]
+    items = treed(workspace, analysis)
     assert outline(items) == [
         "node base p/t",
         "  param rate 5",
@@ -74,20 +74,20 @@ def test_namespaces_nodes_includes_and_what_is_left_out(tmp_path: Path) -> None:
 
 
 def test_a_node_has_its_place_its_file_and_what_is_wrong_with_it(tmp_path: Path) -> None:
-    stage = lay(tmp_path, ROBOT)
-    items = treed(stage, stage.scene.analyses[0])
+    workspace = create_workspace(tmp_path, ROBOT)
+    items = treed(workspace, workspace.scene.analyses[0])
     base, camera = named(items, "/base"), named(items, "/arm/left/camera")
     assert base.location is not None
-    assert stage.shown(base.location).startswith('main.launch:4 <node pkg="p" type="t" name="base"')
+    assert workspace.shown(base.location).startswith('main.launch:4 <node pkg="p" type="t" name="base"')
     assert camera.location is not None
-    assert stage.shown(camera.location).startswith("camera.launch:3 <node")
+    assert workspace.shown(camera.location).startswith("camera.launch:3 <node")
     assert camera.file == str(tmp_path / "camera.launch")
     assert (base.worst, base.findings) == (None, 0)
     assert (camera.worst, camera.findings) == ("error", 1)
 
 
 def test_a_file_included_twice_has_its_own_conditions_each_time(tmp_path: Path) -> None:
-    stage = lay(
+    workspace = create_workspace(
         tmp_path,
         """
         $0<launch>
@@ -100,7 +100,7 @@ def test_a_file_included_twice_has_its_own_conditions_each_time(tmp_path: Path) 
         #!/bin/sh
         """,
     )
-    assert outline(treed(stage, stage.scene.analyses[0])) == [
+    assert outline(treed(workspace, workspace.scene.analyses[0])) == [
         "namespace a/",
         "  node n p/t",
         "section Includes 2",
@@ -112,17 +112,21 @@ def test_a_file_included_twice_has_its_own_conditions_each_time(tmp_path: Path) 
 
 
 def test_what_a_node_was_seen_to_do_is_said_where_it_is_not_all(tmp_path: Path) -> None:
-    stage = lay(tmp_path, ROBOT + '//- interfaces\n    {"/base": {"publishers": {"odom": "nav_msgs/Odometry"}}}')
-    items = treed(stage, stage.scene.analyses[0])
+    workspace = create_workspace(
+        tmp_path, ROBOT + '//- interfaces\n    {"/base": {"publishers": {"odom": "nav_msgs/Odometry"}}}'
+    )
+    items = treed(workspace, workspace.scene.analyses[0])
     assert named(items, "/base").note == ""
-    unknown = lay(tmp_path / "other", '$0<launch><node pkg="p" type="t" name="n" args="$(env NO_SUCH_ONE)"/></launch>')
+    unknown = create_workspace(
+        tmp_path / "other", '$0<launch><node pkg="p" type="t" name="n" args="$(env NO_SUCH_ONE)"/></launch>'
+    )
     assert node_tree(unknown.scene.analyses[0], {}).items[0].note != ""
 
 
 @pytest.mark.ros
 def test_a_line_of_python_that_includes_twice_has_the_nodes_of_each(tmp_path: Path) -> None:
-    desk = PythonDesk(tmp_path)
-    deep = desk.write("launch/deep.launch.xml", '<launch><node pkg="p" exec="t" name="deep"/></launch>')
+    harness = PythonHarness(tmp_path)
+    deep = harness.write("launch/deep.launch.xml", '<launch><node pkg="p" exec="t" name="deep"/></launch>')
     inner = """
         <launch>
           <arg name="ns"/>
@@ -130,8 +134,8 @@ def test_a_line_of_python_that_includes_twice_has_the_nodes_of_each(tmp_path: Pa
           <include file="$(dirname)/deep.launch.xml" if="$(eval '\\'$(var ns)\\' == \\'b\\'')"/>
         </launch>
         """
-    desk.write("launch/inner.launch.xml", inner.strip("\n"))
-    main = desk.write(
+    harness.write("launch/inner.launch.xml", inner.strip("\n"))
+    main = harness.write(
         "launch/main.launch.py",
         f"""
         from launch import LaunchDescription
@@ -146,7 +150,7 @@ def test_a_line_of_python_that_includes_twice_has_the_nodes_of_each(tmp_path: Pa
             ])
         """,
     )
-    analysis = desk.launch(main)
+    analysis = harness.launch(main)
     assert [node.name for node in analysis.tree.nodes] == ["/a/n", "/b/n", "/deep", "/c/n"]
     (includes,) = (item for item in node_tree(analysis, {}).items if item.label == "Includes")
     assert [line.replace(str(tmp_path), "") for line in outline(includes.children)] == [

@@ -14,8 +14,8 @@ from preflight_analysis.queries.completion_items import Completion
 from preflight_analysis.queries.definition import definition
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.queries.rename import RenameRefusedError, rename
-from query_desk import Executables, at_cursor
-from scene_desk import lay
+from support.query_harness import Executables, at_cursor
+from support.workspace_harness import create_workspace
 
 MAIN = """//- {folder}/main.launch.xml
 <launch>
@@ -115,8 +115,10 @@ def test_to_the_declaration_in_the_source(tmp_path: Path) -> None:
         "<let name='a' value='b'/></launch>\n//- pump.py\nimport rclpy\ndeclare('rate')\n"
         f"//- p.yaml\npump:\n  ros__parameters:\n    ra$0te: 5.0\n//- interfaces\n{made}\n"
     )
-    stage = lay(tmp_path, text)
-    assert [stage.shown(t.location) for t in definition(stage.scene, stage.offset, ())] == ["pump.py:2 declare('rate')"]
+    workspace = create_workspace(tmp_path, text)
+    assert [workspace.shown(t.location) for t in definition(workspace.scene, workspace.offset, ())] == [
+        "pump.py:2 declare('rate')"
+    ]
 
 
 @given(
@@ -137,8 +139,10 @@ def test_from_a_param_tag_to_the_declaration(tmp_path: Path) -> None:
         '//- main.launch.xml\n<launch>\n<node pkg="p" exec="t" name="pump"><param name="ra$0te" value="1.0"/></node>\n'
         f"</launch>\n//- pump.py\nimport rclpy\ndeclare('rate')\n//- interfaces\n{made}\n"
     )
-    stage = lay(tmp_path, text)
-    assert [stage.shown(t.location) for t in definition(stage.scene, stage.offset, ())] == ["pump.py:2 declare('rate')"]
+    workspace = create_workspace(tmp_path, text)
+    assert [workspace.shown(t.location) for t in definition(workspace.scene, workspace.offset, ())] == [
+        "pump.py:2 declare('rate')"
+    ]
 
 
 RENAMED = """
@@ -172,14 +176,14 @@ left:
 
 
 def test_a_renamed_node_keeps_its_parameters(tmp_path: Path) -> None:
-    stage = lay(tmp_path, RENAMED % "fan")
-    edited = stage.edited(rename(stage.scene, stage.offset, "motor"))
+    workspace = create_workspace(tmp_path, RENAMED % "fan")
+    edited = workspace.edited(rename(workspace.scene, workspace.offset, "motor"))
     assert "name: motor\n" in edited["main.launch.yaml"]
     keys = [line for line in edited["p.yaml"].split("\n") if "motor" in line or "pump" in line]
     assert keys == ["/left/motor:", "  motor:", "/*/motor:"]
 
 
 def test_a_node_is_not_renamed_if_a_section_means_others_too(tmp_path: Path) -> None:
-    stage = lay(tmp_path, RENAMED % "pump")
+    workspace = create_workspace(tmp_path, RENAMED % "pump")
     with pytest.raises(RenameRefusedError, match="rename it by hand"):
-        rename(stage.scene, stage.offset, "motor")
+        rename(workspace.scene, workspace.offset, "motor")

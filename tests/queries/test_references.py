@@ -5,13 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.queries.references import references
-from scene_desk import lay
+from support.workspace_harness import create_workspace
 
 
 def referred(tmp_path: Path, text: str) -> list[str]:
     """Where the thing at the cursor is named; declarations have a star."""
-    stage = lay(tmp_path, text)
-    return [stage.shown(r.location) + ("*" if r.declares else "") for r in references(stage.scene, stage.offset)]
+    workspace = create_workspace(tmp_path, text)
+    return [
+        workspace.shown(r.location) + ("*" if r.declares else "") for r in references(workspace.scene, workspace.offset)
+    ]
 
 
 ARGUMENTS = """

@@ -7,20 +7,20 @@ from pathlib import Path
 import pytest
 from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
 from preflight_analysis.workspace.index import Root
-from scene_desk import lay
+from support.workspace_harness import create_workspace
 
 
 def renamed(tmp_path: Path, text: str, new: str) -> dict[str, str]:
     """The files that a rename changes, after it; line ends as blanks."""
-    stage = lay(tmp_path, text)
-    texts = stage.edited(rename(stage.scene, stage.offset, new))
+    workspace = create_workspace(tmp_path, text)
+    texts = workspace.edited(rename(workspace.scene, workspace.offset, new))
     return {name: text.replace(str(tmp_path), "") for name, text in texts.items()}
 
 
 def refused(tmp_path: Path, text: str, new: str = "other", *, named: tuple[Root, ...] = ()) -> str:
-    stage = lay(tmp_path, text, named=named)
+    workspace = create_workspace(tmp_path, text, named=named)
     with pytest.raises(RenameRefusedError) as refusal:
-        rename(stage.scene, stage.offset, new)
+        rename(workspace.scene, workspace.offset, new)
     return str(refusal.value)
 
 
@@ -147,8 +147,8 @@ def test_what_cannot_be_renamed(tmp_path: Path, tag: str, message: str) -> None:
 
 
 def test_nothing_to_rename(tmp_path: Path) -> None:
-    stage = lay(tmp_path, "<launch>\n $0\n</launch>")
-    assert prepare(stage.scene, stage.offset) is None
+    workspace = create_workspace(tmp_path, "<launch>\n $0\n</launch>")
+    assert prepare(workspace.scene, workspace.offset) is None
 
 
 NODES = """
@@ -234,9 +234,12 @@ def test_roots_that_were_not_analysed_are_looked_at(tmp_path: Path) -> None:
         //- inc.launch
         <launch><node pkg="p" type="t" name="$0talker"/></launch>
         """
-    stage = lay(tmp_path, text, analysed=1)
-    assert len(stage.scene.trees) == 1
-    assert sorted(stage.edited(rename(stage.scene, stage.offset, "speaker"))) == ["inc.launch", "second.launch"]
+    workspace = create_workspace(tmp_path, text, analysed=1)
+    assert len(workspace.scene.trees) == 1
+    assert sorted(workspace.edited(rename(workspace.scene, workspace.offset, "speaker"))) == [
+        "inc.launch",
+        "second.launch",
+    ]
 
 
 @pytest.mark.parametrize("new", ["", "a b", "1x", "a/b", "~a", "/a", "a-b"])

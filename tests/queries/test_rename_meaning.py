@@ -7,8 +7,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from editor_desk import ROOT
-from meaning_desk import write_case
 from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation import names
@@ -19,6 +17,8 @@ from preflight_analysis.queries.scene import Scene
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.editor_harness import ROOT
+from support.meaning_harness import write_case
 
 CASES = sorted((ROOT / "fixtures/ros1/meaning").glob("*.txt"))
 NEW = "zz_renamed"

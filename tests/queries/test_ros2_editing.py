@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from preflight_analysis.queries.completion import TRIGGERS, complete
 from preflight_analysis.queries.completion_items import Completion, Item
-from query_desk import Executables, at_cursor
+from support.query_harness import Executables, at_cursor
 
 XML, YAML = "//- /main.launch.xml\n", "//- /main.launch.yaml\n"
 INNER = """

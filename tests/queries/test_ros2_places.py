@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.queries.definition import definition
 from preflight_analysis.queries.references import references
-from scene_desk import lay
+from support.workspace_harness import create_workspace
 
 PACKAGE = """
 //- p/package.xml
@@ -52,13 +52,13 @@ Filter::Filter(const rclcpp::NodeOptions & options) : Node("filter", options) {}
 
 
 def gone_to(tmp_path: Path, text: str, build_type: str = "ament_python", *, runs: bool = False) -> list[str]:
-    stage = lay(tmp_path, text, build_type=build_type, runs=runs)
-    return [stage.shown(target.location) for target in definition(stage.scene, stage.offset, ())]
+    workspace = create_workspace(tmp_path, text, build_type=build_type, runs=runs)
+    return [workspace.shown(target.location) for target in definition(workspace.scene, workspace.offset, ())]
 
 
 def named_at(tmp_path: Path, text: str, *, runs: bool = False) -> list[str]:
-    stage = lay(tmp_path, text, build_type="ament_python", runs=runs)
-    return [stage.shown(reference.location) for reference in references(stage.scene, stage.offset)]
+    workspace = create_workspace(tmp_path, text, build_type="ament_python", runs=runs)
+    return [workspace.shown(reference.location) for reference in references(workspace.scene, workspace.offset)]
 
 
 def test_an_entry_point_leads_to_its_function(tmp_path: Path) -> None:
@@ -87,8 +87,8 @@ def test_a_component_leads_to_its_class(tmp_path: Path) -> None:
     assert gone_to(tmp_path / "a", text + CPP, "ament_cmake") == [
         "p/src/filter.hpp:3 class Filter : public rclcpp::Node {"
     ]
-    stage = lay(tmp_path / "b", text + CPP, build_type="ament_cmake")
-    assert [stage.shown(each.location) for each in references(stage.scene, stage.offset)] == [
+    workspace = create_workspace(tmp_path / "b", text + CPP, build_type="ament_cmake")
+    assert [workspace.shown(each.location) for each in references(workspace.scene, workspace.offset)] == [
         "main.launch.xml:3 p::Filter",
         "main.launch.xml:6 p::Filter",
         "p/src/filter.hpp:3 class Filter : public rclcpp::Node {",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from preflight_analysis.queries.signature import Signature, signature
-from query_desk import at_cursor
+from support.query_harness import at_cursor
 
 INNER = """
 //- /p/inner.launch

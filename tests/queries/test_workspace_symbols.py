@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from places import location
 from preflight_analysis.queries.workspace_symbols import LIMIT, workspace_symbols
 from preflight_analysis.workspace.facts import FileFacts
 from preflight_analysis.workspace.index import NodeEntry, Root, RootEntry, WorkspaceIndex
+from support.locations import location
 
 
 def index_of(*names: str, files: tuple[str, ...] = ("/w/p/launch/main.launch",)) -> WorkspaceIndex:

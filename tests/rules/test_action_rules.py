@@ -1,6 +1,6 @@
 """ACT: who offers an action, who is its client, with which type."""
 
-from preflight_check import apply, check
+from support.check import apply, check
 
 _COMMON = '"{0}/cancel": "actionlib_msgs/GoalID", "{0}/goal": "{1}Goal"'
 _BACK = '"{0}/status": "actionlib_msgs/GoalStatusArray", "{0}/feedback": "{1}Feedback", "{0}/result": "{1}Result"'

@@ -11,7 +11,7 @@ from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.rules.registry import run_rules
-from preflight_check import Fixture, analyse, check, findings_of, interfaces_of
+from support.check import Fixture, analyse, check, findings_of, interfaces_of
 
 
 def test_another_type_is_a_warning() -> None:

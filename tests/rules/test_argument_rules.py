@@ -1,6 +1,6 @@
 """ARG: arguments, declared and passed."""
 
-from preflight_check import apply, check
+from support.check import apply, check
 
 
 def test_an_undeclared_argument_is_reported_in_its_own_file() -> None:

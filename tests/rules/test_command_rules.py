@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from preflight_check import apply, check
+from support.check import apply, check
 
 
 def test_a_command_that_was_not_run_yet_is_no_news() -> None:

@@ -11,7 +11,7 @@ from preflight_analysis.rules.files import nearest_file
 from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from preflight_check import check, findings_of
+from support.check import check, findings_of
 
 
 @pytest.mark.parametrize(("name", "other"), [("camrea", "camera"), ("helo", "hello"), ("robot_drivr", "robot_driver")])

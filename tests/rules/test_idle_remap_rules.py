@@ -1,6 +1,6 @@
 """TOP004: remaps of names that no node uses."""
 
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 
 def test_a_typo_in_from_is_shown_there_and_nowhere_else() -> None:

@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import pytest
-from places import location
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.registry import all_rules, unique
 from preflight_analysis.workspace.sources import Sources
-from preflight_check import findings_of
+from support.check import findings_of
+from support.locations import location
 
 FILES = """
         //- /inc.launch

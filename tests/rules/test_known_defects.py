@@ -2,7 +2,7 @@
 as a warning at the right place, and nothing is left of it once it is mended."""
 
 import pytest
-from preflight_check import check, findings_of
+from support.check import check, findings_of
 
 _ODOMETRY_RENAMED = """
     <launch>

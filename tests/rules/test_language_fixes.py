@@ -1,7 +1,7 @@
 """The quick fixes of the rules about the launch file's own language."""
 
 import pytest
-from preflight_check import apply, findings_of
+from support.check import apply, findings_of
 
 
 def fixed(tag: str, rule: str, fix: int = 0) -> str:

@@ -9,7 +9,7 @@ import pstats
 
 from preflight_analysis.rules.registry import all_rules, run_rules
 from preflight_analysis.rules.rule import Context
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
 
 KINDS = 5
 NODE = """<node pkg="p" exec="e{kind}" name="n{kind}" namespace="r{robot}"><param from="/p.yaml"/>

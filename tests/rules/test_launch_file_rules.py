@@ -6,7 +6,7 @@ import pytest
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 SILENT = """
     <launch>

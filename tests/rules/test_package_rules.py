@@ -7,7 +7,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 
 def test_a_package_that_is_not_there_and_the_nearest_one() -> None:

@@ -1,7 +1,7 @@
 """PRM009, PRM010: what nodes expect of parameters."""
 
 import pytest
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 
 def _kinds(value: str, default: str, type_: str = "") -> list[tuple[str, str]]:

@@ -14,7 +14,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules import reference
 from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_check import analyse, read_fixture
+from support.check import analyse, read_fixture
 
 ROOT = Path(__file__).parents[2]
 BROKEN = """

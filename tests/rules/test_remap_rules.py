@@ -1,6 +1,6 @@
 """Remaps, conditions, anonymous names and clear_params that do not do what they seem to."""
 
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 
 def test_a_remap_that_a_later_one_beside_it_replaces() -> None:

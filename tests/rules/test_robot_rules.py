@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from preflight_check import check
+from support.check import check
 
 TWIST = "geometry_msgs/msg/Twist"
 LAUNCH = """

@@ -1,6 +1,6 @@
 """Rules on what ROS 2 accepts and then does not do: leaking configurations, containers, lifecycle nodes."""
 
-from preflight_check import check
+from support.check import check
 
 
 def test_an_argument_that_an_include_overwrites() -> None:

@@ -2,7 +2,7 @@
 
 import json
 
-from preflight_check import check
+from support.check import check
 
 
 def test_a_value_that_is_not_among_the_choices() -> None:

@@ -1,6 +1,6 @@
 """What launch refuses while it reads an XML or YAML file, as the real one does (launch 3.7, launch_ros 0.28)."""
 
-from preflight_check import check
+from support.check import check
 
 
 def test_yaml_that_is_no_text() -> None:

@@ -1,6 +1,6 @@
 """SRV: who offers, who calls, with which type."""
 
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 
 def test_a_near_miss_is_a_warning_that_names_both() -> None:

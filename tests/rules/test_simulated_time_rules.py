@@ -1,7 +1,7 @@
 """LCH030: simulated time that nobody tells."""
 
 import pytest
-from preflight_check import check, findings_of
+from support.check import check, findings_of
 
 _INTERFACES = """
         //- interfaces

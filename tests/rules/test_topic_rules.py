@@ -1,6 +1,6 @@
 """TOP: who publishes, who subscribes, with which type."""
 
-from preflight_check import apply, check, findings_of
+from support.check import apply, check, findings_of
 
 
 def test_a_near_miss_through_a_remap_is_shown_at_the_remap() -> None:

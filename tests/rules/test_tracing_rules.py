@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from preflight_check import check, findings_of
+from support.check import check, findings_of
 
 
 def test_a_crash_says_why() -> None:

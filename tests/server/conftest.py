@@ -1,13 +1,13 @@
-"""A desk with the demo for each test of the server."""
+"""A home folder with the demo for each test of the server."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk, lay_desk
+from support.editor_harness import Harness, create_harness
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return lay_desk(tmp_path, "workspace", server_on_path=True)
+def harness(tmp_path: Path) -> Harness:
+    return create_harness(tmp_path, "workspace", server_on_path=True)

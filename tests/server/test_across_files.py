@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import ENCODINGS, Editor, capabilities, editing, from_uri, offset
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
+from support.editor_harness import Harness
+from support.lsp_client import ENCODINGS, Editor, capabilities, editing, from_uri, offset
 
 pytestmark = pytest.mark.ros
 
@@ -26,8 +26,8 @@ INNER = """<launch>
 
 
 @pytest.fixture
-def files(desk: Desk) -> tuple[Path, Path]:
-    inner, outer = desk.launch_file.with_name("inner.launch"), desk.launch_file.with_name("outer.launch")
+def files(harness: Harness) -> tuple[Path, Path]:
+    inner, outer = harness.launch_file.with_name("inner.launch"), harness.launch_file.with_name("outer.launch")
     inner.write_text(INNER)
     outer.write_text(OUTER)
     return outer, inner
@@ -47,9 +47,9 @@ def covered(editor: Editor, place: types.Location) -> str:
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-async def test_references_in_two_files(desk: Desk, files: tuple[Path, Path], encoding: str) -> None:
+async def test_references_in_two_files(harness: Harness, files: tuple[Path, Path], encoding: str) -> None:
     outer, inner = files
-    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+    async with editing(harness, client=capabilities(encoding=encoding)) as editor:
         editor.open(inner)
         await indexed(editor, outer)
         found = await editor.references(inner, editor.at(inner, "(arg rate)", 6))
@@ -63,9 +63,9 @@ async def test_references_in_two_files(desk: Desk, files: tuple[Path, Path], enc
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-async def test_rename_in_two_files(desk: Desk, files: tuple[Path, Path], encoding: str) -> None:
+async def test_rename_in_two_files(harness: Harness, files: tuple[Path, Path], encoding: str) -> None:
     outer, inner = files
-    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+    async with editing(harness, client=capabilities(encoding=encoding)) as editor:
         editor.open(inner)
         await indexed(editor, outer)
         where = editor.at(inner, "(arg rate)", 6)
@@ -78,12 +78,12 @@ async def test_rename_in_two_files(desk: Desk, files: tuple[Path, Path], encodin
         await editor.until(lambda: editor.rules(inner) == ["TOP002"] and editor.rules(outer) == ["TRC004"])
 
 
-async def test_rename_for_a_client_that_checks_no_versions(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_rename_for_a_client_that_checks_no_versions(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
     plain = capabilities()
     assert plain.workspace is not None
     plain.workspace.workspace_edit = None
-    async with editing(desk, client=plain) as editor:
+    async with editing(harness, client=plain) as editor:
         editor.open(outer)
         await indexed(editor, outer)
         edit = await editor.rename(outer, editor.at(outer, '"rate" value', 1), "speed")
@@ -92,9 +92,9 @@ async def test_rename_for_a_client_that_checks_no_versions(desk: Desk, files: tu
         assert sorted(edit.changes or {}) == sorted([inner.as_uri(), outer.as_uri()])
 
 
-async def test_what_was_typed_a_moment_ago_counts(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_what_was_typed_a_moment_ago_counts(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(outer)
         await indexed(editor, outer)
         editor.change(outer, "<!-- one line more 🤖 -->\n" + OUTER)
@@ -103,9 +103,11 @@ async def test_what_was_typed_a_moment_ago_counts(desk: Desk, files: tuple[Path,
         assert "outer.launch:4 rate" in [covered(editor, place) for place in found]
 
 
-async def test_a_refusal_says_why(desk: Desk, files: tuple[Path, Path], capfd: pytest.CaptureFixture[str]) -> None:
+async def test_a_refusal_says_why(
+    harness: Harness, files: tuple[Path, Path], capfd: pytest.CaptureFixture[str]
+) -> None:
     outer, _ = files
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(outer)
         await indexed(editor, outer)
         with pytest.raises(JsonRpcException, match="'a b' is no name for an argument"):
@@ -116,9 +118,9 @@ async def test_a_refusal_says_why(desk: Desk, files: tuple[Path, Path], capfd: p
     assert "no name for an argument" not in capfd.readouterr().err, "it is an answer, not a failure to be logged"
 
 
-async def test_a_node_is_renamed_with_the_topics_below_it(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_a_node_is_renamed_with_the_topics_below_it(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         text = OUTER.replace("</launch>", '  <param name="talker/x" value="1"/>\n</launch>')
         editor.open(outer, text)
         editor.open(inner)
@@ -128,9 +130,9 @@ async def test_a_node_is_renamed_with_the_topics_below_it(desk: Desk, files: tup
         assert editor.texts[outer] == text.replace("talker/x", "speaker/x")
 
 
-async def test_in_a_file_that_does_not_parse(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_in_a_file_that_does_not_parse(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(inner, INNER.replace("</launch>", '<param name="🤖" value="$(arg rate)"'))
         await indexed(editor, outer)
         where = editor.at(inner, '"rate"', 1)
@@ -148,17 +150,17 @@ async def test_in_a_file_that_does_not_parse(desk: Desk, files: tuple[Path, Path
         assert [link.target_range.start.line for link in links] == [1]
 
 
-async def test_topics_and_parameters_lead_to_the_source_of_the_node(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        found = await editor.references(desk.launch_file, editor.at(desk.launch_file, '"chater"', 1))
+async def test_topics_and_parameters_lead_to_the_source_of_the_node(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        found = await editor.references(harness.launch_file, editor.at(harness.launch_file, '"chater"', 1))
         assert [covered(editor, place) for place in found] == [
             "talker_listener.launch:7 chatter",
             "talker_listener.launch:7 chater",
             'listener.py:14 rospy.Subscriber("chatter", String, heard)',
         ]
-        links = await editor.definition(desk.launch_file, editor.at(desk.launch_file, '"chatter"', 1))
+        links = await editor.definition(harness.launch_file, editor.at(harness.launch_file, '"chatter"', 1))
         assert [from_uri(link.target_uri).name for link in links] == ["listener.py"]
-        links = await editor.definition(desk.launch_file, editor.at(desk.launch_file, '"rate"', 1))
+        links = await editor.definition(harness.launch_file, editor.at(harness.launch_file, '"rate"', 1))
         assert [(from_uri(link.target_uri).name, link.target_range.start.line) for link in links] == [("talker.py", 10)]

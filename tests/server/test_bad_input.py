@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 LAUGHS = (
     """<?xml version="1.0"?>
@@ -56,12 +56,12 @@ async def finding(editor: Editor, path: Path, text: str, rule: str) -> types.Dia
     ],
     ids=["empty", "blank", "lone", "unclosed", "attribute", "trailing", "robot", "binary", "5MB", "laughs", "deep"],
 )
-async def test_bad_text(desk: Desk, text: str, rule: str, words: str) -> None:
-    async with editing(desk, trusted=True) as editor:
-        found = await finding(editor, desk.workspace / "bad.launch", text, rule)
+async def test_bad_text(harness: Harness, text: str, rule: str, words: str) -> None:
+    async with editing(harness, trusted=True) as editor:
+        found = await finding(editor, harness.workspace / "bad.launch", text, rule)
         assert words in found.message
         # It can be typed in all the same.
-        path = desk.workspace / "bad.launch"
+        path = harness.workspace / "bad.launch"
         editor.change(path, "<launch/>\n")
         await editor.until(lambda: editor.rules(path) == [])
 
@@ -79,37 +79,37 @@ def _large(path: Path) -> None:
 
 
 @pytest.mark.parametrize("make", [_folder, os.mkfifo, _binary, _large])
-async def test_an_include_that_cannot_be_read(desk: Desk, make: object) -> None:
+async def test_an_include_that_cannot_be_read(harness: Harness, make: object) -> None:
     assert callable(make)
-    inner = desk.workspace / "inner.launch"
+    inner = harness.workspace / "inner.launch"
     make(inner)
     text = f'<launch>\n  <include file="{inner}"/>\n</launch>\n'
-    async with editing(desk) as editor:
-        found = await finding(editor, desk.workspace / "outer.launch", text, "LCH014")
+    async with editing(harness) as editor:
+        found = await finding(editor, harness.workspace / "outer.launch", text, "LCH014")
         assert "inner.launch" in found.message
 
 
-async def test_an_include_that_is_malformed_is_reported_in_its_own_file(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_an_include_that_is_malformed_is_reported_in_its_own_file(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text('<launch>\n  <node pkg="a"</launch>')
-    async with editing(desk) as editor:
-        editor.open(desk.workspace / "outer.launch", f'<launch>\n  <include file="{inner}"/>\n</launch>\n')
+    async with editing(harness) as editor:
+        editor.open(harness.workspace / "outer.launch", f'<launch>\n  <include file="{inner}"/>\n</launch>\n')
         found = await editor.having(inner, "LCH001")
         assert found.range.start.line == 1
 
 
-async def test_an_include_that_is_not_there(desk: Desk) -> None:
-    async with editing(desk) as editor:
+async def test_an_include_that_is_not_there(harness: Harness) -> None:
+    async with editing(harness) as editor:
         text = '<launch>\n  <include file="$(find preflight_demo)/launch/talker_listner.launch"/>\n</launch>\n'
-        found = await finding(editor, desk.workspace / "outer.launch", text, "LCH013")
+        found = await finding(editor, harness.workspace / "outer.launch", text, "LCH013")
         assert "talker_listner.launch" in found.message
 
 
-async def test_a_circle_of_includes(desk: Desk) -> None:
-    one, two = desk.workspace / "one.launch", desk.workspace / "two.launch"
+async def test_a_circle_of_includes(harness: Harness) -> None:
+    one, two = harness.workspace / "one.launch", harness.workspace / "two.launch"
     two.write_text(f'<launch>\n  <include file="{one}"/>\n</launch>\n')
     text = f'<launch>\n  <include file="{two}"/>\n</launch>\n'
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(one, text)
         found = await editor.until(
             lambda: next((d for p in (one, two) for d in editor.diagnostics(p) or () if d.code == "LCH015"), None)
@@ -117,16 +117,16 @@ async def test_a_circle_of_includes(desk: Desk) -> None:
         assert "one.launch" in found.message
 
 
-async def test_requests_on_a_file_of_many_nodes(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        path = desk.workspace / "many.launch"
+async def test_requests_on_a_file_of_many_nodes(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        path = harness.workspace / "many.launch"
         editor.open(path, MANY_NODES)
         await editor.having(path, "TRC004")
         assert len(await editor.symbols(path)) == 300
 
 
-async def test_malformed_messages_do_not_stop_the_server(desk: Desk) -> None:
-    async with editing(desk) as editor:
+async def test_malformed_messages_do_not_stop_the_server(harness: Harness) -> None:
+    async with editing(harness) as editor:
         writer = editor.client.protocol.writer
         assert writer is not None
         for body in (
@@ -140,6 +140,6 @@ async def test_malformed_messages_do_not_stop_the_server(desk: Desk) -> None:
             b'{"jsonrpc": "2.0", "id": {}, "result": null}',
         ):
             writer.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TRC004")
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TRC004")
         assert [m.message for m in editor.client.messages] == []

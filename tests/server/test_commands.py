@@ -6,10 +6,10 @@ import asyncio
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
 from lsprotocol import types
-from xacro_desk import lay_robot
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
+from support.xacro_package import create_robot
 
 pytestmark = pytest.mark.ros
 
@@ -25,9 +25,9 @@ rospy.spin()
 
 
 @pytest.fixture
-def robot(desk: Desk) -> Path:
+def robot(harness: Harness) -> Path:
     """The launch file of a robot with a node that reads its description, in a workspace of its own."""
-    launch = lay_robot(desk.home / "robots")
+    launch = create_robot(harness.home / "robots")
     script = launch.parents[1] / "reader.py"
     script.write_text(READER)
     script.chmod(0o755)
@@ -58,8 +58,8 @@ async def shown(editor: Editor, path: Path, needle: str, text: str) -> str:
     raise AssertionError(f"no {text!r} in {found!r}")
 
 
-async def test_nodes_run_with_what_the_command_printed(desk: Desk, robot: Path) -> None:
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+async def test_nodes_run_with_what_the_command_printed(harness: Harness, robot: Path) -> None:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot)
         text = await shown(editor, robot, "<param", "printed")
         assert '<link length="0.25" name="right_thumb"/>' in text
@@ -69,11 +69,11 @@ async def test_nodes_run_with_what_the_command_printed(desk: Desk, robot: Path) 
         assert all("links_1" in d.message for d in editor.diagnostics(robot) or () if d.code == "TOP001")
 
 
-async def test_a_changed_xacro_file_runs_again_and_an_unrelated_one_does_not(desk: Desk, robot: Path) -> None:
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+async def test_a_changed_xacro_file_runs_again_and_an_unrelated_one_does_not(harness: Harness, robot: Path) -> None:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot)
         await shown(editor, robot, "<node", "links_1")
-        starts = desk.sandbox_starts()
+        starts = harness.sandbox_starts()
         urdf = robot.parents[1] / "urdf"
         (urdf / "unrelated.xacro").write_text("<robot/>")
         editor.watched(urdf / "unrelated.xacro")
@@ -82,14 +82,14 @@ async def test_a_changed_xacro_file_runs_again_and_an_unrelated_one_does_not(des
         macros.write_text(macros.read_text().replace("<link ", '<link name="more"/><link '))
         editor.watched(macros)
         await shown(editor, robot, "<node", "links_2")
-        assert desk.sandbox_starts() == starts + 2, "xacro and the node"
+        assert harness.sandbox_starts() == starts + 2, "xacro and the node"
 
 
-async def test_a_failing_command_is_a_diagnostic_until_it_is_repaired(desk: Desk, robot: Path) -> None:
+async def test_a_failing_command_is_a_diagnostic_until_it_is_repaired(harness: Harness, robot: Path) -> None:
     macros = robot.parents[1] / "urdf/macros.xacro"
     good = macros.read_text()
     macros.write_text("<robot><link></robot>")
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot)
         found = await editor.having(robot, "PRM008")
         assert found.severity == types.DiagnosticSeverity.Error
@@ -101,14 +101,14 @@ async def test_a_failing_command_is_a_diagnostic_until_it_is_repaired(desk: Desk
         await editor.without(robot, "PRM008")
 
 
-async def test_without_trust_nothing_is_run_and_the_reason_is_shown(desk: Desk, robot: Path) -> None:
-    async with editing(desk, folder=desk.home / "robots") as editor:
+async def test_without_trust_nothing_is_run_and_the_reason_is_shown(harness: Harness, robot: Path) -> None:
+    async with editing(harness, folder=harness.home / "robots") as editor:
         editor.open(robot)
         found = await editor.having(robot, "LCH018")
         assert found.severity == types.DiagnosticSeverity.Hint
         assert "not trusted" in found.message
         assert "was not run: the workspace is not trusted" in await hovered(editor, robot, "<param")
-        assert desk.sandbox_starts() == 0
+        assert harness.sandbox_starts() == 0
         editor.trust()
         await editor.without(robot, "LCH018")
         await shown(editor, robot, "<param", "right_thumb")
@@ -117,32 +117,32 @@ async def test_without_trust_nothing_is_run_and_the_reason_is_shown(desk: Desk, 
         assert "right_thumb" not in await hovered(editor, robot, "<param")
 
 
-async def test_a_switch_in_the_settings(desk: Desk, robot: Path) -> None:
-    folder = desk.home / "robots"
-    async with editing(desk, trusted=True, settings={"runNodes": False}, folder=folder) as editor:
+async def test_a_switch_in_the_settings(harness: Harness, robot: Path) -> None:
+    folder = harness.home / "robots"
+    async with editing(harness, trusted=True, settings={"runNodes": False}, folder=folder) as editor:
         editor.open(robot)
         assert "rosPreflight.runNodes" in (await editor.having(robot, "LCH018")).message
-        assert desk.sandbox_starts() == 0
+        assert harness.sandbox_starts() == 0
 
 
-async def test_while_it_runs_nothing_is_said_and_it_can_be_cancelled(desk: Desk, robot: Path) -> None:
+async def test_while_it_runs_nothing_is_said_and_it_can_be_cancelled(harness: Harness, robot: Path) -> None:
     title = "Running the commands of parameters in the sandbox"
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot, slow(robot))
         token = await editor.until(lambda: next(iter(editor.progress_of(title)), None))
         assert "has yet to be run" in await hovered(editor, robot, "<param")
         assert not {"LCH018", "TRC004"} & set(editor.rules(robot) or ())
         editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams(token))
         assert "cancelled" in (await editor.having(robot, "LCH018")).message
-        starts = desk.sandbox_starts()
+        starts = harness.sandbox_starts()
         editor.trust()  # the user tries again
         await editor.without(robot, "LCH018")
-        await editor.until(lambda: desk.sandbox_starts() > starts or None)
+        await editor.until(lambda: harness.sandbox_starts() > starts or None)
 
 
-async def test_an_edit_stops_a_command_that_nobody_asks_for_any_more(desk: Desk, robot: Path) -> None:
+async def test_an_edit_stops_a_command_that_nobody_asks_for_any_more(harness: Harness, robot: Path) -> None:
     title = "Running the commands of parameters in the sandbox"
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot, slow(robot))
         await editor.until(lambda: next(iter(editor.progress_of(title)), None))
         began = asyncio.get_running_loop().time()
@@ -151,8 +151,8 @@ async def test_an_edit_stops_a_command_that_nobody_asks_for_any_more(desk: Desk,
         assert asyncio.get_running_loop().time() - began < 8
 
 
-async def test_in_a_file_that_does_not_parse_the_last_result_is_kept(desk: Desk, robot: Path) -> None:
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+async def test_in_a_file_that_does_not_parse_the_last_result_is_kept(harness: Harness, robot: Path) -> None:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         text = editor.open(robot)
         await shown(editor, robot, "<param", "right_thumb")
         editor.change(robot, text.replace("</launch>", "<node "))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import ENCODINGS, Editor, capabilities, editing, position
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import ENCODINGS, Editor, capabilities, editing, position
 
 pytestmark = pytest.mark.ros
 
@@ -15,10 +15,10 @@ CURSOR = "$0"
 
 
 @pytest.fixture
-def path(desk: Desk) -> Path:
+def path(harness: Harness) -> Path:
     inner = '<launch>\n  <arg name="rate" default="1" doc="In Hz"/>\n  <arg name="robot"/>\n</launch>\n'
-    desk.launch_file.with_name("inner.launch").write_text(inner)
-    return desk.launch_file.with_name("typed.launch")
+    harness.launch_file.with_name("inner.launch").write_text(inner)
+    return harness.launch_file.with_name("typed.launch")
 
 
 async def at_cursor(editor: Editor, path: Path, text: str, trigger: str | None = None) -> list[types.CompletionItem]:
@@ -37,16 +37,16 @@ def labels(items: list[types.CompletionItem]) -> list[str]:
     return [item.label for item in sorted(items, key=lambda item: item.sort_text or item.label)]
 
 
-async def test_the_server_says_what_triggers(desk: Desk) -> None:
-    async with editing(desk) as editor:
+async def test_the_server_says_what_triggers(harness: Harness) -> None:
+    async with editing(harness) as editor:
         assert editor.result is not None
         provider = editor.result.capabilities.completion_provider
         assert provider is not None
         assert set(provider.trigger_characters or ()) == set("< \"'/$(:")
 
 
-async def test_from_an_empty_file_on(desk: Desk, path: Path) -> None:
-    async with editing(desk) as editor:
+async def test_from_an_empty_file_on(harness: Harness, path: Path) -> None:
+    async with editing(harness) as editor:
         assert labels(await at_cursor(editor, path, CURSOR)) == ["launch"]
         (launch,) = await at_cursor(editor, path, "<lau$0", "<")
         assert launch.insert_text_format == types.InsertTextFormat.Snippet
@@ -60,8 +60,8 @@ async def test_from_an_empty_file_on(desk: Desk, path: Path) -> None:
         assert elements[0].documentation.value == "Starts a node."
 
 
-async def test_packages_executables_files_and_arguments_while_typing(desk: Desk, path: Path) -> None:
-    async with editing(desk) as editor:
+async def test_packages_executables_files_and_arguments_while_typing(harness: Harness, path: Path) -> None:
+    async with editing(harness) as editor:
         typed = '<launch>\n  <arg name="name" default="x"/>\n  <node pkg="$0'
         packages = await at_cursor(editor, path, typed, '"')
         assert labels(packages)[0] == "preflight_demo", "the workspace's own package comes first"
@@ -86,22 +86,24 @@ async def test_packages_executables_files_and_arguments_while_typing(desk: Desk,
         assert editor.accept(path, name) == '  <param name="p" value="$(arg name)'
 
 
-async def test_what_nodes_do_is_offered_from_their_traces(desk: Desk, path: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")  # both have been run
+async def test_what_nodes_do_is_offered_from_their_traces(harness: Harness, path: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")  # both have been run
         remap, rate = '<remap from="chatter" to="chater"/>', '<param name="rate" value="5"/>'
-        found = await at_cursor(editor, desk.launch_file, text.replace(remap, '<remap from="$0'), '"')
+        found = await at_cursor(editor, harness.launch_file, text.replace(remap, '<remap from="$0'), '"')
         assert [(i.label, i.detail) for i in found] == [("chatter", "std_msgs/String, subscribes")]
-        found = await at_cursor(editor, desk.launch_file, text.replace(remap, '<remap from="chatter" to="/cha$0'))
+        found = await at_cursor(editor, harness.launch_file, text.replace(remap, '<remap from="chatter" to="/cha$0'))
         assert [(i.label, i.detail) for i in found] == [("/chatter", "std_msgs/String")]
-        found = await at_cursor(editor, desk.launch_file, text.replace(rate, '<param name="$0'), '"')
+        found = await at_cursor(editor, harness.launch_file, text.replace(rate, '<param name="$0'), '"')
         assert ("rate", "default: 10") in [(i.label, i.detail) for i in found]
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-async def test_the_word_at_the_cursor_is_replaced_in_every_encoding(desk: Desk, path: Path, encoding: str) -> None:
-    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+async def test_the_word_at_the_cursor_is_replaced_in_every_encoding(
+    harness: Harness, path: Path, encoding: str
+) -> None:
+    async with editing(harness, client=capabilities(encoding=encoding)) as editor:
         typed = (
             '<launch>\n  <arg name="größe" default="🤖"/><param name="🤖é" value="a🤖 $(arg grö$0ss) 🤖"/>\n</launch>'
         )
@@ -112,15 +114,15 @@ async def test_the_word_at_the_cursor_is_replaced_in_every_encoding(desk: Desk, 
         assert editor.accept(path, output) == '  <!-- 🤖 --><node name="🤖" output="log"/>'
 
 
-async def test_without_snippets_no_tab_stops(desk: Desk, path: Path) -> None:
-    async with editing(desk, client=capabilities(snippets=False)) as editor:
+async def test_without_snippets_no_tab_stops(harness: Harness, path: Path) -> None:
+    async with editing(harness, client=capabilities(snippets=False)) as editor:
         elements = await at_cursor(editor, path, "<launch>\n  <$0\n</launch>\n")
         assert not any(i.insert_text_format for i in elements)
         assert editor.accept(path, elements[0]) == "  <node"
 
 
-async def test_nothing_where_nothing_was_asked_for(desk: Desk, path: Path) -> None:
-    async with editing(desk) as editor:
+async def test_nothing_where_nothing_was_asked_for(harness: Harness, path: Path) -> None:
+    async with editing(harness) as editor:
         assert await at_cursor(editor, path, "<launch>\n  $0", " ") == []
         assert await at_cursor(editor, path, "<launch>\n <!-- <$0 -->", "<") == []
         unknown = path.with_suffix(".txt")
@@ -128,9 +130,9 @@ async def test_nothing_where_nothing_was_asked_for(desk: Desk, path: Path) -> No
         assert await editor.completion(unknown, types.Position(0, 9), "<") == []
 
 
-async def test_a_node_that_is_being_written_is_known_by_its_source(desk: Desk, path: Path) -> None:
+async def test_a_node_that_is_being_written_is_known_by_its_source(harness: Harness, path: Path) -> None:
     """In a trusted workspace too: it has not run yet, and while its tag is not complete it cannot be."""
-    async with editing(desk, trusted=True) as editor:
+    async with editing(harness, trusted=True) as editor:
         node = '<launch>\n  <node pkg="preflight_demo" type="talker.py" name="new">\n    '
         found = await at_cursor(editor, path, f'{node}<param name="$0', '"')
         assert ("rate", "default: 10") in [(i.label, i.detail) for i in found]
@@ -139,16 +141,16 @@ async def test_a_node_that_is_being_written_is_known_by_its_source(desk: Desk, p
         assert not editor.runs
 
 
-async def test_a_new_node_beside_known_ones_is_known_by_its_source(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")  # both have been run
-        (desk.launch_file.parents[1] / "scripts/fresh.py").write_text(
+async def test_a_new_node_beside_known_ones_is_known_by_its_source(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")  # both have been run
+        (harness.launch_file.parents[1] / "scripts/fresh.py").write_text(
             "#!/usr/bin/env python3\nimport rospy\nfrom std_msgs.msg import Bool\nrospy.init_node('fresh')\n"
             "rospy.get_param('~gain', 2)\nrospy.Subscriber('door', Bool, print)\nrospy.spin()\n"
         )
-        (desk.launch_file.parents[1] / "scripts/fresh.py").chmod(0o755)
-        editor.watched(desk.launch_file.parents[1] / "scripts/fresh.py", kind=types.FileChangeType.Created)
+        (harness.launch_file.parents[1] / "scripts/fresh.py").chmod(0o755)
+        editor.watched(harness.launch_file.parents[1] / "scripts/fresh.py", kind=types.FileChangeType.Created)
         node = '  <node pkg="preflight_demo" type="fresh.py" name="fresh">\n    '
         for typed, expected in (
             ('<param name="$0', "gain"),
@@ -158,6 +160,6 @@ async def test_a_new_node_beside_known_ones_is_known_by_its_source(desk: Desk) -
             typed = text.replace("</launch>", f"{node}{typed}")
 
             async def proposals(typed: str = typed) -> list[str]:
-                return labels(await at_cursor(editor, desk.launch_file, typed, None))
+                return labels(await at_cursor(editor, harness.launch_file, typed, None))
 
             await editor.once(proposals, lambda found, expected=expected: expected in found)

@@ -7,21 +7,21 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 pytestmark = pytest.mark.ros
 
 FRAGMENT = '<launch>\n  <arg name="rate"/>\n  <param name="rate" value="$(arg rate)"/>\n</launch>\n'
 
 
-def lay(desk: Desk) -> tuple[Path, Path, Path]:
+def create_workspace(harness: Harness) -> tuple[Path, Path, Path]:
     """A fragment that two launch files include, with different arguments."""
-    fragment = desk.workspace / "fragment.launch"
+    fragment = harness.workspace / "fragment.launch"
     fragment.write_text(FRAGMENT)
     roots = []
     for name, rate in (("fast", "50"), ("slow", "2")):
-        root = desk.workspace / f"{name}.launch"
+        root = harness.workspace / f"{name}.launch"
         root.write_text(f'<launch><include file="{fragment}"><arg name="rate" value="{rate}"/></include></launch>\n')
         roots.append(root)
     return fragment, roots[0], roots[1]
@@ -36,9 +36,9 @@ async def ask(editor: Editor, method: str, params: Any) -> Any:
     return await editor.client.protocol.send_request_async(method, params)
 
 
-async def test_a_file_is_shown_as_its_roots_include_it(desk: Desk) -> None:
-    fragment, fast, slow = lay(desk)
-    async with editing(desk) as editor:
+async def test_a_file_is_shown_as_its_roots_include_it(harness: Harness) -> None:
+    fragment, fast, slow = create_workspace(harness)
+    async with editing(harness) as editor:
         editor.open(fragment)
         await editor.until(lambda: editor.rules(fragment) == [])
         answer = await ask(editor, "rosPreflight/roots", {"uri": fragment.as_uri()})
@@ -47,9 +47,9 @@ async def test_a_file_is_shown_as_its_roots_include_it(desk: Desk) -> None:
         assert "50" in await shown_value(editor, fragment)
 
 
-async def test_hover_says_what_it_is_in_each_root(desk: Desk) -> None:
-    fragment, _, _ = lay(desk)
-    async with editing(desk) as editor:
+async def test_hover_says_what_it_is_in_each_root(harness: Harness) -> None:
+    fragment, _, _ = create_workspace(harness)
+    async with editing(harness) as editor:
         editor.open(fragment, FRAGMENT + "<unfinished")
 
         async def both() -> str:
@@ -60,9 +60,9 @@ async def test_hover_says_what_it_is_in_each_root(desk: Desk) -> None:
         assert "- `50` in `fast.launch`\n- `2` in `slow.launch`" in await asyncio.wait_for(both(), 20)
 
 
-async def test_the_user_selects_root_and_arguments(desk: Desk) -> None:
-    fragment, _, slow = lay(desk)
-    async with editing(desk) as editor:
+async def test_the_user_selects_root_and_arguments(harness: Harness) -> None:
+    fragment, _, slow = create_workspace(harness)
+    async with editing(harness) as editor:
         editor.open(fragment)
         await editor.until(lambda: editor.rules(fragment) == [])
         select = {"uri": fragment.as_uri(), "root": {"uri": slow.as_uri(), "args": {}}}
@@ -77,11 +77,11 @@ async def test_the_user_selects_root_and_arguments(desk: Desk) -> None:
         assert "50" in await shown_value(editor, fragment)
 
 
-async def test_a_root_that_does_not_reach_the_file_is_refused(desk: Desk) -> None:
-    fragment, _, _ = lay(desk)
-    other = desk.workspace / "other.launch"
+async def test_a_root_that_does_not_reach_the_file_is_refused(harness: Harness) -> None:
+    fragment, _, _ = create_workspace(harness)
+    other = harness.workspace / "other.launch"
     other.write_text("<launch/>\n")
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(fragment)
         await editor.until(lambda: editor.rules(fragment) == [])
         select = {"uri": fragment.as_uri(), "root": {"uri": other.as_uri(), "args": {}}}
@@ -90,11 +90,11 @@ async def test_a_root_that_does_not_reach_the_file_is_refused(desk: Desk) -> Non
         assert "50" in await shown_value(editor, fragment)
 
 
-async def test_the_settings_name_roots_with_arguments(desk: Desk) -> None:
-    fragment, _, _ = lay(desk)
-    named = desk.workspace / ".ros-preflight.yaml"
+async def test_the_settings_name_roots_with_arguments(harness: Harness) -> None:
+    fragment, _, _ = create_workspace(harness)
+    named = harness.workspace / ".ros-preflight.yaml"
     named.write_text("roots:\n  - file: fragment.launch\n    args: {rate: 33}\n")
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(fragment)
         await editor.until(lambda: editor.rules(fragment) == [])
         answer = await ask(editor, "rosPreflight/roots", {"uri": fragment.as_uri()})
@@ -102,32 +102,32 @@ async def test_the_settings_name_roots_with_arguments(desk: Desk) -> None:
         assert "33" in await shown_value(editor, fragment)
 
 
-async def test_a_file_that_comes_and_goes_is_taken_into_the_index(desk: Desk) -> None:
-    fragment = desk.workspace / "fragment.launch"
+async def test_a_file_that_comes_and_goes_is_taken_into_the_index(harness: Harness) -> None:
+    fragment = harness.workspace / "fragment.launch"
     fragment.write_text(FRAGMENT)
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(fragment)
         await editor.until(lambda: editor.rules(fragment) == ["ARG003"])
-        _, fast, _ = lay(desk)
+        _, fast, _ = create_workspace(harness)
         editor.watched(fast)
         await editor.until(lambda: editor.rules(fragment) == [])
 
 
-async def test_what_is_wrong_with_the_settings_is_told_at_its_place(desk: Desk) -> None:
-    settings = desk.workspace / ".ros-preflight.yaml"
+async def test_what_is_wrong_with_the_settings_is_told_at_its_place(harness: Harness) -> None:
+    settings = harness.workspace / ".ros-preflight.yaml"
     settings.write_text("roots:\n  - fiel: x.launch\n")
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file)
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file)
         found = await editor.having(settings, "LCH031")
         assert "'fiel' does not belong" in found.message
         assert editor.client.messages == [], "said once, at its place"
 
 
-async def test_the_place_in_the_settings_is_shown_until_it_is_mended(desk: Desk) -> None:
-    settings = desk.workspace / ".ros-preflight.yaml"
+async def test_the_place_in_the_settings_is_shown_until_it_is_mended(harness: Harness) -> None:
+    settings = harness.workspace / ".ros-preflight.yaml"
     settings.write_text("external:\n  topic: [/a]\n")
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file, desk.launch_file.read_text() + "<")
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file, harness.launch_file.read_text() + "<")
         found = await editor.having(settings, "LCH031")
         assert "'topic' does not belong into external" in found.message
         assert (found.range.start.line, found.range.start.character, found.range.end.character) == (1, 2, 13)
@@ -136,20 +136,20 @@ async def test_the_place_in_the_settings_is_shown_until_it_is_mended(desk: Desk)
         await editor.without(settings, "LCH031")
 
 
-async def test_indexing_shows_its_progress(desk: Desk) -> None:
+async def test_indexing_shows_its_progress(harness: Harness) -> None:
     for number in range(300):
-        (desk.workspace / f"f{number}.launch").write_text(FRAGMENT)
-    async with editing(desk) as editor:
+        (harness.workspace / f"f{number}.launch").write_text(FRAGMENT)
+    async with editing(harness) as editor:
         values = await editor.until(lambda: next(iter(editor.progress_of("Indexing launch files").values()), None))
         await editor.until(lambda: values[-1]["kind"] == "end")
         assert "launch files" in values[-1]["message"]
 
 
-async def test_findings_are_those_of_the_root_that_was_selected(desk: Desk) -> None:
-    fragment, fast, slow = lay(desk)
-    (desk.workspace / "50.launch").write_text("<launch/>\n")
+async def test_findings_are_those_of_the_root_that_was_selected(harness: Harness) -> None:
+    fragment, fast, slow = create_workspace(harness)
+    (harness.workspace / "50.launch").write_text("<launch/>\n")
     fragment.write_text(FRAGMENT.replace("</launch>", '  <include file="$(dirname)/$(arg rate).launch"/>\n</launch>'))
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(fragment)
         await editor.having(fragment, "LCH013")  # 2.launch, as slow.launch includes it
         select: dict[str, Any] = {"uri": fragment.as_uri(), "root": {"uri": fast.as_uri(), "args": {}}}

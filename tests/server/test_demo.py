@@ -3,85 +3,85 @@
 from __future__ import annotations
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import ENCODINGS, capabilities, editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import ENCODINGS, capabilities, editing
 
 pytestmark = pytest.mark.ros
 
 
-async def test_the_missing_letter_is_found_and_mended(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TOP001")
+async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TOP001")
         assert found.severity == types.DiagnosticSeverity.Warning
         assert found.source == "ros-preflight"
         assert "'/chatter'" in found.message
         assert "/talker" in found.message
-        assert editor.covered(desk.launch_file, found.range) == "chater"
+        assert editor.covered(harness.launch_file, found.range) == "chater"
         assert found.related_information
-        assert found.related_information[0].location.uri == desk.launch_file.as_uri()
+        assert found.related_information[0].location.uri == harness.launch_file.as_uri()
 
-        actions = await editor.actions(desk.launch_file, found.range, ["quickfix"])
+        actions = await editor.actions(harness.launch_file, found.range, ["quickfix"])
         assert [(a.title, a.kind, a.is_preferred) for a in actions] == [
             ("Replace 'chater' by 'chatter'", types.CodeActionKind.QuickFix, True)
         ]
         assert [(d.code, d.range) for d in actions[0].diagnostics or ()] == [("TOP001", found.range)]
         editor.apply(actions[0].edit)
-        assert '<remap from="chatter" to="chatter"/>' in editor.texts[desk.launch_file]
+        assert '<remap from="chatter" to="chatter"/>' in editor.texts[harness.launch_file]
         # The mended remap now says what would be so without it.
-        await editor.until(lambda: editor.rules(desk.launch_file) == ["LCH024"])
-    assert desk.processes() == []
+        await editor.until(lambda: editor.rules(harness.launch_file) == ["LCH024"])
+    assert harness.processes() == []
 
 
-async def test_a_remap_needs_no_new_run(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        runs = desk.sandbox_starts()
+async def test_a_remap_needs_no_new_run(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        runs = harness.sandbox_starts()
         at = text.index("chater")
         for _ in range(3):
-            editor.replace(desk.launch_file, at, at + 6, "chatter")
-            await editor.without(desk.launch_file, "TOP001")
-            editor.replace(desk.launch_file, at, at + 7, "chater")
-            await editor.having(desk.launch_file, "TOP001")
-        assert desk.sandbox_starts() == runs
+            editor.replace(harness.launch_file, at, at + 6, "chatter")
+            await editor.without(harness.launch_file, "TOP001")
+            editor.replace(harness.launch_file, at, at + 7, "chater")
+            await editor.having(harness.launch_file, "TOP001")
+        assert harness.sandbox_starts() == runs
 
 
-async def test_a_parameter_that_is_read_runs_that_node_again_and_no_other(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        before, starts = set(editor.runs), desk.sandbox_starts()
+async def test_a_parameter_that_is_read_runs_that_node_again_and_no_other(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        before, starts = set(editor.runs), harness.sandbox_starts()
         at = text.index('<param name="rate"')
-        editor.replace(desk.launch_file, at, at, '<param name="never_read" value="1"/>')
-        await editor.having(desk.launch_file, "PRM001")
-        at = editor.texts[desk.launch_file].index('value="5"') + len('value="')
-        editor.replace(desk.launch_file, at, at + 1, "7")
+        editor.replace(harness.launch_file, at, at, '<param name="never_read" value="1"/>')
+        await editor.having(harness.launch_file, "PRM001")
+        at = editor.texts[harness.launch_file].index('value="5"') + len('value="')
+        editor.replace(harness.launch_file, at, at + 1, "7")
         ended = await editor.until(
             lambda: next((v for t, v in editor.runs.items() if t not in before and v[-1]["kind"] == "end"), None), 60
         )
         assert ended[-1]["message"] == "1 node"
-        assert desk.sandbox_starts() == starts + 1
+        assert harness.sandbox_starts() == starts + 1
 
 
-async def test_findings_stay_while_other_text_is_typed(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+async def test_findings_stay_while_other_text_is_typed(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
         editor.history.clear()
         for letter in "<!-- a word -->":
-            editor.replace(desk.launch_file, len("<launch>\n"), len("<launch>\n"), letter)
-            version = editor.versions[desk.launch_file]
+            editor.replace(harness.launch_file, len("<launch>\n"), len("<launch>\n"), letter)
+            version = editor.versions[harness.launch_file]
             await editor.until(lambda version=version: editor.history and editor.history[-1].version == version)
         broken = [p for p in editor.history if "TOP001" not in {str(d.code) for d in p.diagnostics}]
         assert broken == []
 
 
-async def test_progress_is_shown_while_nodes_run(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+async def test_progress_is_shown_while_nodes_run(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
         await editor.until(lambda: any(v["kind"] == "end" for values in editor.runs.values() for v in values))
         (values,) = editor.runs.values()
         kinds = [v["kind"] for v in values]
@@ -90,37 +90,37 @@ async def test_progress_is_shown_while_nodes_run(desk: Desk) -> None:
         assert values[0]["cancellable"] is True
 
 
-async def test_a_second_server_needs_no_run(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-    runs = desk.sandbox_starts()
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+async def test_a_second_server_needs_no_run(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+    runs = harness.sandbox_starts()
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
         assert editor.runs == {}
-    assert desk.sandbox_starts() - runs <= 1, "only the probe of the sandbox"
+    assert harness.sandbox_starts() - runs <= 1, "only the probe of the sandbox"
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-async def test_columns_behind_other_scripts(desk: Desk, encoding: str) -> None:
-    async with editing(desk, trusted=True, client=capabilities(encoding=encoding)) as editor:
+async def test_columns_behind_other_scripts(harness: Harness, encoding: str) -> None:
+    async with editing(harness, trusted=True, client=capabilities(encoding=encoding)) as editor:
         assert editor.result is not None
         assert editor.result.capabilities.position_encoding == encoding
-        text = desk.launch_file.read_text().replace("<remap from=", "<!-- größe 漢字 𝒳 --><remap from=")
-        editor.open(desk.launch_file, text)
-        found = await editor.having(desk.launch_file, "TOP001")
-        assert editor.covered(desk.launch_file, found.range) == "chater"
-        actions = await editor.actions(desk.launch_file, found.range, ["quickfix"])
+        text = harness.launch_file.read_text().replace("<remap from=", "<!-- größe 漢字 𝒳 --><remap from=")
+        editor.open(harness.launch_file, text)
+        found = await editor.having(harness.launch_file, "TOP001")
+        assert editor.covered(harness.launch_file, found.range) == "chater"
+        actions = await editor.actions(harness.launch_file, found.range, ["quickfix"])
         editor.apply(actions[0].edit)
-        assert '𝒳 --><remap from="chatter" to="chatter"/>' in editor.texts[desk.launch_file]
+        assert '𝒳 --><remap from="chatter" to="chatter"/>' in editor.texts[harness.launch_file]
         # The mended remap now says what would be so without it.
-        await editor.until(lambda: editor.rules(desk.launch_file) == ["LCH024"])
+        await editor.until(lambda: editor.rules(harness.launch_file) == ["LCH024"])
 
 
-async def test_a_client_that_names_no_encoding_gets_utf_16(desk: Desk) -> None:
-    async with editing(desk, trusted=True, client=capabilities(encoding=None)) as editor:
-        text = desk.launch_file.read_text().replace("<remap from=", "<!-- 𝒳 --><remap from=")
-        editor.open(desk.launch_file, text)
-        found = await editor.having(desk.launch_file, "TOP001")
-        assert editor.covered(desk.launch_file, found.range) == "chater"
+async def test_a_client_that_names_no_encoding_gets_utf_16(harness: Harness) -> None:
+    async with editing(harness, trusted=True, client=capabilities(encoding=None)) as editor:
+        text = harness.launch_file.read_text().replace("<remap from=", "<!-- 𝒳 --><remap from=")
+        editor.open(harness.launch_file, text)
+        found = await editor.having(harness.launch_file, "TOP001")
+        assert editor.covered(harness.launch_file, found.range) == "chater"

@@ -7,9 +7,9 @@ import random
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, capabilities, editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, capabilities, editing
 
 pytestmark = pytest.mark.ros
 
@@ -24,11 +24,11 @@ def including(path: Path, *files: Path, text: str = "") -> Path:
     return path
 
 
-async def test_an_included_file_is_told_of_and_cleared_with_the_root(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_an_included_file_is_told_of_and_cleared_with_the_root(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text(UNDECLARED)
-    outer = including(desk.workspace / "outer.launch", inner)
-    async with editing(desk) as editor:
+    outer = including(harness.workspace / "outer.launch", inner)
+    async with editing(harness) as editor:
         editor.open(outer)
         found = await editor.having(inner, "ARG001")
         assert found.range.start.line == 1
@@ -37,13 +37,13 @@ async def test_an_included_file_is_told_of_and_cleared_with_the_root(desk: Desk)
         await editor.until(lambda: editor.rules(inner) == [])
 
 
-async def test_an_edit_during_the_first_analysis_of_a_file_is_not_lost(desk: Desk) -> None:
+async def test_an_edit_during_the_first_analysis_of_a_file_is_not_lost(harness: Harness) -> None:
     filling = "".join(f'  <param name="p{k}" value="{k}"/>\n' for k in range(1500))
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file)
-        await editor.until(lambda: editor.rules(desk.launch_file) is not None)
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file)
+        await editor.until(lambda: editor.rules(harness.launch_file) is not None)
         for attempt in range(6):
-            path = desk.workspace / f"first_{attempt}.launch"
+            path = harness.workspace / f"first_{attempt}.launch"
             path.write_text(EMPTY)
             editor.open(path, f"<launch>\n{filling}</launch>\n")
             await asyncio.sleep(0.03 * attempt)
@@ -52,12 +52,12 @@ async def test_an_edit_during_the_first_analysis_of_a_file_is_not_lost(desk: Des
             await editor.having(path, "ARG001")
 
 
-async def test_an_included_file_keeps_its_findings_while_another_root_reports_them(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_an_included_file_keeps_its_findings_while_another_root_reports_them(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text(UNDECLARED)
-    one = including(desk.workspace / "one.launch", inner)
-    two = including(desk.workspace / "two.launch", inner)
-    async with editing(desk) as editor:
+    one = including(harness.workspace / "one.launch", inner)
+    two = including(harness.workspace / "two.launch", inner)
+    async with editing(harness) as editor:
         editor.open(one)
         await editor.having(inner, "ARG001")
         editor.open(two)
@@ -70,12 +70,12 @@ async def test_an_included_file_keeps_its_findings_while_another_root_reports_th
         await editor.until(lambda: editor.rules(inner) == [])
 
 
-async def test_an_included_file_is_judged_where_it_is_included(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_an_included_file_is_judged_where_it_is_included(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text('<launch>\n  <arg name="a"/>\n  <param name="p" value="$(arg a)"/>\n</launch>\n')
-    outer = desk.workspace / "outer.launch"
+    outer = harness.workspace / "outer.launch"
     outer.write_text(f'<launch><include file="$(dirname)/{inner.name}"><arg name="a" value="1"/></include></launch>')
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(inner)
         await editor.until(lambda: editor.rules(inner) == [])
         outer.unlink()
@@ -89,12 +89,12 @@ async def test_an_included_file_is_judged_where_it_is_included(desk: Desk) -> No
         await editor.until(lambda: editor.rules(inner) == ["ARG003"])
 
 
-async def test_an_edit_of_an_open_included_file_counts_before_it_is_saved(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_an_edit_of_an_open_included_file_counts_before_it_is_saved(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text(EMPTY)
-    outer = desk.workspace / "outer.launch"
+    outer = harness.workspace / "outer.launch"
     outer.write_text(f'<launch><include file="$(dirname)/{inner.name}"><arg name="a" value="1"/></include></launch>')
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(outer)
         await editor.having(outer, "ARG004")
         editor.open(inner)
@@ -104,19 +104,19 @@ async def test_an_edit_of_an_open_included_file_counts_before_it_is_saved(desk: 
         await editor.having(outer, "ARG004")
 
 
-async def test_files_that_include_each_other_are_both_told(desk: Desk) -> None:
-    one, two = desk.workspace / "one.launch", desk.workspace / "two.launch"
+async def test_files_that_include_each_other_are_both_told(harness: Harness) -> None:
+    one, two = harness.workspace / "one.launch", harness.workspace / "two.launch"
     including(one, two)
     including(two, one)
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(one)
         editor.open(two)
         await editor.until(lambda: any("LCH015" in (editor.rules(p) or ()) for p in (one, two)))
 
 
-async def test_other_xml_is_left_alone(desk: Desk) -> None:
-    other, launch = desk.workspace / "robot.xml", desk.workspace / "robot_launch.xml"
-    async with editing(desk) as editor:
+async def test_other_xml_is_left_alone(harness: Harness) -> None:
+    other, launch = harness.workspace / "robot.xml", harness.workspace / "robot_launch.xml"
+    async with editing(harness) as editor:
         editor.open(other, "<robot><link nam='x'></robot>", "xml")
         editor.open(launch, "<?xml version='1.0'?>\n<!-- a --><launch><nod/></launch>", "xml")
         await editor.having(launch, "LCH004")
@@ -128,8 +128,8 @@ async def test_other_xml_is_left_alone(desk: Desk) -> None:
 
 
 @pytest.mark.parametrize("uri", ["untitled:Untitled-1", "git:/w/a.launch?%7B%7D", "vscode-notebook-cell:/a#x", "x"])
-async def test_documents_that_are_no_files_do_no_harm(desk: Desk, uri: str) -> None:
-    async with editing(desk) as editor:
+async def test_documents_that_are_no_files_do_no_harm(harness: Harness, uri: str) -> None:
+    async with editing(harness) as editor:
         document = types.TextDocumentItem(uri, "roslaunch", 1, "<launch><nod/></launch>")
         editor.client.text_document_did_open(types.DidOpenTextDocumentParams(document))
         identifier = types.TextDocumentIdentifier(uri)
@@ -142,31 +142,31 @@ async def test_documents_that_are_no_files_do_no_harm(desk: Desk, uri: str) -> N
         )
         editor.client.text_document_did_save(types.DidSaveTextDocumentParams(identifier))
         editor.client.text_document_did_close(types.DidCloseTextDocumentParams(identifier))
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TRC004")
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TRC004")
         assert uri not in editor.published
 
 
-async def test_requests_for_files_that_are_not_open_are_answered_with_nothing(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        assert await editor.hover(desk.launch_file, types.Position(0, 0)) is None
-        assert await editor.definition(desk.launch_file, types.Position(0, 0)) == []
-        assert await editor.symbols(desk.launch_file) == []
+async def test_requests_for_files_that_are_not_open_are_answered_with_nothing(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        assert await editor.hover(harness.launch_file, types.Position(0, 0)) is None
+        assert await editor.definition(harness.launch_file, types.Position(0, 0)) == []
+        assert await editor.symbols(harness.launch_file) == []
 
 
-async def test_positions_past_the_end_are_answered(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file)
+async def test_positions_past_the_end_are_answered(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file)
         for where in (types.Position(0, 999), types.Position(999, 0), types.Position(2**31 - 1, 2**31 - 1)):
-            await editor.hover(desk.launch_file, where)
-            assert await editor.definition(desk.launch_file, where) == []
+            await editor.hover(harness.launch_file, where)
+            assert await editor.definition(harness.launch_file, where) == []
 
 
-async def test_a_client_that_pulls_is_told_once(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_a_client_that_pulls_is_told_once(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text(UNDECLARED)
-    outer = including(desk.workspace / "outer.launch", inner, text="  <nod/>\n")
-    async with editing(desk, client=capabilities(pull=True)) as editor:
+    outer = including(harness.workspace / "outer.launch", inner, text="  <nod/>\n")
+    async with editing(harness, client=capabilities(pull=True)) as editor:
         assert editor.result is not None
         provider = editor.result.capabilities.diagnostic_provider
         assert provider is not None
@@ -180,27 +180,27 @@ async def test_a_client_that_pulls_is_told_once(desk: Desk) -> None:
         await editor.until(lambda: editor.published[inner.as_uri()].diagnostics == ())
 
 
-async def test_a_client_that_pulls_is_asked_again_when_runs_have_ended(desk: Desk) -> None:
-    async with editing(desk, trusted=True, client=capabilities(pull=True)) as editor:
-        editor.open(desk.launch_file)
-        assert "TOP001" not in [d.code for d in await editor.pull(desk.launch_file)]
+async def test_a_client_that_pulls_is_asked_again_when_runs_have_ended(harness: Harness) -> None:
+    async with editing(harness, trusted=True, client=capabilities(pull=True)) as editor:
+        editor.open(harness.launch_file)
+        assert "TOP001" not in [d.code for d in await editor.pull(harness.launch_file)]
         await editor.until(lambda: editor.refreshes)
-        assert "TOP001" in [d.code for d in await editor.pull(desk.launch_file)]
+        assert "TOP001" in [d.code for d in await editor.pull(harness.launch_file)]
 
 
-async def test_a_client_that_pulls_but_cannot_be_asked_again_is_published_to(desk: Desk) -> None:
-    async with editing(desk, trusted=True, client=capabilities(pull=True, refresh=False)) as editor:
+async def test_a_client_that_pulls_but_cannot_be_asked_again_is_published_to(harness: Harness) -> None:
+    async with editing(harness, trusted=True, client=capabilities(pull=True, refresh=False)) as editor:
         assert editor.result is not None
         assert editor.result.capabilities.diagnostic_provider is None
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
 
 
-async def test_a_new_package_is_found_when_its_manifest_appears(desk: Desk) -> None:
-    workspace = desk.home / "catkin_ws"
+async def test_a_new_package_is_found_when_its_manifest_appears(harness: Harness) -> None:
+    workspace = harness.home / "catkin_ws"
     (workspace / "src").mkdir(parents=True)
     path = workspace / "a.launch"
-    async with editing(desk, folder=workspace) as editor:
+    async with editing(harness, folder=workspace) as editor:
         editor.open(path, '<launch>\n  <param name="p" value="$(find new_one)"/>\n</launch>\n')
         await editor.having(path, "PKG001")
         await editor.until(lambda: types.WORKSPACE_DID_CHANGE_WATCHED_FILES in editor.registered)
@@ -211,23 +211,23 @@ async def test_a_new_package_is_found_when_its_manifest_appears(desk: Desk) -> N
         await editor.without(path, "PKG001")
 
 
-async def test_a_new_executable_is_found_when_it_appears(desk: Desk) -> None:
-    path = desk.workspace / "a.launch"
-    async with editing(desk) as editor:
+async def test_a_new_executable_is_found_when_it_appears(harness: Harness) -> None:
+    path = harness.workspace / "a.launch"
+    async with editing(harness) as editor:
         editor.open(path, '<launch>\n  <node pkg="preflight_demo" type="new.py" name="n"/>\n</launch>\n')
         await editor.having(path, "PKG002")
-        script = desk.launch_file.parents[1] / "scripts/new.py"
+        script = harness.launch_file.parents[1] / "scripts/new.py"
         script.write_text("#!/usr/bin/env python3\n")
         script.chmod(0o755)
         editor.watched(script, kind=types.FileChangeType.Created)
         await editor.without(path, "PKG002")
 
 
-async def test_a_file_changed_on_disk_counts(desk: Desk) -> None:
-    inner = desk.workspace / "inner.launch"
+async def test_a_file_changed_on_disk_counts(harness: Harness) -> None:
+    inner = harness.workspace / "inner.launch"
     inner.write_text(EMPTY)
-    outer = including(desk.workspace / "outer.launch", inner)
-    async with editing(desk) as editor:
+    outer = including(harness.workspace / "outer.launch", inner)
+    async with editing(harness) as editor:
         editor.open(outer)
         await editor.until(lambda: editor.rules(outer) == [])
         inner.write_text(UNDECLARED)
@@ -235,12 +235,12 @@ async def test_a_file_changed_on_disk_counts(desk: Desk) -> None:
         await editor.having(inner, "ARG001")
 
 
-async def test_rapid_edits_end_where_a_fresh_server_starts(desk: Desk) -> None:
+async def test_rapid_edits_end_where_a_fresh_server_starts(harness: Harness) -> None:
     """Hundreds of edits at random places, many of which break the file, without waiting in between."""
     chance = random.Random(7)
     pieces = ["<", ">", "\n", "\r\n", '"', "$(arg x)", "größe", "𝒳", '<arg name="x" default="1"/>', "\f", "/", " "]
-    path = desk.launch_file
-    async with editing(desk, client=capabilities(encoding="utf-16")) as editor:
+    path = harness.launch_file
+    async with editing(harness, client=capabilities(encoding="utf-16")) as editor:
         editor.open(path)
         for step in range(300):
             text = editor.texts[path]
@@ -254,21 +254,21 @@ async def test_rapid_edits_end_where_a_fresh_server_starts(desk: Desk) -> None:
         text = editor.texts[path]
         await editor.until(lambda: editor.diagnostics(path) is not None)
         edited = editor.diagnostics(path)
-        await _agrees(desk, path, text, edited)
+        await _agrees(harness, path, text, edited)
 
 
-async def test_rapid_edits_back_to_a_good_file(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = editor.open(desk.launch_file)
+async def test_rapid_edits_back_to_a_good_file(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = editor.open(harness.launch_file)
         for index in range(len(text) - 1, 20, -7):
-            editor.replace(desk.launch_file, index, index + 1, "")
-        editor.change(desk.launch_file, text)
-        found = await editor.having(desk.launch_file, "TOP001")
-        assert editor.covered(desk.launch_file, found.range) == "chater"
+            editor.replace(harness.launch_file, index, index + 1, "")
+        editor.change(harness.launch_file, text)
+        found = await editor.having(harness.launch_file, "TOP001")
+        assert editor.covered(harness.launch_file, found.range) == "chater"
 
 
-async def _agrees(desk: Desk, path: Path, text: str, expected: list[types.Diagnostic] | None) -> None:
-    async with editing(desk) as fresh:
+async def _agrees(harness: Harness, path: Path, text: str, expected: list[types.Diagnostic] | None) -> None:
+    async with editing(harness) as fresh:
         fresh.open(path, text)
         await fresh.until(lambda: fresh.diagnostics(path) is not None)
         assert _comparable(fresh, path) == [(d.code, d.range, d.message) for d in expected or ()]
@@ -278,9 +278,9 @@ def _comparable(editor: Editor, path: Path) -> list[tuple[object, types.Range, s
     return [(d.code, d.range, d.message) for d in editor.diagnostics(path) or ()]
 
 
-async def test_a_file_without_a_folder_finds_the_workspace_around_it(desk: Desk) -> None:
-    async with editing(desk, trusted=True, without_folder=True) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TOP001")
+async def test_a_file_without_a_folder_finds_the_workspace_around_it(harness: Harness) -> None:
+    async with editing(harness, trusted=True, without_folder=True) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TOP001")
         assert "chatter" in found.message
-        assert editor.rules(desk.launch_file) == ["TOP001"]
+        assert editor.rules(harness.launch_file) == ["TOP001"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 pytestmark = pytest.mark.ros
 
@@ -17,14 +17,14 @@ OTHER = """<launch>
 """
 
 
-async def test_what_an_executable_did_elsewhere_is_shown_where_it_cannot_be_run(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-    starts = desk.sandbox_starts()
-    other = desk.launch_file.with_name("other.launch")
+async def test_what_an_executable_did_elsewhere_is_shown_where_it_cannot_be_run(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+    starts = harness.sandbox_starts()
+    other = harness.launch_file.with_name("other.launch")
     other.write_text(OTHER)
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         for text in (OTHER, OTHER.replace("</launch>", "  <node pkg=")):
             if other in editor.texts:
                 editor.change(other, text)
@@ -36,9 +36,9 @@ async def test_what_an_executable_did_elsewhere_is_shown_where_it_cannot_be_run(
             assert isinstance(hover.contents, types.MarkupContent)
             shown = hover.contents.value
             assert "from a run of the same executable elsewhere, that of `/talker` in `" in shown
-            assert f"{desk.launch_file.name}`; not run: the workspace is not trusted" in shown
+            assert f"{harness.launch_file.name}`; not run: the workspace is not trusted" in shown
             assert "- `/chatter` `std_msgs/String`, seen elsewhere" in shown
-        assert desk.sandbox_starts() == starts, "nothing was run to know it"
+        assert harness.sandbox_starts() == starts, "nothing was run to know it"
 
 
 ANNOTATED = """\ufeff<launch>\r
@@ -57,10 +57,10 @@ async def titles(editor: Editor, path: Path, needle: str) -> dict[str, types.Cod
     return {action.title: action for action in await editor.actions(path, types.Range(where, where))}
 
 
-async def test_an_outdated_annotation_is_told_and_brought_up_to_date(desk: Desk) -> None:
-    path = desk.launch_file.with_name("annotated.launch")
+async def test_an_outdated_annotation_is_told_and_brought_up_to_date(harness: Harness) -> None:
+    path = harness.launch_file.with_name("annotated.launch")
     path.write_bytes(ANNOTATED.encode())
-    async with editing(desk, trusted=True) as editor:
+    async with editing(harness, trusted=True) as editor:
         editor.open(path, ANNOTATED)
         await editor.having(path, "TRC006")
         told = {editor.covered(path, d.range): d for d in editor.diagnostics(path) or () if d.code == "TRC006"}
@@ -81,13 +81,13 @@ async def test_an_outdated_annotation_is_told_and_brought_up_to_date(desk: Desk)
         )
 
 
-async def test_annotations_can_be_made_of_whatever_is_known(desk: Desk) -> None:
-    other = desk.launch_file.with_name("other.launch")
+async def test_annotations_can_be_made_of_whatever_is_known(harness: Harness) -> None:
+    other = harness.launch_file.with_name("other.launch")
     other.write_text(OTHER)
     template = "Annotate '/lone' with an empty template"
     from_source = "Annotate '/lone' with what its source says"
     from_elsewhere = "Annotate '/lone' with what its executable did elsewhere"
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(other)
         await editor.having(other, "TRC004")
         assert set(await titles(editor, other, "<node")) == {from_source, template}
@@ -100,8 +100,8 @@ async def test_annotations_can_be_made_of_whatever_is_known(desk: Desk) -> None:
         assert '<topic name="" type="" class="pub"/>' in editor.texts[other]
         assert "  </node>" in editor.texts[other]
         editor.trust()
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
         editor.trust(False)
         editor.change(other, OTHER)
         await editor.having(other, "TRC004")
@@ -112,12 +112,12 @@ async def test_annotations_can_be_made_of_whatever_is_known(desk: Desk) -> None:
         assert '<param name="~rate"/>' in editor.texts[other]
 
 
-async def test_the_sources_of_many_nodes_that_were_not_run_are_read(desk: Desk) -> None:
+async def test_the_sources_of_many_nodes_that_were_not_run_are_read(harness: Harness) -> None:
     """And what one of them says is brought up to date when its parameters or its source change."""
-    path = desk.launch_file.with_name("many.launch")
+    path = harness.launch_file.with_name("many.launch")
     node = '  <node pkg="preflight_demo" type="{0}.py" name="{0}_{1}"><remap from="chatter" to="words_{1}"/></node>\n'
     nodes = (node.format(script, number) for number in range(100) for script in ("talker", "listener"))
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         text = editor.open(path, "<launch>\n" + "".join(nodes) + "</launch>\n")
         await editor.having(path, "TRC004")
         assert editor.rules(path) == ["TRC004"], "each of the topics has both ends"
@@ -125,7 +125,7 @@ async def test_the_sources_of_many_nodes_that_were_not_run_are_read(desk: Desk) 
         editor.replace(path, at, at + len("words_70"), "world_70")
         hint = await editor.having(path, "TOP001")
         assert "/words_70" in hint.message
-        script = desk.launch_file.parents[1] / "scripts/talker.py"
+        script = harness.launch_file.parents[1] / "scripts/talker.py"
         script.write_text(script.read_text().replace('"chatter"', '"chatters"'))
         editor.watched(script)
         await editor.until(lambda: (editor.rules(path) or []).count("TOP001") == 100)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from editor_desk import Desk
-from lsp_desk import editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import editing
 
 _ROS2 = "<export><build_type>ament_cmake</build_type></export>"
 
@@ -29,12 +29,12 @@ def _node(package: str) -> str:
     return f'<launch>\n  <node pkg="{package}" type="run" name="{package}_node"/>\n</launch>\n'
 
 
-async def test_each_folder_has_its_own_packages(desk: Desk) -> None:
+async def test_each_folder_has_its_own_packages(harness: Harness) -> None:
     """A package of the other folder is unknown, as it would be to roslaunch there."""
-    one, two = desk.home / "one", desk.home / "two"
+    one, two = harness.home / "one", harness.home / "two"
     first = _package(one, "apple", _node("apple"))
     second = _package(two, "pear", _node("pear"))
-    async with editing(desk, folders=[one, two]) as editor:
+    async with editing(harness, folders=[one, two]) as editor:
         for file in (first, second):
             editor.open(file)
         for file in (first, second):
@@ -46,14 +46,14 @@ async def test_each_folder_has_its_own_packages(desk: Desk) -> None:
         assert "PKG001" not in (editor.rules(first) or ())
 
 
-async def test_folders_of_both_generations_stand_side_by_side(desk: Desk) -> None:
-    one, two = desk.home / "one", desk.home / "two"
+async def test_folders_of_both_generations_stand_side_by_side(harness: Harness) -> None:
+    one, two = harness.home / "one", harness.home / "two"
     old = _package(one, "apple", '<launch>\n  <include file="$(find apple)/launch/b.launch"/>\n</launch>\n')
     (old.parent / "b.launch").write_text("<launch/>\n")
     text = '<launch>\n  <include file="$(find-pkg-share pear)/launch/b.launch.xml"/>\n</launch>\n'
     new = _package(two, "pear", text, _ROS2)
     (new.parent / "b.launch.xml").write_text("<launch/>\n")
-    async with editing(desk, folders=[one, two]) as editor:
+    async with editing(harness, folders=[one, two]) as editor:
         for file in (old, new):
             editor.open(file)
             await editor.until(lambda file=file: editor.rules(file) is not None)
@@ -65,13 +65,13 @@ async def test_folders_of_both_generations_stand_side_by_side(desk: Desk) -> Non
         assert "ROS 2" in text
 
 
-async def test_a_nested_folder_is_a_workspace_of_its_own(desk: Desk) -> None:
+async def test_a_nested_folder_is_a_workspace_of_its_own(harness: Harness) -> None:
     """The innermost folder that holds a file counts, in whatever order the client names them."""
-    outer = desk.home / "outer"
+    outer = harness.home / "outer"
     inner = outer / "src/inner"
     outside = _package(outer / "src", "apple", _node("apple"))
     inside = _package(inner / "src", "pear", _node("apple"))
-    async with editing(desk, folders=[outer, inner]) as editor:
+    async with editing(harness, folders=[outer, inner]) as editor:
         for file in (outside, inside):
             editor.open(file)
         await editor.having(inside, "PKG001")
@@ -79,11 +79,11 @@ async def test_a_nested_folder_is_a_workspace_of_its_own(desk: Desk) -> None:
         assert "PKG001" not in (editor.rules(outside) or ())
 
 
-async def test_folders_come_and_go(desk: Desk) -> None:
-    one, two = desk.home / "one", desk.home / "two"
+async def test_folders_come_and_go(harness: Harness) -> None:
+    one, two = harness.home / "one", harness.home / "two"
     first = _package(one, "apple", _node("apple"))
     second = _package(two, "pear", _node("pear"))
-    async with editing(desk, folders=[one]) as editor:
+    async with editing(harness, folders=[one]) as editor:
         for file in (first, second):
             editor.open(file)
         await editor.having(second, "PKG001")
@@ -96,13 +96,13 @@ async def test_folders_come_and_go(desk: Desk) -> None:
         await editor.having(first, "PKG001")
 
 
-async def test_symbols_and_roots_are_those_of_all_folders(desk: Desk) -> None:
-    one, two = desk.home / "one", desk.home / "two"
+async def test_symbols_and_roots_are_those_of_all_folders(harness: Harness) -> None:
+    one, two = harness.home / "one", harness.home / "two"
     first = _package(one, "apple", _node("apple"))
     second = _package(two, "pear", '<launch>\n  <include file="$(dirname)/b.launch"/>\n</launch>\n')
     included = second.parent / "b.launch"
     included.write_text(_node("pear"))
-    async with editing(desk, folders=[one, two]) as editor:
+    async with editing(harness, folders=[one, two]) as editor:
         editor.open(first)
         editor.open(included)
 
@@ -116,13 +116,13 @@ async def test_symbols_and_roots_are_those_of_all_folders(desk: Desk) -> None:
         assert await editor.definition(included, editor.at(included, "pear"))
 
 
-async def test_an_open_text_counts_in_each_folder_that_reads_it(desk: Desk) -> None:
+async def test_an_open_text_counts_in_each_folder_that_reads_it(harness: Harness) -> None:
     """A launch file of the first folder includes one of the second, which is open and not saved."""
-    one, two = desk.home / "one", desk.home / "two"
+    one, two = harness.home / "one", harness.home / "two"
     second = _package(two, "pear", '<launch>\n  <arg name="x" default="1"/>\n</launch>\n')
     given = f'<launch>\n  <include file="{second}"><arg name="x" value="2"/></include>\n</launch>\n'
     first = _package(one, "apple", given)
-    async with editing(desk, folders=[one, two]) as editor:
+    async with editing(harness, folders=[one, two]) as editor:
         editor.open(first)
         editor.open(second)
         await editor.until(lambda: editor.rules(first) == [])
@@ -130,13 +130,13 @@ async def test_an_open_text_counts_in_each_folder_that_reads_it(desk: Desk) -> N
         await editor.having(first, "ARG004")
 
 
-async def test_a_folder_has_its_own_settings(desk: Desk) -> None:
+async def test_a_folder_has_its_own_settings(harness: Harness) -> None:
     """The client is asked for the settings of each folder."""
-    one, two, elsewhere = desk.home / "one", desk.home / "two", desk.home / "elsewhere"
+    one, two, elsewhere = harness.home / "one", harness.home / "two", harness.home / "elsewhere"
     first = _package(one, "apple", _node("plum"))
     second = _package(two, "pear", _node("plum"))
     _package(elsewhere, "plum", _node("plum"))
-    async with editing(desk, folders=[one, two]) as editor:
+    async with editing(harness, folders=[one, two]) as editor:
         for file in (first, second):
             editor.open(file)
             await editor.having(file, "PKG001")
@@ -146,13 +146,13 @@ async def test_a_folder_has_its_own_settings(desk: Desk) -> None:
         assert "PKG001" in (editor.rules(first) or ())
 
 
-async def test_a_folder_has_the_environment_that_the_client_sourced_for_it(desk: Desk) -> None:
-    one, two, elsewhere = desk.home / "one", desk.home / "two", desk.home / "elsewhere"
+async def test_a_folder_has_the_environment_that_the_client_sourced_for_it(harness: Harness) -> None:
+    one, two, elsewhere = harness.home / "one", harness.home / "two", harness.home / "elsewhere"
     first = _package(one, "apple", _node("plum"))
     second = _package(two, "pear", _node("plum"))
     _package(elsewhere, "plum", _node("plum"))
-    sourced = {two.as_uri(): {**desk.environment, "ROS_PACKAGE_PATH": str(elsewhere)}}
-    async with editing(desk, folders=[one, two], settings={"environments": sourced}) as editor:
+    sourced = {two.as_uri(): {**harness.environment, "ROS_PACKAGE_PATH": str(elsewhere)}}
+    async with editing(harness, folders=[one, two], settings={"environments": sourced}) as editor:
         for file in (first, second):
             editor.open(file)
         await editor.having(first, "PKG001")

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 pytestmark = pytest.mark.ros
 
 
-async def ask(editor: Editor, desk: Desk, **more: Any) -> Any:
+async def ask(editor: Editor, harness: Harness, **more: Any) -> Any:
     return await editor.client.protocol.send_request_async(
-        "rosPreflight/graph", {"uri": desk.launch_file.as_uri(), **more}
+        "rosPreflight/graph", {"uri": harness.launch_file.as_uri(), **more}
     )
 
 
@@ -21,62 +21,62 @@ def topics(graph: Any) -> list[str]:
     return [channel.name for channel in graph.channels]
 
 
-async def test_the_graph_has_findings_on_its_edges_and_lines_to_go_to(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        graph = (await ask(editor, desk)).graph
+async def test_the_graph_has_findings_on_its_edges_and_lines_to_go_to(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        graph = (await ask(editor, harness)).graph
         assert topics(graph) == ["/chater", "/chatter"]
         assert [(node.name, node.places[0].line) for node in graph.nodes] == [("/talker", 3), ("/listener", 6)]
         (wanting,) = (edge for edge in graph.edges if edge.role == "subscriber")
         assert [graph.findings[i].rule for i in wanting.findings] == ["TOP001"]
         source, launch = wanting.places
         assert source.shown.endswith("scripts/listener.py")
-        assert (launch.file, launch.line) == (str(desk.launch_file), 7)
+        assert (launch.file, launch.line) == (str(harness.launch_file), 7)
         assert graph.svg.startswith("<svg ")
-        assert graph.title == str(desk.launch_file.relative_to(desk.workspace))
+        assert graph.title == str(harness.launch_file.relative_to(harness.workspace))
 
 
-async def test_what_every_node_has_is_there_on_demand(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        assert "/rosout" in topics((await ask(editor, desk, builtin=True)).graph)
+async def test_what_every_node_has_is_there_on_demand(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        assert "/rosout" in topics((await ask(editor, harness, builtin=True)).graph)
 
 
-async def test_the_graph_follows_the_text_and_is_sent_when_it_is_news(desk: Desk) -> None:
-    async with editing(desk, trusted=True, settings={"status": True}) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        first = await ask(editor, desk)
-        while (again := await ask(editor, desk, known=first.digest)).graph is not None:
+async def test_the_graph_follows_the_text_and_is_sent_when_it_is_news(harness: Harness) -> None:
+    async with editing(harness, trusted=True, settings={"status": True}) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        first = await ask(editor, harness)
+        while (again := await ask(editor, harness, known=first.digest)).graph is not None:
             first = again  # runs may still tell something
         assert again.digest == first.digest
         before = editor.analysed
-        editor.change(desk.launch_file, editor.texts[desk.launch_file].replace("chater", "chatter"))
+        editor.change(harness.launch_file, editor.texts[harness.launch_file].replace("chater", "chatter"))
         await editor.until(lambda: editor.analysed > before)
-        then = await ask(editor, desk, known=first.digest)
+        then = await ask(editor, harness, known=first.digest)
         assert topics(then.graph) == ["/chatter"]
 
 
-async def test_before_anything_is_run_the_graph_is_what_the_sources_tell(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TRC004")
-        graph = (await ask(editor, desk)).graph
+async def test_before_anything_is_run_the_graph_is_what_the_sources_tell(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TRC004")
+        graph = (await ask(editor, harness)).graph
         assert [node.name for node in graph.nodes] == ["/talker", "/listener"]
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-async def test_the_graph_of_a_file_that_does_not_parse(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        text = desk.launch_file.read_text().replace("</launch>", '<node name="half')
-        editor.open(desk.launch_file, text)
-        graph = (await ask(editor, desk)).graph
+async def test_the_graph_of_a_file_that_does_not_parse(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        text = harness.launch_file.read_text().replace("</launch>", '<node name="half')
+        editor.open(harness.launch_file, text)
+        graph = (await ask(editor, harness)).graph
         assert [node.name for node in graph.nodes][:2] == ["/talker", "/listener"]
 
 
-async def test_there_is_no_graph_of_what_is_no_launch_file(desk: Desk) -> None:
-    async with editing(desk) as editor:
+async def test_there_is_no_graph_of_what_is_no_launch_file(harness: Harness) -> None:
+    async with editing(harness) as editor:
         for uri in ("file:///nowhere.launch", 5, None):
-            assert await ask(editor, desk, uri=uri) is None
+            assert await ask(editor, harness, uri=uri) is None

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, capabilities, editing, from_uri, position
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, capabilities, editing, from_uri, position
 
 pytestmark = pytest.mark.ros
 
@@ -28,8 +28,8 @@ COMMANDS = {"clientCommands": ["rosPreflight.showReferences", "rosPreflight.sele
 
 
 @pytest.fixture
-def files(desk: Desk) -> tuple[Path, Path]:
-    inner, outer = desk.launch_file.with_name("inner.launch"), desk.launch_file.with_name("outer.launch")
+def files(harness: Harness) -> tuple[Path, Path]:
+    inner, outer = harness.launch_file.with_name("inner.launch"), harness.launch_file.with_name("outer.launch")
     inner.write_text(INNER)
     outer.write_text(OUTER)
     return outer, inner
@@ -44,9 +44,9 @@ async def reached(editor: Editor, root: Path) -> None:
     await editor.until(lambda: root.as_uri() in editor.published)
 
 
-async def test_who_includes_a_file_and_what_it_includes(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_who_includes_a_file_and_what_it_includes(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(inner, INNER + "<unfinished")
         await reached(editor, outer)
         (item,) = await editor.hierarchy(inner, editor.at(inner, "<launch>"))
@@ -74,10 +74,10 @@ async def test_who_includes_a_file_and_what_it_includes(desk: Desk, files: tuple
         assert item.name == "inner.launch"
 
 
-async def test_nodes_files_and_topics_of_the_workspace(desk: Desk, files: tuple[Path, Path]) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
+async def test_nodes_files_and_topics_of_the_workspace(harness: Harness, files: tuple[Path, Path]) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
 
         async def found(query: str) -> list[tuple[str, str, types.SymbolKind]]:
             symbols = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams(query))
@@ -89,9 +89,9 @@ async def test_nodes_files_and_topics_of_the_workspace(desk: Desk, files: tuple[
         assert ("/b/talker", "inner.launch", types.SymbolKind.Class) in await found("BTALKER")
 
 
-async def test_lenses_and_their_commands(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_lenses_and_their_commands(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
-    async with editing(desk, settings=COMMANDS) as editor:
+    async with editing(harness, settings=COMMANDS) as editor:
         editor.open(inner)
         await reached(editor, outer)
         includers, nodes, root = await editor.lenses(inner)
@@ -108,19 +108,21 @@ async def test_lenses_and_their_commands(desk: Desk, files: tuple[Path, Path]) -
 
 @pytest.mark.parametrize("settings", [None, {"clientCommands": 7}], ids=["none", "nonsense"])
 async def test_lenses_for_a_client_without_our_commands(
-    desk: Desk, files: tuple[Path, Path], settings: dict[str, Any] | None
+    harness: Harness, files: tuple[Path, Path], settings: dict[str, Any] | None
 ) -> None:
     outer, _ = files
-    async with editing(desk, settings=settings) as editor:
+    async with editing(harness, settings=settings) as editor:
         editor.open(outer, OUTER.replace("</launch>", "<node "))
         found = await editor.lenses(outer)
         assert [lens.command.command for lens in found if lens.command] == ["", "", ""]
         assert await titles(editor, outer) == ["0 includers", "3 nodes", "launched by this file"]
 
 
-async def test_lenses_are_asked_for_again_when_another_file_changed_them(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_lenses_are_asked_for_again_when_another_file_changed_them(
+    harness: Harness, files: tuple[Path, Path]
+) -> None:
     outer, inner = files
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(inner)
         await reached(editor, outer)
         assert (await titles(editor, inner))[1] == "2 of 3 nodes"
@@ -131,9 +133,9 @@ async def test_lenses_are_asked_for_again_when_another_file_changed_them(desk: D
         assert (await titles(editor, inner))[1] == "1 of 2 nodes"
 
 
-async def test_no_refresh_for_a_client_that_knows_none(desk: Desk, files: tuple[Path, Path]) -> None:
+async def test_no_refresh_for_a_client_that_knows_none(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
-    async with editing(desk, client=capabilities(refresh=False)) as editor:
+    async with editing(harness, client=capabilities(refresh=False)) as editor:
         editor.open(inner)
         await reached(editor, outer)
         await editor.lenses(inner)

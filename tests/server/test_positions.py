@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import lsp_desk
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from lsprotocol import types
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_server.lsp.positions import Positions
+from support import lsp_client
 
 # Characters of one to four bytes, and everything that some notion of lines breaks at.
 TEXTS = st.text("ab<é漢𝒳\n\r\f\v\x1c\x85\u2028\u2029", max_size=40)
@@ -18,7 +18,7 @@ def positions(text: str, encoding: str) -> Positions:
     return Positions(text, LineIndex(text), encoding)
 
 
-@pytest.mark.parametrize("encoding", lsp_desk.ENCODINGS)
+@pytest.mark.parametrize("encoding", lsp_client.ENCODINGS)
 @given(text=TEXTS, at=st.integers(0, 40))
 @example(text="a\fb\u2028é", at=4)
 @example(text="", at=0)
@@ -27,11 +27,11 @@ def test_offsets_become_the_positions_that_an_editor_counts(encoding: str, text:
     if text[at - 1 : at + 1] == "\r\n":
         at -= 1
     there = positions(text, encoding)
-    assert there.position(at) == lsp_desk.position(text, at, encoding)
-    assert there.offset(lsp_desk.position(text, at, encoding)) == at
+    assert there.position(at) == lsp_client.position(text, at, encoding)
+    assert there.offset(lsp_client.position(text, at, encoding)) == at
 
 
-@pytest.mark.parametrize("encoding", lsp_desk.ENCODINGS)
+@pytest.mark.parametrize("encoding", lsp_client.ENCODINGS)
 def test_a_column_past_the_end_means_the_end_of_the_line(encoding: str) -> None:
     there = positions("é𝒳\r\nx\ry\n", encoding)
     assert there.offset(types.Position(0, 99)) == 2

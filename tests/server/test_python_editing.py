@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TypeVar
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, capabilities, editing, position
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
+from support.editor_harness import Harness
+from support.lsp_client import Editor, capabilities, editing, position
 
 pytestmark = pytest.mark.ros
 T = TypeVar("T")
@@ -105,8 +105,8 @@ PARAMS = """talker:
 
 
 @pytest.fixture
-def package(desk: Desk) -> Path:
-    folder = desk.home / "ros2_ws/src/robot"
+def package(harness: Harness) -> Path:
+    folder = harness.home / "ros2_ws/src/robot"
     (folder / "robot").mkdir(parents=True)
     (folder / "launch").mkdir()
     for name, text in {
@@ -224,9 +224,9 @@ NOT_OURS = [
 ]
 
 
-async def test_completion(desk: Desk, package: Path) -> None:
+async def test_completion(harness: Harness, package: Path) -> None:
     path = package / "launch/typed.launch.py"
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(path, MAIN, language="python")
         for body, wanted in (*WHOLE, *HALF):
             found = await completed(editor, path, body)
@@ -250,9 +250,9 @@ async def test_completion(desk: Desk, package: Path) -> None:
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-32"])
-async def test_completion_behind_other_letters(desk: Desk, package: Path, encoding: str) -> None:
+async def test_completion_behind_other_letters(harness: Harness, package: Path, encoding: str) -> None:
     path = package / "launch/typed.launch.py"
-    async with editing(desk, folder=package.parents[1], client=capabilities(encoding=encoding)) as editor:
+    async with editing(harness, folder=package.parents[1], client=capabilities(encoding=encoding)) as editor:
         body = "    # Größe 🤖 — so\n    return ['🤖', Node(package='robot', executable='t|')]\n"
         assert "talker robot" in await completed(editor, path, body)
         text = editor.texts[path]
@@ -262,10 +262,10 @@ async def test_completion_behind_other_letters(desk: Desk, package: Path, encodi
         assert editor.accept(path, item) == text.splitlines()[-1].replace("'t'", "'talker'")
 
 
-async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, package: Path) -> None:
+async def test_everything_that_can_be_asked_while_a_file_is_typed(harness: Harness, package: Path) -> None:
     """At each place of a text that ends anywhere: an answer or none, and no error."""
     path = package / "launch/typed.launch.py"
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(path, MAIN, language="python")
         for end in range(len(HEAD), len(MAIN) + 1, 29):
             editor.change(path, MAIN[:end])
@@ -296,12 +296,12 @@ async def indexed(editor: Editor, path: Path) -> None:
     )
 
 
-async def test_arguments_across_formats(desk: Desk, package: Path) -> None:
+async def test_arguments_across_formats(harness: Harness, package: Path) -> None:
     """From the declaration to each use, and to what the includers of two formats pass."""
     main, inner, outer = (
         package / "launch" / f"{n}" for n in ("main.launch.py", "inner.launch.py", "outer.launch.xml")
     )
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(inner, language="python")
         declared = editor.at(inner, "'speed', default", 2)
         await indexed(editor, inner)
@@ -321,11 +321,11 @@ async def test_arguments_across_formats(desk: Desk, package: Path) -> None:
         assert editor.texts[outer] == OUTER.replace('"speed"', '"velocity"')
 
 
-async def test_an_argument_renamed_where_xml_passes_it(desk: Desk, package: Path) -> None:
+async def test_an_argument_renamed_where_xml_passes_it(harness: Harness, package: Path) -> None:
     main, inner, outer = (
         package / "launch" / f"{n}" for n in ("main.launch.py", "inner.launch.py", "outer.launch.xml")
     )
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(inner, language="python")
         await indexed(editor, inner)
         editor.open(outer)
@@ -335,9 +335,9 @@ async def test_an_argument_renamed_where_xml_passes_it(desk: Desk, package: Path
         assert "'kind': 'true'" in editor.texts[main]
 
 
-async def test_what_else_is_shown(desk: Desk, package: Path) -> None:
+async def test_what_else_is_shown(harness: Harness, package: Path) -> None:
     main = package / "launch/main.launch.py"
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(main, language="python")
         links = [(editor.covered(main, each.range), Path(each.target or "").name) for each in await editor.links(main)]
         assert links == [(name, name) for name in ("inner.launch.py", "params.yaml")]
@@ -355,9 +355,9 @@ async def test_what_else_is_shown(desk: Desk, package: Path) -> None:
         assert [s.detail for s in await editor.symbols(main) if s.detail] == ["robot/talker"]
 
 
-async def test_values_of_a_file_that_was_run(desk: Desk, package: Path) -> None:
+async def test_values_of_a_file_that_was_run(harness: Harness, package: Path) -> None:
     inner = package / "launch/inner.launch.py"
-    async with editing(desk, trusted=True, folder=package.parents[1]) as editor:
+    async with editing(harness, trusted=True, folder=package.parents[1]) as editor:
         text = INNER.replace("name='listener'", "name=LaunchConfiguration('model')")
         editor.open(inner, text, language="python")
         found = await answered(lambda: editor.hints(inner), lambda found: "= true" in [hint.label for hint in found])
@@ -365,7 +365,7 @@ async def test_values_of_a_file_that_was_run(desk: Desk, package: Path) -> None:
         assert lines == [line(text, "name=LaunchConfiguration"), line(text, "condition=")]
 
 
-async def test_a_container_of_a_python_file_is_renamed_where_it_is_named(desk: Desk, package: Path) -> None:
+async def test_a_container_of_a_python_file_is_renamed_where_it_is_named(harness: Harness, package: Path) -> None:
     path = package / "launch/load.launch.py"
     text = (
         HEAD.replace("import ComposableNodeContainer, Node", "import ComposableNodeContainer, LoadComposableNodes")
@@ -380,7 +380,7 @@ async def test_a_container_of_a_python_file_is_renamed_where_it_is_named(desk: D
     ])
 """
     )
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(path, text, language="python")
         where = editor.at(path, "name='box'", 7)
         with pytest.raises(JsonRpcException, match="not known as long as it is not run"):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 pytestmark = pytest.mark.ros
 
@@ -28,9 +28,9 @@ def generate_launch_description():
 
 
 @pytest.fixture
-def outer(desk: Desk) -> Path:
+def outer(harness: Harness) -> Path:
     """An XML file that includes a Python file whose function declares the argument."""
-    folder = desk.home / "robots" / "launch"
+    folder = harness.home / "robots" / "launch"
     folder.mkdir(parents=True)
     (folder / "inner.launch.py").write_text(PYTHON)
     path = folder / "outer.launch.xml"
@@ -38,8 +38,8 @@ def outer(desk: Desk) -> Path:
     return path
 
 
-async def test_what_a_function_declares_is_known_in_the_file_that_includes_it(desk: Desk, outer: Path) -> None:
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+async def test_what_a_function_declares_is_known_in_the_file_that_includes_it(harness: Harness, outer: Path) -> None:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(outer)
         found = await editor.having(outer, "ARG009", seconds=60)
         assert editor.covered(outer, found.range) == "s1"
@@ -48,32 +48,32 @@ async def test_what_a_function_declares_is_known_in_the_file_that_includes_it(de
         await editor.without(outer, "ARG009", seconds=60)
 
 
-async def test_without_trust_nothing_is_run(desk: Desk, outer: Path) -> None:
-    ran = desk.home / "robots" / "ran"
+async def test_without_trust_nothing_is_run(harness: Harness, outer: Path) -> None:
+    ran = harness.home / "robots" / "ran"
     inner = outer.parent / "inner.launch.py"
     inner.write_text(f"try: open({str(ran)!r}, 'w')\nexcept OSError: pass\n" + PYTHON)
-    async with editing(desk, folder=desk.home / "robots") as editor:
+    async with editing(harness, folder=harness.home / "robots") as editor:
         editor.open(outer)
         await editor.until(lambda: editor.rules(outer) is not None, seconds=60)
         assert "ARG009" not in (editor.rules(outer) or ())
-        assert desk.sandbox_starts() == 0
+        assert harness.sandbox_starts() == 0
         editor.trust()
         await editor.having(outer, "ARG009", seconds=60)
         assert not ran.exists()
 
 
-async def test_the_function_makes_it_a_launch_file_whatever_its_name_is(desk: Desk, outer: Path) -> None:
+async def test_the_function_makes_it_a_launch_file_whatever_its_name_is(harness: Harness, outer: Path) -> None:
     path, helper = outer.with_name("bringup_all.py"), outer.with_name("helper.py")
     path.write_text("def generate_launch_description():\n    raise RuntimeError('no')\n")
     helper.write_text("def generate():\n    raise RuntimeError('no')\n")
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(helper)
         editor.open(path)
         await editor.having(path, "LCH032", seconds=60)
         assert not editor.rules(helper)
 
 
-async def test_beside_the_python_language_server(desk: Desk, outer: Path) -> None:
+async def test_beside_the_python_language_server(harness: Harness, outer: Path) -> None:
     """A Python file shows its findings and what a node comes to, and nothing of what Python's own server does."""
     path = outer.parent / "own.launch.py"
     text = (
@@ -82,7 +82,7 @@ async def test_beside_the_python_language_server(desk: Desk, outer: Path) -> Non
         "        Node(package='nowhere', executable='x', name='camera'),\n"
         "        Node(package='nowhere', node_executable='x'),\n    ])\n"
     )
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(path, text, language="python")
         found = await editor.having(path, "LCH032", seconds=60)
         assert "node_executable" in editor.covered(path, found.range)
@@ -122,11 +122,11 @@ def said(editor: Editor, path: Path) -> list[tuple[str, str]] | None:
     return None if found is None else sorted((str(d.code), editor.covered(path, d.range)) for d in found)
 
 
-async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(desk: Desk, outer: Path) -> None:
+async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(harness: Harness, outer: Path) -> None:
     """What only a run tells (the nodes that a loop or a function makes) does not go when the text is edited, half typed
     or wrong: all but what it said of the part that was edited."""
     path = outer.parent / "own.launch.py"
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(path, RUN, language="python")
         packages = [("PKG001", name) for name in ("elsewhere", "made", "nowhere", "nowhere")]
         whole = await editor.until(lambda: (found := said(editor, path)) and found == packages and found)
@@ -157,10 +157,10 @@ async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(desk: Des
             assert kept or told.uri != path.as_uri(), "it flickered"
 
 
-async def test_an_edit_ends_the_run_of_the_text_before(desk: Desk, outer: Path) -> None:
+async def test_an_edit_ends_the_run_of_the_text_before(harness: Harness, outer: Path) -> None:
     path = outer.parent / "own.launch.py"
     title = "Running the commands of parameters in the sandbox"
-    async with editing(desk, trusted=True, folder=desk.home / "robots") as editor:
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         slow = "import time\ntime.sleep(600)\n"
         editor.open(path, slow + RUN, language="python")
         (token,) = await editor.until(lambda: list(editor.progress_of(title)))

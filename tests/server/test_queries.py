@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 pytestmark = pytest.mark.ros
 
@@ -33,9 +33,9 @@ INNER = """<launch>
 
 
 @pytest.fixture
-def outer(desk: Desk) -> Path:
-    desk.launch_file.with_name("inner.launch").write_text(INNER)
-    path = desk.launch_file.with_name("outer.launch")
+def outer(harness: Harness) -> Path:
+    harness.launch_file.with_name("inner.launch").write_text(INNER)
+    path = harness.launch_file.with_name("outer.launch")
     path.write_text(OUTER)
     return path
 
@@ -55,40 +55,40 @@ async def gone_to(editor: Editor, path: Path, needle: str, after: int = 0) -> li
     return [(link.target_uri.rpartition("/")[2], link.target_range.start.line + 1) for link in links]
 
 
-async def test_hover_on_a_node_shows_its_interface_and_where_it_comes_from(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        talker = await hovered(editor, desk.launch_file, 'name="talker"')
+async def test_hover_on_a_node_shows_its_interface_and_where_it_comes_from(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        talker = await hovered(editor, harness.launch_file, 'name="talker"')
         assert "**/talker** `preflight_demo/talker.py`" in talker
         assert "from a run in the sandbox" in talker
         assert "Reached its event loop" in talker
         assert "- `/chatter` `std_msgs/String`" in talker
         assert "[talker.py:10](file://" in talker
         assert "`/talker/rate` = `5`, default `10`" in talker
-        listener = await hovered(editor, desk.launch_file, 'name="listener"')
+        listener = await hovered(editor, harness.launch_file, 'name="listener"')
         assert "- `/chater` `std_msgs/String`, called `chatter` by the node and remapped" in listener
-        remap = await hovered(editor, desk.launch_file, "<remap", 2)
+        remap = await hovered(editor, harness.launch_file, "<remap", 2)
         assert "`/chatter` → `/chater` for `/listener`" in remap
         assert "topic `/chater` published by nobody" in remap
 
 
-async def test_hover_on_an_annotated_node_says_so(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        text = desk.launch_file.read_text().replace(
+async def test_hover_on_an_annotated_node_says_so(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        text = harness.launch_file.read_text().replace(
             '<param name="rate" value="5"/>',
             '<topics><topic name="chatter" type="std_msgs/String" class="pub"/></topics>',
         )
-        editor.open(desk.launch_file, text)
-        talker = await hovered(editor, desk.launch_file, 'name="talker"')
+        editor.open(harness.launch_file, text)
+        talker = await hovered(editor, harness.launch_file, 'name="talker"')
         assert "Interface from the annotation in the launch file" in talker
         assert "`/chatter` `std_msgs/String`" in talker
-        listener = await hovered(editor, desk.launch_file, 'name="listener"')
+        listener = await hovered(editor, harness.launch_file, 'name="listener"')
         assert "not trusted" in listener
 
 
-async def test_hover_on_arguments_values_includes_and_parameters(desk: Desk, outer: Path) -> None:
-    async with editing(desk) as editor:
+async def test_hover_on_arguments_values_includes_and_parameters(harness: Harness, outer: Path) -> None:
+    async with editing(harness) as editor:
         editor.open(outer)
         robot = await hovered(editor, outer, "$(arg robot)", 7)
         assert "argument `robot` = `husky`" in robot
@@ -113,8 +113,8 @@ async def test_hover_on_arguments_values_includes_and_parameters(desk: Desk, out
         assert "included at [outer.launch:3]" in node
 
 
-async def test_definitions(desk: Desk, outer: Path) -> None:
-    async with editing(desk) as editor:
+async def test_definitions(harness: Harness, outer: Path) -> None:
+    async with editing(harness) as editor:
         editor.open(outer)
         assert await gone_to(editor, outer, "/launch/inner.launch", 9) == [("inner.launch", 1)]
         assert await gone_to(editor, outer, "$(find preflight_demo)", 8) == [("package.xml", 1)]
@@ -128,19 +128,19 @@ async def test_definitions(desk: Desk, outer: Path) -> None:
         assert await gone_to(editor, inner, "talker.py", 2) == [("talker.py", 1)]
 
 
-async def test_definition_leads_to_the_other_end(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        assert await gone_to(editor, desk.launch_file, '"chater"', 3) == [("talker_listener.launch", 3)]
+async def test_definition_leads_to_the_other_end(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        assert await gone_to(editor, harness.launch_file, '"chater"', 3) == [("talker_listener.launch", 3)]
         at = text.index("chater")
-        editor.replace(desk.launch_file, at, at + 6, "chatter")
-        await editor.without(desk.launch_file, "TOP001")
-        assert await gone_to(editor, desk.launch_file, 'to="chatter"', 6) == [("talker.py", 10)]
+        editor.replace(harness.launch_file, at, at + 6, "chatter")
+        await editor.without(harness.launch_file, "TOP001")
+        assert await gone_to(editor, harness.launch_file, 'to="chatter"', 6) == [("talker.py", 10)]
 
 
-async def test_symbols_are_the_tags_as_they_nest(desk: Desk, outer: Path) -> None:
-    async with editing(desk) as editor:
+async def test_symbols_are_the_tags_as_they_nest(harness: Harness, outer: Path) -> None:
+    async with editing(harness) as editor:
         editor.open(outer)
         found = await editor.symbols(outer)
         assert [(s.name, s.detail, s.kind) for s in found] == [
@@ -154,34 +154,34 @@ async def test_symbols_are_the_tags_as_they_nest(desk: Desk, outer: Path) -> Non
         assert editor.covered(outer, found[2].range).endswith("</group>")
 
 
-async def test_the_traced_interface_can_be_written_as_an_annotation(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        where = editor.at(desk.launch_file, 'name="talker"')
-        actions = await editor.actions(desk.launch_file, types.Range(where, where), ["refactor"])
+async def test_the_traced_interface_can_be_written_as_an_annotation(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        where = editor.at(harness.launch_file, 'name="talker"')
+        actions = await editor.actions(harness.launch_file, types.Range(where, where), ["refactor"])
         assert [a.title for a in actions] == ["Annotate '/talker' with its traced interface"]
         editor.apply(actions[0].edit)
-        assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[desk.launch_file]
-        found = await editor.having(desk.launch_file, "TOP001")
-        assert editor.covered(desk.launch_file, found.range) == "chater"
-        where = editor.at(desk.launch_file, 'name="talker"')
-        assert await editor.actions(desk.launch_file, types.Range(where, where), ["refactor"]) == []
+        assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[harness.launch_file]
+        found = await editor.having(harness.launch_file, "TOP001")
+        assert editor.covered(harness.launch_file, found.range) == "chater"
+        where = editor.at(harness.launch_file, 'name="talker"')
+        assert await editor.actions(harness.launch_file, types.Range(where, where), ["refactor"]) == []
 
 
-async def test_only_the_asked_kinds_of_actions(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TOP001")
-        assert await editor.actions(desk.launch_file, found.range, ["source.organizeImports"]) == []
-        assert [a.kind for a in await editor.actions(desk.launch_file, found.range, ["quickfix"])] == ["quickfix"]
+async def test_only_the_asked_kinds_of_actions(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TOP001")
+        assert await editor.actions(harness.launch_file, found.range, ["source.organizeImports"]) == []
+        assert [a.kind for a in await editor.actions(harness.launch_file, found.range, ["quickfix"])] == ["quickfix"]
 
 
-async def test_a_fix_may_change_another_file(desk: Desk) -> None:
-    manifest = desk.launch_file.parent.parent / "package.xml"
-    launch = desk.launch_file.with_name("shown.launch")
+async def test_a_fix_may_change_another_file(harness: Harness) -> None:
+    manifest = harness.launch_file.parent.parent / "package.xml"
+    launch = harness.launch_file.with_name("shown.launch")
     manifest.write_text("<package>\n  <name>preflight_demo</name>\n</package>\n")
-    async with editing(desk) as editor:
+    async with editing(harness) as editor:
         editor.open(launch, '<launch>\n  <param name="a" value="$(find rospy)"/>\n</launch>\n')
         found = await editor.having(launch, "PKG004")
         (action,) = await editor.actions(launch, found.range, ["quickfix"])
@@ -205,10 +205,10 @@ PATROL = """<launch>
 """
 
 
-async def test_hover_on_a_node_shows_an_action_as_one_thing_and_frames(desk: Desk) -> None:
-    path = desk.launch_file.with_name("patrol.launch")
+async def test_hover_on_a_node_shows_an_action_as_one_thing_and_frames(harness: Harness) -> None:
+    path = harness.launch_file.with_name("patrol.launch")
     path.write_text(PATROL)
-    async with editing(desk, trusted=True) as editor:
+    async with editing(harness, trusted=True) as editor:
         editor.open(path)
         await editor.having(path, "ACT001")
         home = await hovered(editor, path, 'name="home"')

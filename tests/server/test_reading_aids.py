@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import ENCODINGS, Editor, capabilities, editing, position
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import ENCODINGS, Editor, capabilities, editing, position
 
 pytestmark = pytest.mark.ros
 
@@ -30,9 +30,9 @@ BROKEN = OUTER.replace("  </include>\n", '    <arg name="rate" value="$(eval 2 *
 
 
 @pytest.fixture
-def outer(desk: Desk) -> Path:
-    desk.launch_file.with_name("inner.launch").write_text(INNER)
-    path = desk.launch_file.with_name("outer.launch")
+def outer(harness: Harness) -> Path:
+    harness.launch_file.with_name("inner.launch").write_text(INNER)
+    path = harness.launch_file.with_name("outer.launch")
     path.write_text(OUTER)
     return path
 
@@ -52,8 +52,8 @@ async def shown(editor: Editor, path: Path, range_: types.Range | None = None) -
 
 
 @pytest.mark.parametrize("text", [OUTER, BROKEN])
-async def test_signature_of_an_include(desk: Desk, outer: Path, text: str) -> None:
-    async with editing(desk) as editor:
+async def test_signature_of_an_include(harness: Harness, outer: Path, text: str) -> None:
+    async with editing(harness) as editor:
         editor.open(outer, text)
         found = await editor.signature(outer, editor.at(outer, "🤖é", 1))
         assert found is not None
@@ -70,8 +70,8 @@ async def test_signature_of_an_include(desk: Desk, outer: Path, text: str) -> No
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-async def test_semantic_tokens(desk: Desk, outer: Path, inner: Path, encoding: str) -> None:
-    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+async def test_semantic_tokens(harness: Harness, outer: Path, inner: Path, encoding: str) -> None:
+    async with editing(harness, client=capabilities(encoding=encoding)) as editor:
         editor.open(inner)
         value = [
             ("$(", "operator"),
@@ -99,8 +99,8 @@ async def test_semantic_tokens(desk: Desk, outer: Path, inner: Path, encoding: s
         ]
 
 
-async def test_folding(desk: Desk, outer: Path) -> None:
-    async with editing(desk) as editor:
+async def test_folding(harness: Harness, outer: Path) -> None:
+    async with editing(harness) as editor:
         editor.open(outer)
         folds = [(f.start_line, f.end_line, f.kind) for f in await editor.folds(outer)]
         assert folds == [(0, 6, None), (1, 2, "comment"), (4, 5, None)]
@@ -110,8 +110,8 @@ async def test_folding(desk: Desk, outer: Path) -> None:
 
 
 @pytest.mark.parametrize("text", [OUTER, BROKEN])
-async def test_document_links(desk: Desk, outer: Path, inner: Path, text: str) -> None:
-    async with editing(desk) as editor:
+async def test_document_links(harness: Harness, outer: Path, inner: Path, text: str) -> None:
+    async with editing(harness) as editor:
         editor.open(outer, text)
         (link,) = await editor.links(outer)
         assert editor.covered(outer, link.range) == "$(find preflight_demo)/$(arg dir)/inner.launch"
@@ -120,8 +120,8 @@ async def test_document_links(desk: Desk, outer: Path, inner: Path, text: str) -
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-async def test_inlay_hints(desk: Desk, outer: Path, inner: Path, encoding: str) -> None:
-    async with editing(desk, client=capabilities(encoding=encoding)) as editor:
+async def test_inlay_hints(harness: Harness, outer: Path, inner: Path, encoding: str) -> None:
+    async with editing(harness, client=capabilities(encoding=encoding)) as editor:
         editor.open(outer)
         (hint,) = await shown(editor, outer)
         assert hint.startswith('<include file="$(find preflight_demo)/$(arg dir)/inner.launch" = …/')
@@ -136,8 +136,10 @@ async def test_inlay_hints(desk: Desk, outer: Path, inner: Path, encoding: str) 
         assert await shown(editor, inner) == [f"{value} = 🤖é 6"]
 
 
-async def test_hints_are_asked_for_again_when_another_file_changed_them(desk: Desk, outer: Path, inner: Path) -> None:
-    async with editing(desk) as editor:
+async def test_hints_are_asked_for_again_when_another_file_changed_them(
+    harness: Harness, outer: Path, inner: Path
+) -> None:
+    async with editing(harness) as editor:
         editor.open(inner)
         editor.open(outer)
         value = '<param name="🤖" value="$(arg näme) $(arg rate)"'
@@ -147,8 +149,8 @@ async def test_hints_are_asked_for_again_when_another_file_changed_them(desk: De
         assert await shown(editor, inner) == [f"{value} = other 1"]
 
 
-async def test_hints_can_be_switched_off_and_on(desk: Desk, outer: Path) -> None:
-    async with editing(desk, settings={"inlayHints": False}) as editor:
+async def test_hints_can_be_switched_off_and_on(harness: Harness, outer: Path) -> None:
+    async with editing(harness, settings={"inlayHints": False}) as editor:
         editor.open(outer)
         assert await editor.hints(outer) == []
         for on in (True, False):
@@ -159,8 +161,8 @@ async def test_hints_can_be_switched_off_and_on(desk: Desk, outer: Path) -> None
             assert bool(await editor.hints(outer)) == on
 
 
-async def test_an_empty_file_has_none_of_it(desk: Desk, outer: Path) -> None:
-    async with editing(desk) as editor:
+async def test_an_empty_file_has_none_of_it(harness: Harness, outer: Path) -> None:
+    async with editing(harness) as editor:
         editor.open(outer, "")
         assert await editor.signature(outer, position("", 0, editor.encoding)) is None
         assert await editor.tokens(outer) == []

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing, position
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing, position
 
 pytestmark = pytest.mark.ros
 
@@ -76,8 +76,8 @@ PARAMS = """/ns/talker:
 
 
 @pytest.fixture
-def package(desk: Desk) -> Path:
-    folder = desk.home / "ros2_ws/src/robot"
+def package(harness: Harness) -> Path:
+    folder = harness.home / "ros2_ws/src/robot"
     (folder / "robot").mkdir(parents=True)
     for name, text in {
         "package.xml": MANIFEST,
@@ -104,9 +104,9 @@ async def targets(editor: Editor, path: Path, needle: str, after: int = 0) -> li
     return [f"{Path(t.target_uri).name}:{t.target_selection_range.start.line + 1}" for t in found]
 
 
-async def test_an_xml_file(desk: Desk, package: Path) -> None:
+async def test_an_xml_file(harness: Harness, package: Path) -> None:
     main = package / "main.launch.xml"
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(main)
         assert "`speed` = `5.0`" in text_of(await editor.hover(main, editor.at(main, "speed")))
         assert "argument `speed` = `5.0`" in text_of(await editor.hover(main, editor.at(main, "(var speed", 5)))
@@ -125,9 +125,9 @@ async def test_an_xml_file(desk: Desk, package: Path) -> None:
         assert signature.signatures[0].label == "inner.launch.yaml(name)"
 
 
-async def test_a_yaml_file(desk: Desk, package: Path) -> None:
+async def test_a_yaml_file(harness: Harness, package: Path) -> None:
     inner, main = package / "inner.launch.yaml", package / "main.launch.xml"
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(inner, language="yaml")
         await editor.having(package / "params.yaml", "PRM013", 60)  # seen in the root that includes the file
         assert "1 includer" in [lens.command.title for lens in await editor.lenses(inner) if lens.command]
@@ -150,9 +150,9 @@ async def test_a_yaml_file(desk: Desk, package: Path) -> None:
         assert '<arg name="called"' in editor.texts[main]
 
 
-async def test_a_parameter_file(desk: Desk, package: Path) -> None:
+async def test_a_parameter_file(harness: Harness, package: Path) -> None:
     params = package / "params.yaml"
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(params, language="yaml")  # no launch file is open
         unknown = await editor.having(params, "PRM013", 60)
         assert editor.covered(params, unknown.range) == "fram"
@@ -179,9 +179,9 @@ async def test_a_parameter_file(desk: Desk, package: Path) -> None:
         assert await editor.completion(other, types.Position(0, 0)) == []
 
 
-async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, package: Path) -> None:
+async def test_everything_that_can_be_asked_while_a_file_is_typed(harness: Harness, package: Path) -> None:
     """At each place of texts that end anywhere: an answer or none, and no error."""
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         for name, text in (
             ("typed.launch.yaml", INNER),
             ("typed.launch.xml", MAIN),
@@ -201,7 +201,7 @@ async def test_everything_that_can_be_asked_while_a_file_is_typed(desk: Desk, pa
             editor.close(path)
 
 
-async def test_a_node_and_what_names_it(desk: Desk, package: Path) -> None:
+async def test_a_node_and_what_names_it(harness: Harness, package: Path) -> None:
     """A container is named by those who load into it, a node by the keys of its parameter file."""
     path = package / "load.launch.xml"
     inner, params = package / "inner.launch.yaml", package / "params.yaml"
@@ -218,7 +218,7 @@ async def test_a_node_and_what_names_it(desk: Desk, package: Path) -> None:
 """
     )
     inner.write_text(INNER.replace("name: $(var name)\n      namespace", "name: talker\n      namespace"))
-    async with editing(desk, folder=package.parents[1]) as editor:
+    async with editing(harness, folder=package.parents[1]) as editor:
         text = editor.open(path)
         editor.apply(await editor.rename(path, editor.at(path, '"box"', 2), "crate"))
         assert editor.texts[path] == text.replace("box", "crate")

@@ -6,9 +6,9 @@ import asyncio
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import Editor, editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import Editor, editing
 
 pytestmark = pytest.mark.ros
 
@@ -22,77 +22,77 @@ rospy.spin()
 
 
 @pytest.fixture
-def slow(desk: Desk) -> Path:
+def slow(harness: Harness) -> Path:
     """A launch file with a node that takes longer than any test waits."""
-    script = desk.launch_file.parents[1] / "scripts/slow.py"
+    script = harness.launch_file.parents[1] / "scripts/slow.py"
     script.write_text(SLOW)
     script.chmod(0o755)
-    path = desk.launch_file.with_name("slow.launch")
+    path = harness.launch_file.with_name("slow.launch")
     path.write_text('<launch>\n  <node pkg="preflight_demo" type="slow.py" name="slow"/>\n</launch>\n')
     return path
 
 
-def sandboxes(desk: Desk) -> list[str]:
-    """Processes of the desk besides the server itself."""
-    return [line for line in desk.processes() if " lsp" not in line]
+def sandboxes(harness: Harness) -> list[str]:
+    """Processes of the harness besides the server itself."""
+    return [line for line in harness.processes() if " lsp" not in line]
 
 
-async def running(editor: Editor, desk: Desk) -> types.ProgressToken:
+async def running(editor: Editor, harness: Harness) -> types.ProgressToken:
     """Wait until a node runs and its progress is shown. Before it come the probe, and our own code to be compiled."""
     token = await editor.until(lambda: next(iter(editor.runs), None))
-    await editor.until(lambda: desk.sandbox_starts() >= 3)
+    await editor.until(lambda: harness.sandbox_starts() >= 3)
     return token
 
 
-async def test_the_user_can_cancel(desk: Desk, slow: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
+async def test_the_user_can_cancel(harness: Harness, slow: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
         editor.open(slow)
-        token = await running(editor, desk)
+        token = await running(editor, harness)
         editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams(token))
         found = await editor.having(slow, "TRC004")
         assert "cancelled" in found.message
         assert editor.progress[token][-1]["kind"] == "end"
-        starts = desk.sandbox_starts()
+        starts = harness.sandbox_starts()
         editor.replace(slow, 8, 8, "\n")
         await asyncio.sleep(1.5)
-        assert desk.sandbox_starts() == starts, "an edit does not undo the user's decision"
+        assert harness.sandbox_starts() == starts, "an edit does not undo the user's decision"
         editor.save(slow)
-        await editor.until(lambda: desk.sandbox_starts() > starts)
+        await editor.until(lambda: harness.sandbox_starts() > starts)
 
 
-async def test_an_edit_supersedes_a_run_that_is_no_longer_wanted(desk: Desk, slow: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
+async def test_an_edit_supersedes_a_run_that_is_no_longer_wanted(harness: Harness, slow: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
         text = editor.open(slow)
-        await running(editor, desk)
+        await running(editor, harness)
         at = text.index("slow.py")
         editor.replace(slow, at, at + len("slow.py"), "talker.py")
         hint = await editor.having(slow, "TOP002")
         assert "chatter" in hint.message
 
 
-async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(desk: Desk) -> None:
-    script = desk.launch_file.parents[1] / "scripts/late.py"
+async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(harness: Harness) -> None:
+    script = harness.launch_file.parents[1] / "scripts/late.py"
     script.write_text(SLOW.replace("sleep(60)", "sleep(1)"))
     script.chmod(0o755)
-    path = desk.launch_file.with_name("late.launch")
+    path = harness.launch_file.with_name("late.launch")
     path.write_text(
         '<launch>\n  <param name="unread" value="1"/>\n  <node pkg="preflight_demo" type="late.py" name="late"/>\n'
         '  <node pkg="preflight_demo" type="listener.py" name="listener"/>\n</launch>\n'
     )
-    async with editing(desk, trusted=True) as editor:
+    async with editing(harness, trusted=True) as editor:
         text = editor.open(path)
-        await editor.until(lambda: desk.sandbox_starts() >= 4, 60)
+        await editor.until(lambda: harness.sandbox_starts() >= 4, 60)
         at = text.index('value="1"')
         editor.replace(path, at, at + len('value="1"'), 'value="2"')
         await editor.having(path, "TOP001", seconds=60)
         await editor.until(lambda: all(values[-1]["kind"] == "end" for values in editor.runs.values()), 60)
-        assert desk.sandbox_starts() == 4, "the probe, our own code to be compiled and each node once"
+        assert harness.sandbox_starts() == 4, "the probe, our own code to be compiled and each node once"
 
 
-async def test_the_server_answers_while_nodes_run(desk: Desk, slow: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
+async def test_the_server_answers_while_nodes_run(harness: Harness, slow: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
         editor.open(slow)
-        token = await running(editor, desk)
+        token = await running(editor, harness)
         hover = await editor.hover(slow, editor.at(slow, 'name="slow"'))
         assert hover is not None
         assert isinstance(hover.contents, types.MarkupContent)
@@ -101,73 +101,73 @@ async def test_the_server_answers_while_nodes_run(desk: Desk, slow: Path) -> Non
         assert editor.progress[token][-1]["kind"] != "end", "it still runs"
 
 
-async def test_shutdown_ends_the_runs(desk: Desk, slow: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
+async def test_shutdown_ends_the_runs(harness: Harness, slow: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
         editor.open(slow)
-        await running(editor, desk)
-    assert desk.processes() == []
+        await running(editor, harness)
+    assert harness.processes() == []
 
 
-async def test_a_client_that_vanishes_leaves_nothing_running(desk: Desk, slow: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
+async def test_a_client_that_vanishes_leaves_nothing_running(harness: Harness, slow: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
         editor.open(slow)
-        await running(editor, desk)
+        await running(editor, harness)
         server = editor.client._server
         assert server is not None
         assert server.stdin is not None
         server.stdin.close()
         await asyncio.wait_for(server.wait(), 60)
         assert server.returncode == 1, "exit without shutdown"
-        await editor.until(lambda: not desk.processes())
+        await editor.until(lambda: not harness.processes())
         editor.client.error = ConnectionError("the server is gone, as the test wants it")
 
 
-async def test_a_killed_server_leaves_nothing_running(desk: Desk, slow: Path) -> None:
-    async with editing(desk, trusted=True) as editor:
+async def test_a_killed_server_leaves_nothing_running(harness: Harness, slow: Path) -> None:
+    async with editing(harness, trusted=True) as editor:
         editor.open(slow)
-        await running(editor, desk)
+        await running(editor, harness)
         server = editor.client._server
         assert server is not None
         server.kill()
         await server.wait()
-        await editor.until(lambda: not desk.processes())
+        await editor.until(lambda: not harness.processes())
         editor.client.error = ConnectionError("the server is gone, as the test wants it")
 
 
-async def test_a_changed_script_is_run_again(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TOP001")
-        script = desk.launch_file.parents[1] / "scripts/talker.py"
+async def test_a_changed_script_is_run_again(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TOP001")
+        script = harness.launch_file.parents[1] / "scripts/talker.py"
         script.write_text(script.read_text().replace('"chatter"', '"chater"'))
         editor.watched(script)
-        await editor.without(desk.launch_file, "TOP001")
+        await editor.without(harness.launch_file, "TOP001")
 
 
-async def test_a_node_that_crashes_is_a_finding(desk: Desk) -> None:
-    script = desk.launch_file.parents[1] / "scripts/listener.py"
+async def test_a_node_that_crashes_is_a_finding(harness: Harness) -> None:
+    script = harness.launch_file.parents[1] / "scripts/listener.py"
     script.write_text(script.read_text().replace("rospy.spin()", 'raise RuntimeError("no laser here")'))
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TRC001")
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TRC001")
         assert "/listener" in found.message
-        hover = await editor.hover(desk.launch_file, editor.at(desk.launch_file, 'name="listener"'))
+        hover = await editor.hover(harness.launch_file, editor.at(harness.launch_file, 'name="listener"'))
         assert hover is not None
         assert isinstance(hover.contents, types.MarkupContent)
         assert "no laser here" in hover.contents.value
 
 
-async def test_a_half_typed_tag_starts_no_run(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        text = desk.launch_file.read_text().replace('name="listener"', 'name="listener')
-        editor.open(desk.launch_file, text)
-        await editor.having(desk.launch_file, "LCH001")
+async def test_a_half_typed_tag_starts_no_run(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        text = harness.launch_file.read_text().replace('name="listener"', 'name="listener')
+        editor.open(harness.launch_file, text)
+        await editor.having(harness.launch_file, "LCH001")
         ended = lambda: any(values[-1]["kind"] == "end" for values in editor.runs.values())  # noqa: E731
         await editor.until(ended)
         said = [value.get("message") for values in editor.runs.values() for value in values]
         assert said[-1] == "1 node", "only the talker"
-        editor.change(desk.launch_file, desk.launch_file.read_text())
-        await editor.having(desk.launch_file, "TOP001")
+        editor.change(harness.launch_file, harness.launch_file.read_text())
+        await editor.having(harness.launch_file, "TOP001")
 
 
 READS_FIRST = """#!/usr/bin/env python3
@@ -183,21 +183,21 @@ rospy.spin()
 """
 
 
-async def test_a_file_that_changes_during_the_run_that_read_it(desk: Desk) -> None:
-    script = desk.launch_file.parents[1] / "scripts/late.py"
+async def test_a_file_that_changes_during_the_run_that_read_it(harness: Harness) -> None:
+    script = harness.launch_file.parents[1] / "scripts/late.py"
     script.write_text(READS_FIRST)
     script.chmod(0o755)
     name = script.with_name("name.txt")
     name.write_text("before")
-    path = desk.launch_file.with_name("late.launch")
+    path = harness.launch_file.with_name("late.launch")
     path.write_text(
         '<launch>\n  <node pkg="preflight_demo" type="late.py" name="late"/>\n'
         '  <node pkg="preflight_demo" type="listener.py" name="l"><remap from="chatter" to="befor"/></node>\n'
         "</launch>\n"
     )
-    async with editing(desk, trusted=True) as editor:
+    async with editing(harness, trusted=True) as editor:
         editor.open(path)
-        await running(editor, desk)
+        await running(editor, harness)
         await asyncio.sleep(0.7)  # it has read the name, and not used it yet
         name.write_text("after")
         editor.watched(name)
@@ -226,10 +226,10 @@ rospy.spin()
 """
 
 
-async def test_a_syntax_error_stops_only_what_it_touches(desk: Desk) -> None:
+async def test_a_syntax_error_stops_only_what_it_touches(harness: Harness) -> None:
     """Nodes of a launch with a broken file run; those in whose tag the error stands do not, and the status names the
     file."""
-    folder = desk.launch_file.parent
+    folder = harness.launch_file.parent
     for topic in ("one", "two", "three"):
         script = folder.parent / f"scripts/{topic}.py"
         script.write_text(COUNTED.format(topic=topic))
@@ -240,7 +240,7 @@ async def test_a_syntax_error_stops_only_what_it_touches(desk: Desk) -> None:
     include = '  <include file="$(dirname)/inner.launch"/>\n'
     broken = node.format("three").replace("/>", "><param name='a' value=</node>")
     outer.write_text(f"<launch>\n{node.format('one')}{include}{broken}</launch>\n")
-    async with editing(desk, trusted=True, settings={"status": True}) as editor:
+    async with editing(harness, trusted=True, settings={"status": True}) as editor:
         editor.open(outer)
         await editor.until(lambda: editor.statuses and list(editor.statuses[-1].broken) == [outer.as_uri()])
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import lsp_desk
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lsprotocol import types
 from preflight_server.lsp.text_store import TextStore, to_path, to_uri
+from support import lsp_client
 
 URI = "file:///w/a.launch"
 TEXTS = st.text("ab<é漢𝒳\n\r\f\u2028\x85", max_size=20)
@@ -23,7 +23,7 @@ def edited(text: str, edits: list[tuple[int, int, str]], encoding: str) -> tuple
         start, end = sorted((min(start, len(text)), min(end, len(text))))
         start -= text[start - 1 : start + 1] == "\r\n"
         end += text[end - 1 : end + 1] == "\r\n"
-        there = types.Range(lsp_desk.position(text, start, encoding), lsp_desk.position(text, end, encoding))
+        there = types.Range(lsp_client.position(text, start, encoding), lsp_client.position(text, end, encoding))
         changes.append(types.TextDocumentContentChangePartial(there, new))
         text = text[:start] + new + text[end:]
     document = store.change(URI, 2, changes)
@@ -31,7 +31,7 @@ def edited(text: str, edits: list[tuple[int, int, str]], encoding: str) -> tuple
     return document.text, text
 
 
-@pytest.mark.parametrize("encoding", lsp_desk.ENCODINGS)
+@pytest.mark.parametrize("encoding", lsp_client.ENCODINGS)
 @given(text=TEXTS, edits=st.lists(st.tuples(st.integers(0, 20), st.integers(0, 20), TEXTS), max_size=5))
 def test_edits_land_where_the_editor_made_them(encoding: str, text: str, edits: list[tuple[int, int, str]]) -> None:
     ours, theirs = edited(text, edits, encoding)

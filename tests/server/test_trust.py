@@ -6,9 +6,9 @@ import asyncio
 from pathlib import Path
 
 import pytest
-from editor_desk import Desk
-from lsp_desk import editing
 from lsprotocol import types
+from support.editor_harness import Harness
+from support.lsp_client import editing
 
 pytestmark = pytest.mark.ros
 
@@ -34,82 +34,82 @@ def children(pid: int) -> list[str]:
     return commands
 
 
-async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TRC004")
+async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TRC004")
         assert found.severity == types.DiagnosticSeverity.Information
         assert "not trusted" in found.message
         for _ in range(10):
             assert children(editor.pid) == []
             await asyncio.sleep(0.1)
-        assert editor.rules(desk.launch_file) == ["TOP001", "TRC004"]
-        from_source = await editor.having(desk.launch_file, "TOP001")
+        assert editor.rules(harness.launch_file) == ["TOP001", "TRC004"]
+        from_source = await editor.having(harness.launch_file, "TOP001")
         assert from_source.severity == types.DiagnosticSeverity.Information
         assert editor.runs == {}
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-async def test_static_findings_need_no_trust(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        text = desk.launch_file.read_text().replace('value="5"', 'value="$(arg speed)"')
-        editor.open(desk.launch_file, text)
-        found = await editor.having(desk.launch_file, "ARG001")
+async def test_static_findings_need_no_trust(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        text = harness.launch_file.read_text().replace('value="5"', 'value="$(arg speed)"')
+        editor.open(harness.launch_file, text)
+        found = await editor.having(harness.launch_file, "ARG001")
         assert "speed" in found.message
-        assert editor.covered(desk.launch_file, found.range).strip("$()").endswith("speed")
+        assert editor.covered(harness.launch_file, found.range).strip("$()").endswith("speed")
         assert found.severity == types.DiagnosticSeverity.Error
 
 
-async def test_trust_that_is_granted_later_starts_the_runs(desk: Desk) -> None:
-    async with editing(desk) as editor:
-        editor.open(desk.launch_file)
-        await editor.having(desk.launch_file, "TRC004")
+async def test_trust_that_is_granted_later_starts_the_runs(harness: Harness) -> None:
+    async with editing(harness) as editor:
+        editor.open(harness.launch_file)
+        await editor.having(harness.launch_file, "TRC004")
         editor.trust()
-        await editor.having(desk.launch_file, "TOP001")
-        await editor.without(desk.launch_file, "TRC004")
+        await editor.having(harness.launch_file, "TOP001")
+        await editor.without(harness.launch_file, "TRC004")
 
 
-async def test_trust_that_is_withdrawn_takes_back_what_runs_told(desk: Desk) -> None:
-    async with editing(desk, trusted=True) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TOP001")
+async def test_trust_that_is_withdrawn_takes_back_what_runs_told(harness: Harness) -> None:
+    async with editing(harness, trusted=True) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TOP001")
         assert found.severity == types.DiagnosticSeverity.Warning
         editor.trust(False)
-        await editor.having(desk.launch_file, "TRC004")
-        left = await editor.having(desk.launch_file, "TOP001")
+        await editor.having(harness.launch_file, "TRC004")
+        left = await editor.having(harness.launch_file, "TOP001")
         assert left.severity == types.DiagnosticSeverity.Information, "only what the source tells"
 
 
 @pytest.mark.parametrize("value", ["true", 1, None])
-async def test_only_true_is_trust(desk: Desk, value: object) -> None:
-    async with editing(desk, settings={"workspaceTrusted": value}) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TRC004")
+async def test_only_true_is_trust(harness: Harness, value: object) -> None:
+    async with editing(harness, settings={"workspaceTrusted": value}) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TRC004")
         assert "not trusted" in found.message
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-async def test_where_no_sandbox_works_nothing_runs_and_the_reason_is_shown(desk: Desk) -> None:
-    broken = desk.home / "broken"
+async def test_where_no_sandbox_works_nothing_runs_and_the_reason_is_shown(harness: Harness) -> None:
+    broken = harness.home / "broken"
     broken.mkdir()
     (broken / "bwrap").write_text("#!/bin/sh\necho no permission for namespaces >&2\nexit 1\n")
     (broken / "bwrap").chmod(0o755)
-    variables = {"PATH": f"{broken}:{desk.environment['PATH']}", "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
-    async with editing(desk, trusted=True, environment=variables) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TRC004")
+    variables = {"PATH": f"{broken}:{harness.environment['PATH']}", "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
+    async with editing(harness, trusted=True, environment=variables) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TRC004")
         assert "no permission for namespaces" in found.message
-        found = await editor.having(desk.launch_file, "TOP001")
+        found = await editor.having(harness.launch_file, "TOP001")
         assert found.severity == types.DiagnosticSeverity.Information
-    assert desk.sandbox_starts() == 0
+    assert harness.sandbox_starts() == 0
 
 
-async def test_running_can_be_switched_off_and_on_in_the_settings(desk: Desk) -> None:
-    async with editing(desk, trusted=True, settings={"runNodes": False}) as editor:
-        editor.open(desk.launch_file)
-        found = await editor.having(desk.launch_file, "TRC004")
+async def test_running_can_be_switched_off_and_on_in_the_settings(harness: Harness) -> None:
+    async with editing(harness, trusted=True, settings={"runNodes": False}) as editor:
+        editor.open(harness.launch_file)
+        found = await editor.having(harness.launch_file, "TRC004")
         assert "rosPreflight.runNodes" in found.message
-        assert desk.sandbox_starts() == 0
+        assert harness.sandbox_starts() == 0
         editor.client.set_configuration({"runNodes": True}, section="rosPreflight")
         editor.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(None))
-        await editor.having(desk.launch_file, "TOP001")
+        await editor.having(harness.launch_file, "TOP001")

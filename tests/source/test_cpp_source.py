@@ -22,7 +22,7 @@ NODE = '<node pkg="p" type="t" name="n" args="{args}">{inner}</node>'
 CMAKE = "project(p)\nadd_executable(t src/t.cpp)\n"
 
 
-class Desk:
+class Harness:
     """A package that was never built, with a node in it."""
 
     def __init__(self, folder: Path) -> None:
@@ -74,12 +74,12 @@ def ends(found: SourceInterface | None) -> list[tuple[str, str, str | None]]:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return Desk(tmp_path)
+def harness(tmp_path: Path) -> Harness:
+    return Harness(tmp_path)
 
 
-def test_each_kind_of_end(desk: Desk) -> None:
-    assert desk.main(
+def test_each_kind_of_end(harness: Harness) -> None:
+    assert harness.main(
         """
         ros::NodeHandle nh, pnh("~");
         ros::Publisher a = nh.advertise<std_msgs::String>("a", 10, true);
@@ -142,7 +142,7 @@ def test_each_kind_of_end(desk: Desk) -> None:
         ("double m", None),
     ],
 )
-def test_types_of_callbacks(desk: Desk, parameter: str, type_: str | None) -> None:
+def test_types_of_callbacks(harness: Harness, parameter: str, type_: str | None) -> None:
     before = f"""
         using namespace std_msgs;
         namespace sm = sensor_msgs;
@@ -150,7 +150,7 @@ def test_types_of_callbacks(desk: Desk, parameter: str, type_: str | None) -> No
         void heard({parameter}) {{}}
         class Box {{ public: void heard({parameter}) {{}} void more(int i, {parameter}) {{}} }};
         """
-    assert desk.main(
+    assert harness.main(
         f"""
         ros::NodeHandle nh;
         Box box;
@@ -164,8 +164,8 @@ def test_types_of_callbacks(desk: Desk, parameter: str, type_: str | None) -> No
     ) == [("subscriber", name, type_) for name in "abcd"]
 
 
-def test_computed_names(desk: Desk) -> None:
-    assert desk.topics(
+def test_computed_names(harness: Harness) -> None:
+    assert harness.topics(
         """
         ros::NodeHandle nh;
         nh.advertise<std_msgs::String>(BASE "/state", 1);
@@ -208,8 +208,8 @@ def test_computed_names(desk: Desk) -> None:
     ]
 
 
-def test_namespaces_of_handles(desk: Desk) -> None:
-    assert desk.topics(
+def test_namespaces_of_handles(harness: Harness) -> None:
+    assert harness.topics(
         """
         ros::NodeHandle nh, pnh("~"), sub("sub"), below(nh, "below"), deep(pnh, "deep"), root("/root"), own("~/own");
         ros::NodeHandle copy(sub);
@@ -231,8 +231,8 @@ def test_namespaces_of_handles(desk: Desk) -> None:
     ) == ["a", "~b", "sub/c", "below/d", "~deep/e", "/root/f", "~own/g", "sub/h", "/j", "~k", "~l"]
 
 
-def test_classes_are_followed_in_order(desk: Desk) -> None:
-    desk.write(
+def test_classes_are_followed_in_order(harness: Harness) -> None:
+    harness.write(
         "include/p/base.h",
         """
         #include <sensor_msgs/LaserScan.h>
@@ -260,7 +260,7 @@ def test_classes_are_followed_in_order(desk: Desk) -> None:
         }
         """,
     )
-    desk.write(
+    harness.write(
         "src/node.cpp",
         """
         #include "p/base.h"
@@ -279,8 +279,8 @@ def test_classes_are_followed_in_order(desk: Desk) -> None:
         }
         """,
     )
-    desk.write("CMakeLists.txt", CMAKE + "add_library(core src/node.cpp)\ntarget_link_libraries(t core)\n")
-    assert desk.main(
+    harness.write("CMakeLists.txt", CMAKE + "add_library(core src/node.cpp)\ntarget_link_libraries(t core)\n")
+    assert harness.main(
         """
         ros::NodeHandle nh("robot");
         p::Node node(nh);
@@ -296,7 +296,7 @@ def test_classes_are_followed_in_order(desk: Desk) -> None:
     ]
 
 
-def test_parameters_of_the_launch_and_defaults_give_names(desk: Desk) -> None:
+def test_parameters_of_the_launch_and_defaults_give_names(harness: Harness) -> None:
     body = """
         ros::NodeHandle pnh("~");
         std::string a, b = "own", c;
@@ -313,14 +313,14 @@ def test_parameters_of_the_launch_and_defaults_give_names(desk: Desk) -> None:
         pnh.param("extra", extra, false);
         if (extra) pnh.advertise<std_msgs::String>("/extra", 1);
         """
-    assert desk.topics(body) == ["/a_default", "/own", "/c_default", "/d_default", "/f_default"]
+    assert harness.topics(body) == ["/a_default", "/own", "/c_default", "/d_default", "/f_default"]
     inner = "".join(f'<param name="{name}" value="{name}_given"/>' for name in "abcdef")
     inner += '<param name="extra" value="true"/>'
-    assert desk.topics(body, inner=inner) == [*(f"/{name}_given" for name in "abcdef"), "/extra"]
+    assert harness.topics(body, inner=inner) == [*(f"/{name}_given" for name in "abcdef"), "/extra"]
 
 
-def test_a_default_has_the_type_of_the_template_argument(desk: Desk) -> None:
-    found = desk.read(
+def test_a_default_has_the_type_of_the_template_argument(harness: Harness) -> None:
+    found = harness.read(
         """
         int main(int argc, char** argv) {
           ros::init(argc, argv, "t");
@@ -340,8 +340,8 @@ def test_a_default_has_the_type_of_the_template_argument(desk: Desk) -> None:
     assert [type(value) for value in defaults.values()] == [str, float, bool, int, list]
 
 
-def test_uses_of_parameters(desk: Desk) -> None:
-    found = desk.read(
+def test_uses_of_parameters(harness: Harness) -> None:
+    found = harness.read(
         """
         int main(int argc, char** argv) {
           ros::NodeHandle nh, pnh("~");
@@ -375,8 +375,8 @@ def test_uses_of_parameters(desk: Desk) -> None:
     ]
 
 
-def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
-    desk.write(
+def test_parameters_of_dynamic_reconfigure(harness: Harness) -> None:
+    harness.write(
         "cfg/Tuning.cfg",
         """
         #!/usr/bin/env python
@@ -397,9 +397,9 @@ def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
         dynamic_reconfigure::Server<p::OtherConfig> other;
         """
     text = f"#include <p/TuningConfig.h>\nint main() {{\n{body}\n}}\n"
-    found = desk.read(text)
+    found = harness.read(text)
     assert found is not None
-    cfg = str(desk.folder / "cfg/Tuning.cfg")
+    cfg = str(harness.folder / "cfg/Tuning.cfg")
     assert [(u.name, u.default, u.source_file, u.source_line) for u in found.params] == [
         ("~inner/gain", 0.5, cfg, 5),
         ("~inner/frame", "odom", cfg, 7),
@@ -410,8 +410,8 @@ def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
     ]
 
 
-def test_conditions_loops_and_exits(desk: Desk) -> None:
-    assert desk.topics(
+def test_conditions_loops_and_exits(harness: Harness) -> None:
+    assert harness.topics(
         """
         ros::NodeHandle nh;
         std::string name = "same", other = "first";
@@ -441,7 +441,7 @@ def test_conditions_loops_and_exits(desk: Desk) -> None:
     ) == ["one", "two", "same", "case1", "case2", "tried", "defined", "not_defined", "loop"]
 
 
-def test_images(desk: Desk) -> None:
+def test_images(harness: Harness) -> None:
     body = """
         ros::NodeHandle nh, pnh("~");
         image_transport::ImageTransport it(nh), own(pnh);
@@ -464,15 +464,15 @@ def test_images(desk: Desk) -> None:
     for transport, below, type_ in (("raw", "", "Image"), ("compressed", "/compressed", "CompressedImage")):
         c, d, e = (("subscriber", f"{name}{below}", f"sensor_msgs/{type_}") for name in ("left/c", "left/d", "e"))
         inner = f'<param name="image_transport" value="{transport}"/>'
-        assert desk.main(body, inner=inner) == [*published, c, d, info, e, service]
-    assert ("subscriber", "e", "sensor_msgs/Image") in desk.main(body)
+        assert harness.main(body, inner=inner) == [*published, c, d, info, e, service]
+    assert ("subscriber", "e", "sensor_msgs/Image") in harness.main(body)
 
 
-def test_places(desk: Desk) -> None:
-    found = desk.read('int main() {\n  ros::NodeHandle nh;\n  nh.advertise<std_msgs::String>("a", 1);\n}\n')
+def test_places(harness: Harness) -> None:
+    found = harness.read('int main() {\n  ros::NodeHandle nh;\n  nh.advertise<std_msgs::String>("a", 1);\n}\n')
     assert found is not None
     (end,) = found.endpoints
-    assert (end.source_file, end.source_line) == (str(desk.folder / "src/t.cpp"), 5)
+    assert (end.source_file, end.source_line) == (str(harness.folder / "src/t.cpp"), 5)
     assert end.qos == {"queue_size": 1}
 
 
@@ -496,61 +496,61 @@ NODELET = """
     """
 
 
-def with_nodelet(desk: Desk) -> None:
-    desk.write(
+def with_nodelet(harness: Harness) -> None:
+    harness.write(
         "package.xml",
         '<?xml version="1.0"?><package><name>p</name>'
         '<export><nodelet plugin="${prefix}/plugins.xml"/></export></package>',
     )
-    desk.write(
+    harness.write(
         "plugins.xml",
         '<library path="lib/libfilters"><class name="p/filter" type="p::Filter" '
         'base_class_type="nodelet::Nodelet"/></library>',
     )
-    desk.write("CMakeLists.txt", CMAKE + "add_library(filters src/filter.cpp)\n")
-    desk.write("src/filter.cpp", HEAD + textwrap.dedent(NODELET))
+    harness.write("CMakeLists.txt", CMAKE + "add_library(filters src/filter.cpp)\n")
+    harness.write("src/filter.cpp", HEAD + textwrap.dedent(NODELET))
 
 
-def test_nodelets(desk: Desk) -> None:
-    with_nodelet(desk)
+def test_nodelets(harness: Harness) -> None:
+    with_nodelet(harness)
     made = [
         ("publisher", "out", "std_msgs/String"),
         ("publisher", "~own", "std_msgs/String"),
         ("subscriber", "in", "std_msgs/String"),
     ]
     node = '<node pkg="nodelet" type="nodelet" name="n" args="{args}">{inner}</node>'
-    assert ends(desk.again(node=node, args="standalone p/filter")) == made
+    assert ends(harness.again(node=node, args="standalone p/filter")) == made
     load = ("client", "manager/load_nodelet", "nodelet/NodeletLoad")
-    assert ends(desk.again(node=node, args="load p/filter manager")) == [*made, load]
-    assert ends(desk.again(node=node, args="load p/other manager")) == []
-    assert ends(desk.again(node=node, args="manager")) == []
+    assert ends(harness.again(node=node, args="load p/filter manager")) == [*made, load]
+    assert ends(harness.again(node=node, args="load p/other manager")) == []
+    assert ends(harness.again(node=node, args="manager")) == []
 
 
-def test_a_nodelet_whose_name_does_not_tell_its_package(desk: Desk) -> None:
-    with_nodelet(desk)
-    manifest = (desk.folder / "package.xml").read_text().replace("<export>", "<depend>nodelet</depend><export>")
-    desk.write("package.xml", manifest)
-    desk.write("plugins.xml", (desk.folder / "plugins.xml").read_text().replace("p/filter", "Filters/Filter"))
-    packages = find_packages([str(desk.folder)]).packages
-    desk.environment = Environment(1, "noetic", {}, (str(desk.folder),), packages, {}, (), (), None)
-    desk.analysis = SourceAnalysis(desk.environment, desk.sources)
+def test_a_nodelet_whose_name_does_not_tell_its_package(harness: Harness) -> None:
+    with_nodelet(harness)
+    manifest = (harness.folder / "package.xml").read_text().replace("<export>", "<depend>nodelet</depend><export>")
+    harness.write("package.xml", manifest)
+    harness.write("plugins.xml", (harness.folder / "plugins.xml").read_text().replace("p/filter", "Filters/Filter"))
+    packages = find_packages([str(harness.folder)]).packages
+    harness.environment = Environment(1, "noetic", {}, (str(harness.folder),), packages, {}, (), (), None)
+    harness.analysis = SourceAnalysis(harness.environment, harness.sources)
     node = '<node pkg="nodelet" type="nodelet" name="n" args="{args}">{inner}</node>'
-    assert len(ends(desk.again(node=node, args="standalone Filters/Filter"))) == 3
-    assert desk.again(node=node, args="standalone Filters/Other") is None
+    assert len(ends(harness.again(node=node, args="standalone Filters/Filter"))) == 3
+    assert harness.again(node=node, args="standalone Filters/Other") is None
 
 
-def test_a_type_of_a_package_whose_namespace_is_used(desk: Desk) -> None:
-    desk.add_package("q_msgs")
-    desk.write("q_msgs/msg/Thing.msg", "")
-    desk.add_package("r_msgs")
+def test_a_type_of_a_package_whose_namespace_is_used(harness: Harness) -> None:
+    harness.add_package("q_msgs")
+    harness.write("q_msgs/msg/Thing.msg", "")
+    harness.add_package("r_msgs")
     before = "using namespace q_msgs;\nusing namespace r_msgs;\nusing namespace std;"
     body = 'ros::NodeHandle nh; nh.advertise<Thing>("a", 1); nh.advertise<Other>("b", 1);'
-    assert desk.main(body, before) == [("publisher", "a", "q_msgs/Thing"), ("publisher", "b", None)]
+    assert harness.main(body, before) == [("publisher", "a", "q_msgs/Thing"), ("publisher", "b", None)]
 
 
-def test_nodelets_in_a_program_of_their_own(desk: Desk) -> None:
-    with_nodelet(desk)
-    assert desk.topics(
+def test_nodelets_in_a_program_of_their_own(harness: Harness) -> None:
+    with_nodelet(harness)
+    assert harness.topics(
         """
         nodelet::Loader loader;
         nodelet::M_string remap(ros::names::getRemappings());
@@ -561,9 +561,9 @@ def test_nodelets_in_a_program_of_their_own(desk: Desk) -> None:
     ) == ["~load_nodelet", "~unload_nodelet", "~list", "out", "~own", "in", "/inner/own"]
 
 
-def test_remaps_of_nodelets_in_a_program(desk: Desk) -> None:
+def test_remaps_of_nodelets_in_a_program(harness: Harness) -> None:
     assert (
-        desk.topics(
+        harness.topics(
             """
         nodelet::Loader loader(false);
         nodelet::M_string remap;
@@ -575,8 +575,8 @@ def test_remaps_of_nodelets_in_a_program(desk: Desk) -> None:
         )
         == []
     )
-    with_nodelet(desk)
-    assert [e.name for e in getattr(desk.again(), "endpoints", ())] == [
+    with_nodelet(harness)
+    assert [e.name for e in getattr(harness.again(), "endpoints", ())] == [
         "/left/out",
         "/left/own",
         "in",
@@ -585,7 +585,7 @@ def test_remaps_of_nodelets_in_a_program(desk: Desk) -> None:
     ]
 
 
-def test_arguments(desk: Desk) -> None:
+def test_arguments(harness: Harness) -> None:
     body = """
         std::vector<std::string> args;
         ros::removeROSArgs(argc, argv, args);
@@ -594,12 +594,12 @@ def test_arguments(desk: Desk) -> None:
         nh.advertise<std_msgs::String>(argv[1], 1);
         for (size_t i = 2; i < args.size(); i++) nh.advertise<std_msgs::String>(args[i], 1);
         """
-    assert desk.topics(body, args="a b c _x:=1") == ["a", "b", "c"]
-    assert desk.topics(body, args="a") == []
+    assert harness.topics(body, args="a b c _x:=1") == ["a", "b", "c"]
+    assert harness.topics(body, args="a") == []
 
 
-def test_messages_of_any_type(desk: Desk) -> None:
-    assert desk.main(
+def test_messages_of_any_type(harness: Harness) -> None:
+    assert harness.main(
         'ros::NodeHandle nh; node = &nh; nh.subscribe<topic_tools::ShapeShifter>("in", 1, boost::bind(heard, _1));',
         """
         ros::NodeHandle* node;
@@ -608,7 +608,7 @@ def test_messages_of_any_type(desk: Desk) -> None:
     ) == [("subscriber", "in", "*"), ("publisher", "out", None)]
 
 
-def test_parameters_that_are_searched_and_counted(desk: Desk) -> None:
+def test_parameters_that_are_searched_and_counted(harness: Harness) -> None:
     body = """
         ros::NodeHandle pnh("~");
         std::string key, topic;
@@ -628,58 +628,58 @@ def test_parameters_that_are_searched_and_counted(desk: Desk) -> None:
         """
     inner = '<param name="base" value="b"/><param name="input0" value="/x"/><param name="input1" value="/y"/>'
     # Another node might set the next one.
-    assert desk.topics(body, inner=inner)[:3] == ["~b", "/x", "/y"]
+    assert harness.topics(body, inner=inner)[:3] == ["~b", "/x", "/y"]
 
 
-def test_headers_of_another_package_bring_their_source(desk: Desk) -> None:
-    folder = desk.add_package("q")
-    desk.write("q/CMakeLists.txt", "add_library(q src/thing.cpp src/unrelated.cpp)\n")
-    desk.write("q/include/q/thing.h", "namespace q { class Thing { public: Thing(); }; }\n")
+def test_headers_of_another_package_bring_their_source(harness: Harness) -> None:
+    folder = harness.add_package("q")
+    harness.write("q/CMakeLists.txt", "add_library(q src/thing.cpp src/unrelated.cpp)\n")
+    harness.write("q/include/q/thing.h", "namespace q { class Thing { public: Thing(); }; }\n")
     thing = '#include "q/thing.h"\nq::Thing::Thing() { ros::NodeHandle("~").advertise<std_msgs::String>("made", 1); }\n'
-    desk.write("q/src/thing.cpp", thing)
-    desk.write("q/src/unrelated.cpp", "")
-    found = desk.read("#include <q/thing.h>\nint main() { q::Thing thing; }\n")
+    harness.write("q/src/thing.cpp", thing)
+    harness.write("q/src/unrelated.cpp", "")
+    found = harness.read("#include <q/thing.h>\nint main() { q::Thing thing; }\n")
     assert found is not None
     assert [(e.name, e.source_file) for e in found.endpoints] == [("~made", str(folder / "src/thing.cpp"))]
 
 
-def test_a_library_of_ros_in_source_form_is_known_all_the_same(desk: Desk) -> None:
-    desk.add_package("message_filters")
+def test_a_library_of_ros_in_source_form_is_known_all_the_same(harness: Harness) -> None:
+    harness.add_package("message_filters")
     header = "namespace message_filters { template <class M> class Subscriber { public: Subscriber(int a, int b); }; }"
-    desk.write("message_filters/include/message_filters/subscriber.h", header)
+    harness.write("message_filters/include/message_filters/subscriber.h", header)
     body = 'ros::NodeHandle nh; message_filters::Subscriber<std_msgs::String> sub(nh, "a", 1);'
-    assert desk.topics(body, "#include <message_filters/subscriber.h>") == ["a"]
+    assert harness.topics(body, "#include <message_filters/subscriber.h>") == ["a"]
 
 
-def test_a_program_that_is_built_is_known_by_its_source_too(desk: Desk) -> None:
-    built = desk.folder / "t"
+def test_a_program_that_is_built_is_known_by_its_source_too(harness: Harness) -> None:
+    built = harness.folder / "t"
     built.write_bytes(b"\x7fELF\2\1\1\0")
     built.chmod(0o755)
-    assert desk.launch().nodes[0].resolved.path == str(built)
-    assert desk.topics('ros::NodeHandle nh; nh.advertise<std_msgs::String>("a", 1);') == ["a"]
+    assert harness.launch().nodes[0].resolved.path == str(built)
+    assert harness.topics('ros::NodeHandle nh; nh.advertise<std_msgs::String>("a", 1);') == ["a"]
 
 
-def test_a_script_that_is_installed_under_another_name(desk: Desk) -> None:
-    desk.write("CMakeLists.txt", "install(PROGRAMS scripts/x.py DESTINATION bin RENAME t)\n")
-    desk.write("scripts/x.py", "import rospy\nfrom std_msgs.msg import String\nrospy.Publisher('a', String)\n")
-    assert ends(desk.again()) == [("publisher", "a", "std_msgs/String")]
+def test_a_script_that_is_installed_under_another_name(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", "install(PROGRAMS scripts/x.py DESTINATION bin RENAME t)\n")
+    harness.write("scripts/x.py", "import rospy\nfrom std_msgs.msg import String\nrospy.Publisher('a', String)\n")
+    assert ends(harness.again()) == [("publisher", "a", "std_msgs/String")]
 
 
-def test_remembered_until_a_file_or_a_parameter_changes(desk: Desk) -> None:
+def test_remembered_until_a_file_or_a_parameter_changes(harness: Harness) -> None:
     body = """
         ros::NodeHandle nh;
         nh.advertise<std_msgs::String>(NAME + ros::NodeHandle("~").param<std::string>("x", ""), 1);
         """
-    desk.write("include/p/name.h", 'const std::string NAME = "a";\n')
-    assert desk.topics(body, '#include "p/name.h"') == ["a"]
-    first = desk.again()
-    assert desk.again(inner='<param name="unread" value="1"/>') is first
+    harness.write("include/p/name.h", 'const std::string NAME = "a";\n')
+    assert harness.topics(body, '#include "p/name.h"') == ["a"]
+    first = harness.again()
+    assert harness.again(inner='<param name="unread" value="1"/>') is first
     inner = '<param name="x" value="b"/>'
-    assert ends(desk.again(inner=inner)) == [("publisher", "ab", "std_msgs/String")]
-    desk.write("include/p/name.h", 'const std::string NAME = "longer";\n')
-    assert ends(desk.again(inner=inner)) == [("publisher", "longerb", "std_msgs/String")]
-    desk.write("CMakeLists.txt", "project(p)\nadd_executable(t src/other.cpp)\n")
-    assert desk.again(inner=inner) is None
+    assert ends(harness.again(inner=inner)) == [("publisher", "ab", "std_msgs/String")]
+    harness.write("include/p/name.h", 'const std::string NAME = "longer";\n')
+    assert ends(harness.again(inner=inner)) == [("publisher", "longerb", "std_msgs/String")]
+    harness.write("CMakeLists.txt", "project(p)\nadd_executable(t src/other.cpp)\n")
+    assert harness.again(inner=inner) is None
 
 
 BEFORE = 'int main(int argc, char** argv) {\n  ros::NodeHandle nh;\n  nh.advertise<std_msgs::String>("before", 1);\n'
@@ -705,43 +705,43 @@ BEFORE = 'int main(int argc, char** argv) {\n  ros::NodeHandle nh;\n  nh.adverti
         "\0\x01\ufffd}",
     ],
 )
-def test_hostile_programs_end_soon_and_raise_nothing(desk: Desk, text: str) -> None:
-    before = desk.read(BEFORE + text + "\n")
+def test_hostile_programs_end_soon_and_raise_nothing(harness: Harness, text: str) -> None:
+    before = harness.read(BEFORE + text + "\n")
     assert ends(before)[:1] == ([("publisher", "before", "std_msgs/String")] if "\0" not in text else [])
 
 
-def test_any_cut_of_a_program_is_read(desk: Desk) -> None:
+def test_any_cut_of_a_program_is_read(harness: Harness) -> None:
     whole = HEAD + textwrap.dedent(NODELET) + BEFORE + "  p::Filter f; f.onInit();\n}\n"
     for end in range(0, len(whole), 23):
-        desk.read(whole[:end] + "\n" + whole[end + 11 :])
+        harness.read(whole[:end] + "\n" + whole[end + 11 :])
 
 
-def test_what_is_not_there_tells_nothing(desk: Desk) -> None:
-    assert desk.again() is None
-    desk.write("src/t.cpp", "void f() {}")
-    assert desk.again() is None
-    desk.write("CMakeLists.txt", "")
-    assert desk.again() is None
+def test_what_is_not_there_tells_nothing(harness: Harness) -> None:
+    assert harness.again() is None
+    harness.write("src/t.cpp", "void f() {}")
+    assert harness.again() is None
+    harness.write("CMakeLists.txt", "")
+    assert harness.again() is None
 
 
-def test_an_unbuilt_workspace_in_the_editor(desk: Desk) -> None:
+def test_an_unbuilt_workspace_in_the_editor(harness: Harness) -> None:
     """The node that talks is known from its source: the one that listens to something else is told what it meant."""
-    desk.write("CMakeLists.txt", CMAKE + "add_executable(l src/l.cpp)\n")
+    harness.write("CMakeLists.txt", CMAKE + "add_executable(l src/l.cpp)\n")
     talk = HEAD + 'int main() { ros::NodeHandle nh; nh.advertise<std_msgs::String>("chatter", 1); }\n'
     listen = talk.replace("advertise<std_msgs::String>", "subscribe<std_msgs::String>")
-    desk.write("src/t.cpp", talk)
-    desk.write("src/l.cpp", listen.replace("chatter", "chater"))
-    path = desk.write(
+    harness.write("src/t.cpp", talk)
+    harness.write("src/l.cpp", listen.replace("chatter", "chater"))
+    path = harness.write(
         "main.launch",
         '<launch><node pkg="p" type="t" name="t"/><node pkg="p" type="l" name="l"/></launch>',
     )
-    workspace = Workspace(desk.environment, desk.sources, str(desk.folder))
+    workspace = Workspace(harness.environment, harness.sources, str(harness.folder))
     analysis = workspace.static(str(path))
     whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
     found: dict[str, Any] = {finding.rule: finding for finding in whole.findings}
     assert found["PKG002"].severity == "info"
     assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("info", True)
-    assert ExecutableIndex(desk.environment).names("p") == ("l", "t")
+    assert ExecutableIndex(harness.environment).names("p") == ("l", "t")
     assert whole.graph is not None
     assert [each.outcome.reason for each in whole.graph.interfaces] == ["it is not built yet"] * 2
 
@@ -777,11 +777,11 @@ DRIVER = """
     """
 
 
-def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(desk: Desk) -> None:
+def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(harness: Harness) -> None:
     """A parameter names the topic that a node reads, and another node publishes it under another name."""
-    desk.write("CMakeLists.txt", "project(p)\nadd_executable(fusion f.cpp)\nadd_executable(driver d.cpp)\n")
-    desk.write("f.cpp", HEAD + textwrap.dedent(FUSION))
-    desk.write("d.cpp", HEAD + textwrap.dedent(DRIVER))
+    harness.write("CMakeLists.txt", "project(p)\nadd_executable(fusion f.cpp)\nadd_executable(driver d.cpp)\n")
+    harness.write("f.cpp", HEAD + textwrap.dedent(FUSION))
+    harness.write("d.cpp", HEAD + textwrap.dedent(DRIVER))
     text = """
         <launch>
           <node pkg="p" type="driver" name="driver"/>
@@ -790,8 +790,8 @@ def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(des
         """
 
     def dangling(topic: str) -> list[str]:
-        path = desk.write("main.launch", text % topic)
-        workspace = Workspace(desk.environment, desk.sources, str(desk.folder))
+        path = harness.write("main.launch", text % topic)
+        workspace = Workspace(harness.environment, harness.sources, str(harness.folder))
         analysis = workspace.static(str(path))
         whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
         return [finding.message for finding in whole.findings if finding.rule == "TOP001"]
@@ -802,8 +802,8 @@ def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(des
 
 
 def test_packages_are_found_as_in_a_workspace(tmp_path: Path) -> None:
-    desk = Desk(tmp_path / "src" / "p")
+    harness = Harness(tmp_path / "src" / "p")
     packages = find_packages([str(tmp_path / "src")]).packages
-    desk.environment = Environment(1, "noetic", {}, (str(tmp_path / "src"),), packages, {}, (), (), None)
-    desk.analysis = SourceAnalysis(desk.environment, desk.sources)
-    assert desk.topics('ros::NodeHandle nh; nh.advertise<std_msgs::String>("a", 1);') == ["a"]
+    harness.environment = Environment(1, "noetic", {}, (str(tmp_path / "src"),), packages, {}, (), (), None)
+    harness.analysis = SourceAnalysis(harness.environment, harness.sources)
+    assert harness.topics('ros::NodeHandle nh; nh.advertise<std_msgs::String>("a", 1);') == ["a"]

@@ -18,7 +18,7 @@ from preflight_analysis.workspace.workspace import Workspace
 HEAD = "import rospy\nfrom std_msgs.msg import String\n"
 
 
-class Desk:
+class Harness:
     """A package with a node in it."""
 
     def __init__(self, folder: Path) -> None:
@@ -60,12 +60,12 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return Desk(tmp_path)
+def harness(tmp_path: Path) -> Harness:
+    return Harness(tmp_path)
 
 
-def test_each_kind_of_end(desk: Desk) -> None:
-    assert desk.ends(
+def test_each_kind_of_end(harness: Harness) -> None:
+    assert harness.ends(
         """
         import actionlib, tf2_ros, message_filters
         from rospy import Publisher as Pub
@@ -98,8 +98,8 @@ def test_each_kind_of_end(desk: Desk) -> None:
     ]
 
 
-def test_computed_names(desk: Desk) -> None:
-    assert desk.topics(
+def test_computed_names(harness: Harness) -> None:
+    assert harness.topics(
         """
         BASE = "arm"
         NAMES = {"x": "joint_%d"}
@@ -116,8 +116,8 @@ def test_computed_names(desk: Desk) -> None:
     ) == ["arm/state", "arm/goal", "joint_3", "arm/a", "wheel0", "wheel1", "/n/own"]
 
 
-def test_objects_and_functions_are_followed_in_order(desk: Desk) -> None:
-    assert desk.topics(
+def test_objects_and_functions_are_followed_in_order(harness: Harness) -> None:
+    assert harness.topics(
         """
         class Base(object):
             SUFFIX = "_in"
@@ -144,8 +144,8 @@ def test_objects_and_functions_are_followed_in_order(desk: Desk) -> None:
     ) == ["scan_in", "laser_in", "late"]
 
 
-def test_conditions(desk: Desk) -> None:
-    assert desk.topics(
+def test_conditions(harness: Harness) -> None:
+    assert harness.topics(
         """
         if rospy.get_param("~known"):
             topic = "yes"
@@ -168,20 +168,20 @@ def test_conditions(desk: Desk) -> None:
     ) == ["yes", "one", "two", "after"], "what differs by a condition that is not known is not told"
 
 
-def test_parameters_of_the_launch_and_defaults_give_names(desk: Desk) -> None:
+def test_parameters_of_the_launch_and_defaults_give_names(harness: Harness) -> None:
     text = """
         rospy.Publisher(rospy.get_param("~topic", "fallback"), String)
         space = rospy.get_param("~space", {})
         rospy.Publisher(space.get("inner", "none"), String)
         """
-    assert desk.topics(text) == ["fallback", "none"]
+    assert harness.topics(text) == ["fallback", "none"]
     inner = '<param name="topic" value="given"/><param name="space/inner" value="deep"/>'
-    assert desk.topics(text, inner=inner) == ["given", "deep"]
-    assert desk.topics(text, args="_topic:=argued") == ["argued", "none"]
+    assert harness.topics(text, inner=inner) == ["given", "deep"]
+    assert harness.topics(text, args="_topic:=argued") == ["argued", "none"]
 
 
-def test_uses_of_parameters(desk: Desk) -> None:
-    found = desk.read(
+def test_uses_of_parameters(harness: Harness) -> None:
+    found = harness.read(
         """
         rospy.get_param("~rate", 10)
         rospy.get_param("needed")
@@ -200,9 +200,9 @@ def test_uses_of_parameters(desk: Desk) -> None:
     ]
 
 
-def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
-    cfg = desk.write("cfg/Tuning.cfg", 'gen = ParameterGenerator()\ngen.add("gain", double_t, 0, "How much", 0.5)\n')
-    found = desk.read(
+def test_parameters_of_dynamic_reconfigure(harness: Harness) -> None:
+    cfg = harness.write("cfg/Tuning.cfg", 'gen = ParameterGenerator()\ngen.add("gain", double_t, 0, "How much", 0.5)\n')
+    found = harness.read(
         """
         from dynamic_reconfigure.server import Server
         from p.cfg import TuningConfig
@@ -214,31 +214,31 @@ def test_parameters_of_dynamic_reconfigure(desk: Desk) -> None:
     assert [e.name for e in found.endpoints][:1] == ["~set_parameters"]
 
 
-def test_places(desk: Desk) -> None:
-    found = desk.read('\n\nrospy.Publisher("a", String)\n')
+def test_places(harness: Harness) -> None:
+    found = harness.read('\n\nrospy.Publisher("a", String)\n')
     assert found is not None
     (end,) = found.endpoints
-    assert (end.source_file, end.source_line) == (str(desk.folder / "node.py"), 6)
+    assert (end.source_file, end.source_line) == (str(harness.folder / "node.py"), 6)
 
 
-def test_modules_of_the_package_are_followed(desk: Desk) -> None:
-    desk.write("src/p/__init__.py", "")
-    desk.write("src/p/parts.py", HEAD + "from .more import TOPIC\ndef start():\n  rospy.Publisher(TOPIC, String)\n")
-    desk.write("src/p/more.py", 'TOPIC = "from_module"\nif __name__ == "__main__":\n  TOPIC = "wrong"\n')
-    desk.write("beside.py", HEAD + 'class Thing:\n  def __init__(self): rospy.Publisher("beside", String)\n')
+def test_modules_of_the_package_are_followed(harness: Harness) -> None:
+    harness.write("src/p/__init__.py", "")
+    harness.write("src/p/parts.py", HEAD + "from .more import TOPIC\ndef start():\n  rospy.Publisher(TOPIC, String)\n")
+    harness.write("src/p/more.py", 'TOPIC = "from_module"\nif __name__ == "__main__":\n  TOPIC = "wrong"\n')
+    harness.write("beside.py", HEAD + 'class Thing:\n  def __init__(self): rospy.Publisher("beside", String)\n')
     text = (
         "import beside\nimport p.parts\nfrom p import parts as again\np.parts.start()\nbeside.Thing()\nagain.start()\n"
     )
-    assert desk.topics(text) == ["from_module", "beside"]
+    assert harness.topics(text) == ["from_module", "beside"]
 
 
-def test_star_imports_give_types_where_one_package_has_it(desk: Desk) -> None:
+def test_star_imports_give_types_where_one_package_has_it(harness: Harness) -> None:
     text = "from std_msgs.msg import *\nrospy.Publisher('a', Bool)\nrospy.Service('s', Bool, None)\n"
-    assert desk.ends(text) == [("publisher", "a", "std_msgs/Bool"), ("service", "s", None)]
+    assert harness.ends(text) == [("publisher", "a", "std_msgs/Bool"), ("service", "s", None)]
     both = "from std_msgs.msg import *\nfrom p.msg import *\nrospy.Publisher('a', Thing)\n"
-    assert desk.ends(both) == [("publisher", "a", None)]
-    desk.write("msg/Thing.msg", "")
-    assert desk.ends(both + "#\n") == [("publisher", "a", "p/Thing")]
+    assert harness.ends(both) == [("publisher", "a", None)]
+    harness.write("msg/Thing.msg", "")
+    assert harness.ends(both + "#\n") == [("publisher", "a", "p/Thing")]
 
 
 @pytest.mark.parametrize(
@@ -252,8 +252,8 @@ def test_star_imports_give_types_where_one_package_has_it(desk: Desk) -> None:
         "raise ValueError, 'old'",
     ],
 )
-def test_what_does_not_parse_costs_no_more_than_itself(desk: Desk, broken: str) -> None:
-    assert "before" in desk.topics(f'rospy.Publisher("before", String)\n{broken}\n')
+def test_what_does_not_parse_costs_no_more_than_itself(harness: Harness, broken: str) -> None:
+    assert "before" in harness.topics(f'rospy.Publisher("before", String)\n{broken}\n')
 
 
 @pytest.mark.parametrize(
@@ -272,37 +272,37 @@ def test_what_does_not_parse_costs_no_more_than_itself(desk: Desk, broken: str) 
         "lambda x=(yield): 1",
     ],
 )
-def test_hostile_programs_end_soon_and_raise_nothing(desk: Desk, text: str) -> None:
-    assert desk.topics(f'rospy.Publisher("before", String)\n{text}\n')[:1] == ["before"]
+def test_hostile_programs_end_soon_and_raise_nothing(harness: Harness, text: str) -> None:
+    assert harness.topics(f'rospy.Publisher("before", String)\n{text}\n')[:1] == ["before"]
 
 
-def test_what_is_no_python_tells_nothing(desk: Desk) -> None:
-    desk.write("node.py", "")
-    os.chmod(desk.folder / "node.py", 0o755)
-    assert desk.again() is None
-    (desk.folder / "node.py").write_bytes(b"\x7fELF\0\0")
-    assert desk.again() is None
+def test_what_is_no_python_tells_nothing(harness: Harness) -> None:
+    harness.write("node.py", "")
+    os.chmod(harness.folder / "node.py", 0o755)
+    assert harness.again() is None
+    (harness.folder / "node.py").write_bytes(b"\x7fELF\0\0")
+    assert harness.again() is None
 
 
-def test_remembered_until_a_file_or_a_parameter_changes(desk: Desk) -> None:
-    desk.write("src/p/__init__.py", 'NAME = "a"\n')
-    first = desk.read('from p import NAME\nrospy.Publisher(NAME + rospy.get_param("~x", ""), String)\n')
+def test_remembered_until_a_file_or_a_parameter_changes(harness: Harness) -> None:
+    harness.write("src/p/__init__.py", 'NAME = "a"\n')
+    first = harness.read('from p import NAME\nrospy.Publisher(NAME + rospy.get_param("~x", ""), String)\n')
     assert first is not None and [e.name for e in first.endpoints] == ["a"]
-    assert desk.again('<param name="unread" value="1"/>') is first
-    changed = desk.again('<param name="x" value="b"/>')
+    assert harness.again('<param name="unread" value="1"/>') is first
+    changed = harness.again('<param name="x" value="b"/>')
     assert changed is not None and [e.name for e in changed.endpoints] == ["ab"]
-    desk.write("src/p/__init__.py", 'NAME = "longer"\n')
-    changed = desk.again('<param name="x" value="b"/>')
+    harness.write("src/p/__init__.py", 'NAME = "longer"\n')
+    changed = harness.again('<param name="x" value="b"/>')
     assert changed is not None and [e.name for e in changed.endpoints] == ["longerb"]
 
 
-def test_a_relay_of_a_devel_space_leads_to_the_script(desk: Desk) -> None:
-    script = desk.write("scripts/real.py", HEAD + 'rospy.Publisher("real", String)\n')
-    desk.write(
+def test_a_relay_of_a_devel_space_leads_to_the_script(harness: Harness) -> None:
+    script = harness.write("scripts/real.py", HEAD + 'rospy.Publisher("real", String)\n')
+    harness.write(
         "node.py",
         "#!/usr/bin/python3\n"
         f"python_script = '{script}'\n"
         "with open(python_script, 'r') as fh:\n    exec(compile(fh.read(), python_script, 'exec'), {})\n",
     )
-    found = desk.again()
+    found = harness.again()
     assert found is not None and [e.name for e in found.endpoints] == ["real"]

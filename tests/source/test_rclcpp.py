@@ -22,7 +22,7 @@ NODE = '<node pkg="p" exec="t" name="n">{inner}</node>'
 Ends = list[tuple[str, str, str | None]]
 
 
-class Desk:
+class Harness:
     """A workspace that was never built, with one package."""
 
     def __init__(self, folder: Path) -> None:
@@ -63,8 +63,8 @@ def params(found: Interface) -> dict[str, Any]:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return Desk(tmp_path)
+def harness(tmp_path: Path) -> Harness:
+    return Harness(tmp_path)
 
 
 CLASS = """
@@ -112,8 +112,8 @@ DRIVER = [
 ]
 
 
-def test_a_node_of_a_class_of_its_own(desk: Desk) -> None:
-    found = desk.read(CLASS + MAIN)
+def test_a_node_of_a_class_of_its_own(harness: Harness) -> None:
+    found = harness.read(CLASS + MAIN)
     assert found.source == "source"
     assert ends(found) == DRIVER
     assert all(e.inferred for e in found.endpoints)
@@ -127,8 +127,8 @@ def test_a_node_of_a_class_of_its_own(desk: Desk) -> None:
     assert (HEAD + CLASS).splitlines()[(line or 0) - 1].strip().startswith("maps_ =")
 
 
-def test_what_the_launch_file_sets_decides(desk: Desk) -> None:
-    found = desk.read(CLASS + MAIN, '<param name="service" value="false"/><param name="cmd_topic" value="drive"/>')
+def test_what_the_launch_file_sets_decides(harness: Harness) -> None:
+    found = harness.read(CLASS + MAIN, '<param name="service" value="false"/><param name="cmd_topic" value="drive"/>')
     names = [e.name for e in found.endpoints]
     assert "drive" in names and "cmd_vel" not in names and "~/reset" not in names
 
@@ -142,25 +142,25 @@ rclcpp_components_register_node(driver PLUGIN "${PROJECT_NAME}::Driver" EXECUTAB
 """
 
 
-def test_a_component(desk: Desk) -> None:
-    desk.write("CMakeLists.txt", LIBRARY)
-    assert ends(desk.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
+def test_a_component(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", LIBRARY)
+    assert ends(harness.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
 
 
-def test_the_executable_of_a_component(desk: Desk) -> None:
-    desk.write("CMakeLists.txt", LIBRARY)
-    assert ends(desk.read(CLASS + REGISTER)) == DRIVER
-    _, findings = desk.start(NODE.format(inner=""))
+def test_the_executable_of_a_component(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", LIBRARY)
+    assert ends(harness.read(CLASS + REGISTER)) == DRIVER
+    _, findings = harness.start(NODE.format(inner=""))
     assert [(f.rule, f.severity) for f in findings if f.rule == "PKG002"] == [("PKG002", "info")]
 
 
-def test_a_component_that_only_its_source_tells_of(desk: Desk) -> None:
-    desk.write("CMakeLists.txt", "project(p)\nadd_library(driver SHARED src/t.cpp)\nour_macro(driver)\n")
-    assert ends(desk.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
+def test_a_component_that_only_its_source_tells_of(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", "project(p)\nadd_library(driver SHARED src/t.cpp)\nour_macro(driver)\n")
+    assert ends(harness.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
 
 
-def test_targets_made_by_a_function_with_keywords(desk: Desk) -> None:
-    desk.write(
+def test_targets_made_by_a_function_with_keywords(harness: Harness) -> None:
+    harness.write(
         "CMakeLists.txt",
         """
         function(our_library plugin executable)
@@ -172,11 +172,11 @@ def test_targets_made_by_a_function_with_keywords(desk: Desk) -> None:
         our_library("p::Driver" t FILES src/t.cpp DEPENDENCIES rclcpp::rclcpp)
         """,
     )
-    assert ends(desk.read(CLASS + REGISTER)) == DRIVER
+    assert ends(harness.read(CLASS + REGISTER)) == DRIVER
 
 
-def test_targets_made_of_a_folder(desk: Desk) -> None:
-    desk.write(
+def test_targets_made_of_a_folder(harness: Harness) -> None:
+    harness.write(
         "CMakeLists.txt",
         """
         project(p)
@@ -184,10 +184,10 @@ def test_targets_made_of_a_folder(desk: Desk) -> None:
         rclcpp_components_register_node(driver PLUGIN "p::Driver" EXECUTABLE t)
         """,
     )
-    assert ends(desk.read(CLASS + REGISTER)) == DRIVER
+    assert ends(harness.read(CLASS + REGISTER)) == DRIVER
 
 
-def test_a_base_class_of_another_package(desk: Desk) -> None:
+def test_a_base_class_of_another_package(harness: Harness) -> None:
     base = """
         #pragma once
         namespace project::filters {
@@ -202,11 +202,11 @@ def test_a_base_class_of_another_package(desk: Desk) -> None:
         project::filters::Filter::Filter(const std::string & name, const rclcpp::NodeOptions & options)
         : Node(name, options) { pub_ = create_publisher<std_msgs::msg::String>("output", 1); }
         """
-    desk.write("../project_filters/package.xml", MANIFEST.replace("<name>p<", "<name>project_filters<"))
-    desk.write("../project_filters/CMakeLists.txt", "add_library(filters src/filter.cpp)\n")
-    desk.write("../project_filters/include/project/filters/filter.hpp", base)
-    desk.write("../project_filters/src/filter.cpp", made)
-    found = desk.main(
+    harness.write("../project_filters/package.xml", MANIFEST.replace("<name>p<", "<name>project_filters<"))
+    harness.write("../project_filters/CMakeLists.txt", "add_library(filters src/filter.cpp)\n")
+    harness.write("../project_filters/include/project/filters/filter.hpp", base)
+    harness.write("../project_filters/src/filter.cpp", made)
+    found = harness.main(
         'auto n = std::make_shared<Crop>("crop", rclcpp::NodeOptions());',
         before="""
         #include "project/filters/filter.hpp"
@@ -219,7 +219,7 @@ def test_a_base_class_of_another_package(desk: Desk) -> None:
     assert params(found) == {"~size": 1.0}
 
 
-def test_a_base_class_that_is_not_there(desk: Desk) -> None:
+def test_a_base_class_that_is_not_there(harness: Harness) -> None:
     before = """
         class Driver : public vendor::DriverNode {
         public:
@@ -229,12 +229,12 @@ def test_a_base_class_that_is_not_there(desk: Desk) -> None:
           }
         };
         """
-    found = desk.main("auto driver = std::make_shared<Driver>();", before=before)
+    found = harness.main("auto driver = std::make_shared<Driver>();", before=before)
     assert [e.name for e in found.endpoints] == ["state"]
     assert [use.name for use in found.params] == ["/", "~rate"]
 
 
-def test_what_a_class_has_in_the_place_of_a_method_of_rclcpp(desk: Desk) -> None:
+def test_what_a_class_has_in_the_place_of_a_method_of_rclcpp(harness: Harness) -> None:
     before = """
         class Base : public rclcpp::Node {
         public:
@@ -251,26 +251,26 @@ def test_what_a_class_has_in_the_place_of_a_method_of_rclcpp(desk: Desk) -> None
           }
         };
         """
-    found = desk.main("auto driver = std::make_shared<Driver>();", before=before)
+    found = harness.main("auto driver = std::make_shared<Driver>();", before=before)
     assert ends(found) == [("publisher", "state", "std_msgs/msg/String")]
     assert params(found) == {"~introspection": False}
-    text = (desk.folder / "src/p/src/t.cpp").read_text().splitlines()
+    text = (harness.folder / "src/p/src/t.cpp").read_text().splitlines()
     assert '("state")' in text[(found.endpoints[0].source_line or 0) - 1]
 
 
-def test_the_type_of_an_action_is_as_ros_2_has_it(desk: Desk) -> None:
-    desk.write("CMakeLists.txt", CMAKE)
-    desk.read(CLASS + MAIN)
-    environment = detect_environment(str(desk.folder), {}, root=str(desk.folder / "nothing"))
+def test_the_type_of_an_action_is_as_ros_2_has_it(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", CMAKE)
+    harness.read(CLASS + MAIN)
+    environment = detect_environment(str(harness.folder), {}, root=str(harness.folder / "nothing"))
     workspace = Workspace(environment, Sources())
-    analysis = workspace.static(str(desk.folder / "src/p/main.launch.xml"))
+    analysis = workspace.static(str(harness.folder / "src/p/main.launch.xml"))
     graph = workspace.with_interfaces(analysis, [NOT_RUN], "not run here").graph
     assert graph is not None
     offers = [offer.endpoint.type for offer in graph.actions["/navigate"].offers]
     assert offers == ["nav2_msgs/action/NavigateToPose"]
 
 
-def test_parameters_of_a_mode_that_is_off_are_declared_by_name(desk: Desk) -> None:
+def test_parameters_of_a_mode_that_is_off_are_declared_by_name(harness: Harness) -> None:
     body = """
         if (node->declare_parameter("filter", false)) {
           node->declare_parameter("width", 1.5);
@@ -283,22 +283,22 @@ def test_parameters_of_a_mode_that_is_off_are_declared_by_name(desk: Desk) -> No
         node->declare_parameter("height", 0.5);
         auto late = node->create_publisher<std_msgs::msg::String>("late", 1);
         """
-    found = desk.main(body)
+    found = harness.main(body)
     assert params(found) == {"~filter": False, "~rate": 2.0, "~width": 1.5, "~height": 0.5}
     assert ends(found) == []
-    on = desk.main(body, '<param name="filter" value="true"/>')
+    on = harness.main(body, '<param name="filter" value="true"/>')
     assert params(on) == {"~filter": False, "~rate": 7, "~width": 1.5, "~height": 0.5}
     assert [e.name for e in on.endpoints] == ["filtered", "late"]
 
 
-def test_parameters_after_two_ways_out(desk: Desk) -> None:
+def test_parameters_after_two_ways_out(harness: Harness) -> None:
     body = """
         if (!node->declare_parameter("first", false)) { throw std::runtime_error("first"); }
         if (!node->declare_parameter("second", false)) { throw std::runtime_error("second"); }
         if (node->declare_parameter("third", true)) { node->declare_parameter("a", 1.0); }
         else { node->declare_parameter("b", 1.0); }
         """
-    assert list(params(desk.main(body))) == ["~first", "~second", "~third", "~a", "~b"]
+    assert list(params(harness.main(body))) == ["~first", "~second", "~third", "~a", "~b"]
 
 
 LIFECYCLE = """
@@ -319,8 +319,8 @@ int main(int, char **) { auto node = std::make_shared<Talker>(); rclcpp::spin(no
 """
 
 
-def test_what_a_lifecycle_node_makes_once_it_is_configured(desk: Desk) -> None:
-    found = desk.read(LIFECYCLE)
+def test_what_a_lifecycle_node_makes_once_it_is_configured(harness: Harness) -> None:
+    found = harness.read(LIFECYCLE)
     assert ends(found) == [("publisher", "robot/chatter", "std_msgs/msg/String")]
     (publisher,) = (e for e in found.endpoints if e.role == "publisher")
     assert publisher.qos == {"reliability": "best_effort", "durability": "volatile", "depth": 3}
@@ -343,21 +343,21 @@ def test_what_a_lifecycle_node_makes_once_it_is_configured(desk: Desk) -> None:
         ),
     ],
 )
-def test_qos(desk: Desk, qos: str, expected: dict[str, Any]) -> None:
-    found = desk.main(f'auto pub = node->create_publisher<std_msgs::msg::String>("a", {qos});')
+def test_qos(harness: Harness, qos: str, expected: dict[str, Any]) -> None:
+    found = harness.main(f'auto pub = node->create_publisher<std_msgs::msg::String>("a", {qos});')
     assert dict(found.endpoints[0].qos) == expected
 
 
-def test_qos_that_depends_on_what_is_not_known(desk: Desk) -> None:
+def test_qos_that_depends_on_what_is_not_known(harness: Harness) -> None:
     body = """
         rclcpp::QoS qos(5);
         if (std::getenv("LATCH")) { qos.transient_local(); }
         auto pub = node->create_publisher<std_msgs::msg::String>("a", qos);
         """
-    assert dict(desk.main(body).endpoints[0].qos) == {}
+    assert dict(harness.main(body).endpoints[0].qos) == {}
 
 
-def test_libraries_that_get_the_node(desk: Desk) -> None:
+def test_libraries_that_get_the_node(harness: Harness) -> None:
     body = """
         tf2_ros::TransformBroadcaster broadcaster(node);
         message_filters::Subscriber<sensor_msgs::msg::Image> filtered(node.get(), "left", rmw_qos_profile_sensor_data);
@@ -365,7 +365,7 @@ def test_libraries_that_get_the_node(desk: Desk) -> None:
         auto camera = image_transport::create_camera_subscription(node.get(), "cam/image", cb, "raw");
         auto action = rclcpp_action::create_client<example::action::Fly>(node, "fly");
         """
-    assert ends(desk.main(body)) == [
+    assert ends(harness.main(body)) == [
         ("publisher", "/tf", "tf2_msgs/msg/TFMessage"),
         ("subscriber", "left", "sensor_msgs/msg/Image"),
         ("subscriber", "cam/image", "sensor_msgs/msg/Image"),
@@ -374,7 +374,7 @@ def test_libraries_that_get_the_node(desk: Desk) -> None:
     ]
 
 
-def test_ways_to_declare_parameters(desk: Desk) -> None:
+def test_ways_to_declare_parameters(harness: Harness) -> None:
     body = """
         double rate = 10;
         int size;
@@ -389,7 +389,7 @@ def test_ways_to_declare_parameters(desk: Desk) -> None:
         nav2_util::declare_parameter_if_not_declared(node, "tolerance", rclcpp::ParameterValue(0.2));
         auto pub = node->create_publisher<std_msgs::msg::String>("a" + std::to_string(size), 1);
         """
-    found = desk.main(body, '<param name="size" value="7"/>')
+    found = harness.main(body, '<param name="size" value="7"/>')
     assert params(found) == {
         "~rate": 10.0,
         "~size": 3,
@@ -414,31 +414,31 @@ def test_ways_to_declare_parameters(desk: Desk) -> None:
         'pluginlib::ClassLoader<nav2_core::Controller> loader("nav2_core", "nav2_core::Controller");',
     ],
 )
-def test_nothing_is_undeclared_where_not_all_is_known(desk: Desk, body: str) -> None:
-    found = desk.main('node->declare_parameter("a", 1);\n' + body, '<param name="zzz" value="7"/>')
+def test_nothing_is_undeclared_where_not_all_is_known(harness: Harness, body: str) -> None:
+    found = harness.main('node->declare_parameter("a", 1);\n' + body, '<param name="zzz" value="7"/>')
     assert ("list", "/") in [(use.access, use.name) for use in found.params]
-    assert not [f for f in desk.start(NODE.format(inner='<param name="zzz" value="7"/>'))[1] if f.rule == "PRM013"]
+    assert not [f for f in harness.start(NODE.format(inner='<param name="zzz" value="7"/>'))[1] if f.rule == "PRM013"]
 
 
-def test_a_parameter_that_is_not_declared(desk: Desk) -> None:
+def test_a_parameter_that_is_not_declared(harness: Harness) -> None:
     inner = '<param name="max_presure" value="4.5"/>'
-    found = desk.main('node->declare_parameter("max_pressure", 1.0);', inner)
+    found = harness.main('node->declare_parameter("max_pressure", 1.0);', inner)
     assert params(found) == {"~max_pressure": 1.0}
-    findings = [f for f in desk.start(NODE.format(inner=inner))[1] if f.rule == "PRM013"]
+    findings = [f for f in harness.start(NODE.format(inner=inner))[1] if f.rule == "PRM013"]
     assert ["did you mean 'max_pressure'?" in f.message for f in findings] == [True]
 
 
-def test_a_second_node_with_arguments_of_its_own(desk: Desk) -> None:
+def test_a_second_node_with_arguments_of_its_own(harness: Harness) -> None:
     body = """
         auto options = rclcpp::NodeOptions().arguments({"--ros-args", "-r", "__ns:=/maps", "-r", "__node:=local"});
         auto other = std::make_shared<rclcpp::Node>("other", options);
         auto a = other->create_publisher<std_msgs::msg::String>("grid", 1);
         auto b = other->create_publisher<std_msgs::msg::String>("~/info", 1);
         """
-    assert [e.name for e in desk.main(body).endpoints] == ["/maps/grid", "/maps/local/info"]
+    assert [e.name for e in harness.main(body).endpoints] == ["/maps/grid", "/maps/local/info"]
 
 
-def test_a_base_of_the_same_name_in_another_namespace(desk: Desk) -> None:
+def test_a_base_of_the_same_name_in_another_namespace(harness: Harness) -> None:
     before = """
         namespace ours {
         class Node : public rclcpp::Node {
@@ -451,7 +451,7 @@ def test_a_base_of_the_same_name_in_another_namespace(desk: Desk) -> None:
         };
         }
         """
-    found = desk.main('auto ours = std::make_shared<ours::Node>("x");', before=before)
+    found = harness.main('auto ours = std::make_shared<ours::Node>("x");', before=before)
     assert [e.name for e in found.endpoints] == ["default"]
 
 
@@ -486,10 +486,10 @@ int main() { rclcpp::spin(std::make_shared<Battery>()); }
 """
 
 
-def test_parameters_of_a_generated_library(desk: Desk) -> None:
-    desk.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
-    desk.write("src/battery.yaml", LIBRARY_YAML)
-    found = desk.read(LISTENING, '<param name="topics.state" value="front"/>')
+def test_parameters_of_a_generated_library(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
+    harness.write("src/battery.yaml", LIBRARY_YAML)
+    found = harness.read(LISTENING, '<param name="topics.state" value="front"/>')
     assert params(found) == {"~rate": 10.0, "~topics.state": "state", "~gains": [1.0, 0.5], "~device": None}
     assert ends(found) == [("publisher", "front", "std_msgs/msg/String")]
     about = {use.name: (use.type, use.read_only, use.range) for use in found.params}
@@ -507,14 +507,14 @@ def test_parameters_of_a_generated_library(desk: Desk) -> None:
 @pytest.mark.parametrize(
     "text", ["battery:\n  __map_joints:\n    k: {type: double}\n", "- a\n", "{{", "other: {a: 1}\n"]
 )
-def test_a_generated_library_that_does_not_tell_all_names(desk: Desk, text: str) -> None:
-    desk.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
-    desk.write("src/battery.yaml", text)
-    assert ("list", "/") in [(use.access, use.name) for use in desk.read(LISTENING).params]
+def test_a_generated_library_that_does_not_tell_all_names(harness: Harness, text: str) -> None:
+    harness.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
+    harness.write("src/battery.yaml", text)
+    assert ("list", "/") in [(use.access, use.name) for use in harness.read(LISTENING).params]
 
 
-def test_descriptors_of_parameters(desk: Desk) -> None:
-    found = desk.read(
+def test_descriptors_of_parameters(harness: Harness) -> None:
+    found = harness.read(
         """
         #include <rclcpp/rclcpp.hpp>
         class Battery : public rclcpp::Node {
@@ -549,8 +549,8 @@ def test_descriptors_of_parameters(desk: Desk) -> None:
     }
 
 
-def test_an_empty_default_has_the_type_of_the_template_argument(desk: Desk) -> None:
-    found = desk.main('node->declare_parameter<std::string>("a", {}); node->declare_parameter<double>("b", {});')
+def test_an_empty_default_has_the_type_of_the_template_argument(harness: Harness) -> None:
+    found = harness.main('node->declare_parameter<std::string>("a", {}); node->declare_parameter<double>("b", {});')
     assert {use.name: use.default for use in found.params} == {"~a": "", "~b": 0.0}
 
 
@@ -558,7 +558,9 @@ def test_an_empty_default_has_the_type_of_the_template_argument(desk: Desk) -> N
     ("option", "dynamic"),
     [("automatically_declare_parameters_from_overrides", True), ("allow_undeclared_parameters", False)],
 )
-def test_parameters_that_are_declared_from_overrides_have_their_type(desk: Desk, option: str, dynamic: bool) -> None:
+def test_parameters_that_are_declared_from_overrides_have_their_type(
+    harness: Harness, option: str, dynamic: bool
+) -> None:
     body = """
     class Own : public rclcpp::Node {
     public:
@@ -572,13 +574,13 @@ def test_parameters_that_are_declared_from_overrides_have_their_type(desk: Desk,
       rclcpp::spin(std::make_shared<Own>(options));
     }
     """
-    found = desk.read(body % option)
+    found = harness.read(body % option)
     assert {use.name: use.dynamic for use in found.params if use.access == "get"} == {"~rate": dynamic}
     assert "list" in {use.access for use in found.params}
 
 
-def test_a_container_of_its_own_whose_constructor_stands_in_a_header(desk: Desk) -> None:
-    desk.write(
+def test_a_container_of_its_own_whose_constructor_stands_in_a_header(harness: Harness) -> None:
+    harness.write(
         "include/p/container.hpp",
         """
         #include <rclcpp_components/component_manager.hpp>
@@ -596,7 +598,7 @@ def test_a_container_of_its_own_whose_constructor_stands_in_a_header(desk: Desk)
         }
         """,
     )
-    found = desk.read(
+    found = harness.read(
         """
         #include "p/container.hpp"
         int main(int argc, char ** argv) {
@@ -631,9 +633,9 @@ def test_parameters_of_a_node_with_unknown_arguments_may_be_those_of_the_launch_
       rclcpp::spin(std::make_shared<Own>(options));
     }
     """
-    desk = Desk(tmp_path)
-    desk.write("src/t.cpp", HEAD + textwrap.dedent(body))
-    found, findings = desk.start(NODE.format(inner='<param name="frame" value="odom"/>'))
+    harness = Harness(tmp_path)
+    harness.write("src/t.cpp", HEAD + textwrap.dedent(body))
+    found, findings = harness.start(NODE.format(inner='<param name="frame" value="odom"/>'))
     assert ("/", "list") in {(use.name, use.access) for use in found.params}
     assert "PRM013" not in {finding.rule for finding in findings}
 
@@ -655,8 +657,8 @@ def test_a_constructor_that_is_not_found_may_declare_anything(tmp_path: Path) ->
       auto own = std::make_shared<Own>(rclcpp::NodeOptions());
     }
     """
-    desk = Desk(tmp_path)
+    harness = Harness(tmp_path)
     for text, told in ((body, False), (body.replace("& options);", '& options) : Node("own"), Base(*this) {}'), True)):
-        desk.write("src/t.cpp", HEAD + textwrap.dedent(text))
-        findings = desk.start(NODE.format(inner='<param name="frame" value="odom"/>'))[1]
+        harness.write("src/t.cpp", HEAD + textwrap.dedent(text))
+        findings = harness.start(NODE.format(inner='<param name="frame" value="odom"/>'))[1]
         assert ("PRM013" in {finding.rule for finding in findings}) is told

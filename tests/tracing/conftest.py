@@ -7,9 +7,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from made_once import made_once
 from preflight_analysis.tracing import sandbox
-from tracing_desk import known_backends
+from support.build_once import build_once
+from support.tracing_harness import known_backends
 
 LIBRARIES = (
     "actionlib",
@@ -29,7 +29,7 @@ LIBRARIES = (
 @pytest.fixture(scope="session")
 def package() -> Path:
     """A package with the nodes of `roscpp_node.cpp` and `roscpp_waits.cpp`."""
-    return made_once("packages", lambda folder: _compile(folder / "compiled")) / "compiled"
+    return build_once("packages", lambda folder: _compile(folder / "compiled")) / "compiled"
 
 
 def _compile(folder: Path) -> None:

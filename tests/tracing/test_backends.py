@@ -11,13 +11,22 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, closing
 from pathlib import Path
 
-import attacks
 import pytest
 from preflight_analysis.tracing import landlock, run, sandbox, seccomp
 from preflight_analysis.tracing.backend import AGENTS, View
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, known_backends, own, processes_with, request, trace, working_backends, write_node
+from support.tracing_harness import (
+    environment,
+    known_backends,
+    own,
+    processes_with,
+    request,
+    trace,
+    working_backends,
+    write_node,
+)
+from tools import attacks
 
 pytestmark = pytest.mark.ros
 

@@ -17,7 +17,7 @@ import pytest
 from preflight_analysis.tracing import run
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, processes_with, request, trace, write_node
+from support.tracing_harness import environment, own, processes_with, request, trace, write_node
 
 pytestmark = pytest.mark.ros
 

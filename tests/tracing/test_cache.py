@@ -23,7 +23,7 @@ from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.preload import MOST_KEPT, Library
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, hammer_cache, own, request, write_node
+from support.tracing_harness import environment, hammer_cache, own, request, write_node
 
 pytestmark = pytest.mark.ros
 
@@ -37,7 +37,7 @@ rospy.spin()
 """
 
 
-class Desk:
+class Harness:
     """A node with a module and a data file beside it, a tracer with a cache."""
 
     def __init__(self, folder: Path) -> None:
@@ -63,61 +63,61 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    desk = Desk(tmp_path)
-    assert not desk.trace().cached
-    return desk
+def harness(tmp_path: Path) -> Harness:
+    harness = Harness(tmp_path)
+    assert not harness.trace().cached
+    return harness
 
 
 def rewrite(path: Path, text: str) -> None:
     path.write_text(text)
 
 
-def test_the_same_again_needs_no_run(desk: Desk) -> None:
-    first = Tracer(desk.tracer.environment, None).trace(desk.request, threading.Event())
-    again = desk.trace()
+def test_the_same_again_needs_no_run(harness: Harness) -> None:
+    first = Tracer(harness.tracer.environment, None).trace(harness.request, threading.Event())
+    again = harness.trace()
     assert again.cached
     assert (own(again), again.params) == (own(first), first.params)
     assert dataclasses.replace(again.outcome, seconds=0) == dataclasses.replace(first.outcome, seconds=0)
 
 
-def test_a_changed_module_data_file_or_script(desk: Desk) -> None:
+def test_a_changed_module_data_file_or_script(harness: Harness) -> None:
     for path, text in (
-        (desk.settings, "topic = 'olds'\n"),
-        (desk.data, "a: 2\n"),
-        (desk.script, desk.script.read_text() + "\n"),
+        (harness.settings, "topic = 'olds'\n"),
+        (harness.data, "a: 2\n"),
+        (harness.script, harness.script.read_text() + "\n"),
     ):
         before = path.read_text()
         rewrite(path, text)
-        assert not desk.hit(), path
+        assert not harness.hit(), path
         rewrite(path, before)
-        assert desk.hit(), path
-    desk.data.unlink()
-    assert not desk.hit()
+        assert harness.hit(), path
+    harness.data.unlink()
+    assert not harness.hit()
 
 
-def test_a_file_that_it_did_not_load_does_not_matter(desk: Desk) -> None:
-    (desk.package / "unrelated.py").write_text("x = 1\n")
-    assert desk.hit()
+def test_a_file_that_it_did_not_load_does_not_matter(harness: Harness) -> None:
+    (harness.package / "unrelated.py").write_text("x = 1\n")
+    assert harness.hit()
 
 
-def test_parameters_matter_only_if_read(desk: Desk) -> None:
-    params = dict(desk.request.params)
-    assert desk.hit(params=params | {"/node/unread": 2, "/new": 3})
-    assert not desk.hit(params=params | {"/node/size": 6})
-    assert not desk.hit(params={"/other": "x"})
-    assert not desk.hit(params=params | {"/use_sim_time": True})
+def test_parameters_matter_only_if_read(harness: Harness) -> None:
+    params = dict(harness.request.params)
+    assert harness.hit(params=params | {"/node/unread": 2, "/new": 3})
+    assert not harness.hit(params=params | {"/node/size": 6})
+    assert not harness.hit(params={"/other": "x"})
+    assert not harness.hit(params=params | {"/use_sim_time": True})
 
 
-def test_name_namespace_and_remaps_matter_only_if_asked_for(desk: Desk, tmp_path: Path) -> None:
-    assert desk.hit(remaps=(("news", "/elsewhere"),))
-    assert desk.hit(node="/ns/other", params={"/ns/other/size": 5})
-    assert not desk.hit(node="/ns/other"), "its parameter is not set there"
-    assert not desk.hit(remaps=(("~size", "/nothing"),)), "its parameter is read elsewhere"
+def test_name_namespace_and_remaps_matter_only_if_asked_for(harness: Harness, tmp_path: Path) -> None:
+    assert harness.hit(remaps=(("news", "/elsewhere"),))
+    assert harness.hit(node="/ns/other", params={"/ns/other/size": 5})
+    assert not harness.hit(node="/ns/other"), "its parameter is not set there"
+    assert not harness.hit(remaps=(("~size", "/nothing"),)), "its parameter is read elsewhere"
 
     curious = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nrospy.get_name()\nrospy.spin()\n", "curious.py")
     asked = request(curious)
-    tracer = Tracer(environment(tmp_path), desk.cache)
+    tracer = Tracer(environment(tmp_path), harness.cache)
     os.utime(curious, (0, 0))
     tracer.trace(asked, threading.Event())
     assert tracer.lookup(asked)
@@ -125,20 +125,20 @@ def test_name_namespace_and_remaps_matter_only_if_asked_for(desk: Desk, tmp_path
     assert not tracer.lookup(dataclasses.replace(asked, node="/renamed"))
 
 
-def test_arguments_environment_and_executable_name_the_run(desk: Desk, tmp_path: Path) -> None:
-    assert not desk.hit(args=("--fast",))
-    assert not desk.hit(env=(("MODE", "x"),))
-    assert not desk.hit(cwd="node")
-    assert not desk.hit(executable="/usr/lib/rosout/rosout")
-    other = Tracer(environment(desk.package, variables={"ROS_DISTRO": "melodic"}), desk.cache)
-    assert other.lookup(desk.request) is None
+def test_arguments_environment_and_executable_name_the_run(harness: Harness, tmp_path: Path) -> None:
+    assert not harness.hit(args=("--fast",))
+    assert not harness.hit(env=(("MODE", "x"),))
+    assert not harness.hit(cwd="node")
+    assert not harness.hit(executable="/usr/lib/rosout/rosout")
+    other = Tracer(environment(harness.package, variables={"ROS_DISTRO": "melodic"}), harness.cache)
+    assert other.lookup(harness.request) is None
 
 
-def test_two_nodes_of_one_executable_are_cached_side_by_side(desk: Desk) -> None:
-    other = dataclasses.replace(desk.request, params={"/node/size": 7})
-    assert not desk.trace(other).cached
-    assert desk.trace().cached
-    assert desk.trace(other).cached
+def test_two_nodes_of_one_executable_are_cached_side_by_side(harness: Harness) -> None:
+    other = dataclasses.replace(harness.request, params={"/node/size": 7})
+    assert not harness.trace(other).cached
+    assert harness.trace().cached
+    assert harness.trace(other).cached
 
 
 def test_a_crash_is_cached_until_the_missing_module_turns_up(tmp_path: Path) -> None:
@@ -156,20 +156,20 @@ def test_a_crash_is_cached_until_the_missing_module_turns_up(tmp_path: Path) -> 
     assert tracer.lookup(request(script)) is None
 
 
-def test_what_was_not_run_is_not_cached(desk: Desk, tmp_path: Path) -> None:
+def test_what_was_not_run_is_not_cached(harness: Harness, tmp_path: Path) -> None:
     cancelled = threading.Event()
     cancelled.set()
-    other = dataclasses.replace(desk.request, args=("x",))
-    assert desk.tracer.trace(other, cancelled).outcome.status == "not-run"
-    assert desk.tracer.lookup(other) is None
+    other = dataclasses.replace(harness.request, args=("x",))
+    assert harness.tracer.trace(other, cancelled).outcome.status == "not-run"
+    assert harness.tracer.lookup(other) is None
 
 
-def test_a_file_saved_during_the_run_is_not_cached(desk: Desk) -> None:
-    recipe = make(desk.tracer.environment, desk.request)
+def test_a_file_saved_during_the_run_is_not_cached(harness: Harness) -> None:
+    recipe = make(harness.tracer.environment, harness.request)
     spinning = Interface("trace", Outcome("spinning"))
-    changed = Dependencies(files=(str(desk.settings),))
-    os.utime(desk.settings)
-    kept = desk.cache.store(recipe, desk.request, spinning, changed, started=time.time() - 60)
+    changed = Dependencies(files=(str(harness.settings),))
+    os.utime(harness.settings)
+    kept = harness.cache.store(recipe, harness.request, spinning, changed, started=time.time() - 60)
     assert not kept
 
 
@@ -187,27 +187,27 @@ def entries(cache: TraceCache) -> list[Path]:
         b"[" * 100_000,
     ],
 )
-def test_a_damaged_entry_is_a_miss(desk: Desk, damage: bytes) -> None:
-    (path,) = entries(desk.cache)
+def test_a_damaged_entry_is_a_miss(harness: Harness, damage: bytes) -> None:
+    (path,) = entries(harness.cache)
     path.write_bytes(damage)
-    assert not desk.hit()
-    assert not desk.trace().cached
-    assert desk.hit()
+    assert not harness.hit()
+    assert not harness.trace().cached
+    assert harness.hit()
 
 
-def test_a_truncated_entry_is_a_miss(desk: Desk) -> None:
-    (path,) = entries(desk.cache)
+def test_a_truncated_entry_is_a_miss(harness: Harness) -> None:
+    (path,) = entries(harness.cache)
     whole = path.read_bytes()
     for length in range(0, len(whole), 97):
         path.write_bytes(whole[:length])
-        assert not desk.hit()
+        assert not harness.hit()
 
 
-def test_an_entry_of_the_wrong_shape_is_a_miss(desk: Desk) -> None:
+def test_an_entry_of_the_wrong_shape_is_a_miss(harness: Harness) -> None:
     import hashlib
     import json
 
-    (path,) = entries(desk.cache)
+    (path,) = entries(harness.cache)
     entry = json.loads(path.read_bytes().partition(b"\n")[2])
     for change in (
         {"dependencies": {}},
@@ -219,14 +219,14 @@ def test_an_entry_of_the_wrong_shape_is_a_miss(desk: Desk) -> None:
     ):
         data = json.dumps(entry | change).encode()
         path.write_bytes(hashlib.sha256(data).hexdigest().encode() + b"\n" + data)
-        assert not desk.hit(), change
+        assert not harness.hit(), change
 
 
 def test_a_folder_that_cannot_be_written_costs_the_cache_alone(tmp_path: Path) -> None:
-    desk = Desk(tmp_path)
+    harness = Harness(tmp_path)
     (tmp_path / "cache").write_text("a file where the folder should be")
-    assert desk.trace().outcome.status == "spinning"
-    assert not desk.hit()
+    assert harness.trace().outcome.status == "spinning"
+    assert not harness.hit()
 
 
 INTERFACE = Interface(
@@ -238,19 +238,19 @@ INTERFACE = Interface(
 )
 
 
-def test_everything_survives_the_way_to_disk_and_back(desk: Desk) -> None:
-    other = dataclasses.replace(desk.request, args=("other",))
-    recipe = make(desk.tracer.environment, other)
+def test_everything_survives_the_way_to_disk_and_back(harness: Harness) -> None:
+    other = dataclasses.replace(harness.request, args=("other",))
+    recipe = make(harness.tracer.environment, other)
     looks = Dependencies((), (ParamDependency("list", "/", True), ParamDependency("search", "size", True)))
-    assert desk.cache.store(recipe, other, INTERFACE, looks, started=time.time())
-    assert desk.cache.load(recipe, other) == dataclasses.replace(INTERFACE, cached=True)
-    assert desk.cache.load(recipe, dataclasses.replace(other, params={})) is None
+    assert harness.cache.store(recipe, other, INTERFACE, looks, started=time.time())
+    assert harness.cache.load(recipe, other) == dataclasses.replace(INTERFACE, cached=True)
+    assert harness.cache.load(recipe, dataclasses.replace(other, params={})) is None
 
 
-def test_the_least_recently_used_goes_first(desk: Desk, tmp_path: Path) -> None:
+def test_the_least_recently_used_goes_first(harness: Harness, tmp_path: Path) -> None:
     cache = TraceCache(tmp_path / "small", max_bytes=1)
-    requests = [dataclasses.replace(desk.request, args=(str(n),)) for n in range(6)]
-    recipes = [make(desk.tracer.environment, r) for r in requests]
+    requests = [dataclasses.replace(harness.request, args=(str(n),)) for n in range(6)]
+    recipes = [make(harness.tracer.environment, r) for r in requests]
     cache.max_bytes = 10**9
     for n, (recipe, asked) in enumerate(zip(recipes, requests, strict=True)):
         cache.store(recipe, asked, INTERFACE, Dependencies(), started=time.time())
@@ -264,10 +264,10 @@ def test_the_least_recently_used_goes_first(desk: Desk, tmp_path: Path) -> None:
     assert [n for n in range(6) if cache.load(recipes[n], requests[n])] == [0, 4, 5]
 
 
-def test_several_processes_at_once(desk: Desk, tmp_path: Path) -> None:
+def test_several_processes_at_once(harness: Harness, tmp_path: Path) -> None:
     context = multiprocessing.get_context("spawn")
     shared = str(tmp_path / "shared")
-    arguments = (shared, str(desk.script), str(desk.package), INTERFACE, 40)
+    arguments = (shared, str(harness.script), str(harness.package), INTERFACE, 40)
     workers = [context.Process(target=hammer_cache, args=arguments) for _ in range(3)]
     for worker in workers:
         worker.start()
@@ -281,7 +281,7 @@ class Writer:
     """A process that writes entries until it is killed, and says after each whether it was kept."""
 
     def __init__(
-        self, desk: Desk, folder: Path, prepare: Callable[[], object] = bool, max_bytes: int = 1 << 30
+        self, harness: Harness, folder: Path, prepare: Callable[[], object] = bool, max_bytes: int = 1 << 30
     ) -> None:
         self._said, said = os.pipe()
         self.pid = os.fork()
@@ -292,17 +292,17 @@ class Writer:
                 for number in range(100_000):
                     if number % 7 == 0:
                         cache.sweep()
-                    os.write(said, b"y" if self.write(desk, cache, number) else b"n")
+                    os.write(said, b"y" if self.write(harness, cache, number) else b"n")
             finally:
                 os._exit(0)
         os.close(said)
 
     @staticmethod
-    def write(desk: Desk, cache: TraceCache, number: int) -> bool:
-        asked = dataclasses.replace(desk.request, args=(f"n{number % 9}",), node=f"/n{number % 5}")
+    def write(harness: Harness, cache: TraceCache, number: int) -> bool:
+        asked = dataclasses.replace(harness.request, args=(f"n{number % 9}",), node=f"/n{number % 5}")
         notes = tuple("x" * 100 for _ in range(number * 37 % 500))
         interface = dataclasses.replace(INTERFACE, notes=notes)
-        recipe = make(desk.tracer.environment, asked)
+        recipe = make(harness.tracer.environment, asked)
         return cache.store(recipe, asked, interface, Dependencies(asked=frozenset(["name"])), started=time.time())
 
     def says(self, number: int) -> bytes:
@@ -325,12 +325,12 @@ def whole(cache: TraceCache) -> int:
     return len(found)
 
 
-def test_a_writer_that_is_killed_leaves_whole_entries(desk: Desk, tmp_path: Path) -> None:
+def test_a_writer_that_is_killed_leaves_whole_entries(harness: Harness, tmp_path: Path) -> None:
     cache = TraceCache(tmp_path / "shared")
     chance = random.Random(4)
     for _ in range(25):
         # Two at once, killed wherever they are after so many entries.
-        writers = [Writer(desk, cache.folder), Writer(desk, cache.folder)]
+        writers = [Writer(harness, cache.folder), Writer(harness, cache.folder)]
         for writer in writers:
             assert set(writer.says(chance.randrange(1, 30))) <= set(b"y")
             writer.kill()
@@ -346,12 +346,12 @@ def test_a_writer_that_is_killed_leaves_whole_entries(desk: Desk, tmp_path: Path
     os.utime(abandoned, (0, 0))
     cache.sweep()
     assert not [path for path in cache.folder.glob("*/*/.*") if path.suffix == ".tmp"]
-    assert Writer.write(desk, cache, 1)
+    assert Writer.write(harness, cache, 1)
 
 
-def test_writers_that_sweep_each_others_entries_away(desk: Desk, tmp_path: Path) -> None:
+def test_writers_that_sweep_each_others_entries_away(harness: Harness, tmp_path: Path) -> None:
     cache = TraceCache(tmp_path / "shared", max_bytes=100_000)
-    writers = [Writer(desk, cache.folder, max_bytes=cache.max_bytes) for _ in range(3)]
+    writers = [Writer(harness, cache.folder, max_bytes=cache.max_bytes) for _ in range(3)]
     for writer in writers:
         assert set(writer.says(150)) <= set(b"y")
     for writer in writers:
@@ -361,41 +361,41 @@ def test_writers_that_sweep_each_others_entries_away(desk: Desk, tmp_path: Path)
     assert sum(path.stat().st_size for path in entries(cache)) <= cache.max_bytes
 
 
-def test_a_full_disk_costs_the_entry_alone(desk: Desk, tmp_path: Path) -> None:
+def test_a_full_disk_costs_the_entry_alone(harness: Harness, tmp_path: Path) -> None:
     def fill() -> None:
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
 
     cache = TraceCache(tmp_path / "shared")
-    assert Writer.write(desk, cache, 0)
-    writer = Writer(desk, cache.folder, fill)
+    assert Writer.write(harness, cache, 0)
+    writer = Writer(harness, cache.folder, fill)
     assert writer.says(20) == b"n" * 20
     writer.kill()
     assert whole(cache) == 1
     assert [path for path in cache.folder.glob("*/*/*") if path.suffix != ".json"] == []
 
 
-def test_a_folder_that_may_only_be_read_is_read(desk: Desk, tmp_path: Path) -> None:
+def test_a_folder_that_may_only_be_read_is_read(harness: Harness, tmp_path: Path) -> None:
     def no_root() -> None:
         header, none = (ctypes.c_uint32 * 2)(0x20080522, 0), (ctypes.c_uint32 * 6)()
         if ctypes.CDLL(None).capset(header, none) != 0:
             os._exit(1)
 
-    folder = desk.cache.folder
+    folder = harness.cache.folder
     for path in (*folder.glob("*/*"), *folder.glob("*"), folder):
         path.chmod(0o555)
-    before = {path: path.stat().st_mtime for path in entries(desk.cache)}
-    writer = Writer(desk, folder, no_root)
+    before = {path: path.stat().st_mtime for path in entries(harness.cache)}
+    writer = Writer(harness, folder, no_root)
     assert writer.says(10) == b"n" * 10
     writer.kill()
-    assert {path: path.stat().st_mtime for path in entries(desk.cache)} == before
-    assert desk.hit()
+    assert {path: path.stat().st_mtime for path in entries(harness.cache)} == before
+    assert harness.hit()
     for path in (folder, *folder.glob("*"), *folder.glob("*/*")):
         path.chmod(0o755)
 
 
-def test_foreign_files_do_no_harm_and_come_to_none(desk: Desk, tmp_path: Path) -> None:
-    cache = desk.cache
+def test_foreign_files_do_no_harm_and_come_to_none(harness: Harness, tmp_path: Path) -> None:
+    cache = harness.cache
     (path,) = entries(cache)
     recipe = path.name.partition("-")[0]
     outside = tmp_path / "outside"
@@ -412,27 +412,27 @@ def test_foreign_files_do_no_harm_and_come_to_none(desk: Desk, tmp_path: Path) -
     path.with_name(f"{recipe}-loop.json").symlink_to(f"{recipe}-loop.json")
     path.with_name(f"{recipe}-zero.json").symlink_to("/dev/zero")
     Path(os.fsdecode(os.fsencode(path.parent) + b"/\xff.json")).write_text("{}")
-    assert desk.hit()
-    assert [kept.node for kept in cache.traces_of(1, "pkg", desk.script.name, None)[1]] == ["/node"]
+    assert harness.hit()
+    assert [kept.node for kept in cache.traces_of(1, "pkg", harness.script.name, None)[1]] == ["/node"]
     cache.max_bytes = 1
     cache.sweep()
-    assert not desk.hit()
+    assert not harness.hit()
     assert foreign.exists()
     assert (outside / "deep" / "theirs.json").exists()
     cache.max_bytes = 1 << 30
-    assert not desk.trace().cached
-    assert desk.hit()
+    assert not harness.trace().cached
+    assert harness.hit()
 
 
-def test_entries_of_other_versions_are_swept_as_any(desk: Desk) -> None:
-    old = desk.cache.folder / "0a" / ("0" * 64)
+def test_entries_of_other_versions_are_swept_as_any(harness: Harness) -> None:
+    old = harness.cache.folder / "0a" / ("0" * 64)
     old.mkdir(parents=True)
     (old / f"{'1' * 32}.json").write_text("of version 2")
     os.utime(old / f"{'1' * 32}.json", (0, 0))
-    desk.cache.max_bytes = sum(path.stat().st_size for path in entries(desk.cache)) - 1
-    desk.cache.sweep()
+    harness.cache.max_bytes = sum(path.stat().st_size for path in entries(harness.cache)) - 1
+    harness.cache.sweep()
     assert not old.exists()
-    assert desk.hit()
+    assert harness.hit()
 
 
 def test_libraries_of_other_versions_are_bounded(tmp_path: Path) -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.workspace.workspace import Analysis
-from python_launch_desk import MANIFEST, PythonDesk
-from ros2_desk import ros2_prefix
+from support.python_launch_harness import MANIFEST, PythonHarness
+from support.ros2_harness import ros2_prefix
 
 pytestmark = pytest.mark.ros
 
@@ -82,16 +82,16 @@ def described(analysis: Analysis) -> object:
 
 @pytest.mark.parametrize("name", FORMS)
 def test_a_package_that_was_never_built_is_found(tmp_path: Path, variables: dict[str, str], name: str) -> None:
-    desk = PythonDesk(tmp_path, "bot")
-    desk.write("urdf/robot.txt", "bot/urdf/wheel.txt")
-    desk.write("urdf/wheel.txt", "wheel")
-    analysis = desk.launch(desk.write(f"launch/{name}", FORMS[name]), variables=variables)
+    harness = PythonHarness(tmp_path, "bot")
+    harness.write("urdf/robot.txt", "bot/urdf/wheel.txt")
+    harness.write("urdf/wheel.txt", "wheel")
+    analysis = harness.launch(harness.write(f"launch/{name}", FORMS[name]), variables=variables)
     assert described(analysis) == {"robot_description": "<robot>wheel</robot>\n"}
 
 
 @pytest.mark.parametrize("name", FORMS)
 def test_a_package_of_the_prefixes_is_found(tmp_path: Path, variables: dict[str, str], name: str) -> None:
-    desk = PythonDesk(tmp_path, "bot")
+    harness = PythonHarness(tmp_path, "bot")
     prefix = tmp_path / "underlay"
     index, share = prefix / "share/ament_index/resource_index/packages", prefix / "share/arm"
     index.mkdir(parents=True)
@@ -99,7 +99,7 @@ def test_a_package_of_the_prefixes_is_found(tmp_path: Path, variables: dict[str,
     (index / "arm").touch()
     (share / "package.xml").write_text(MANIFEST.format("arm"))
     (share / "arm.txt").write_text("arm")
-    desk.write("urdf/robot.txt", "arm/arm.txt")
-    path = desk.write(f"launch/{name}", FORMS[name])
-    analysis = desk.launch(path, variables={**variables, "AMENT_PREFIX_PATH": str(prefix)})
+    harness.write("urdf/robot.txt", "arm/arm.txt")
+    path = harness.write(f"launch/{name}", FORMS[name])
+    analysis = harness.launch(path, variables={**variables, "AMENT_PREFIX_PATH": str(prefix)})
     assert described(analysis) == {"robot_description": "<robot>arm</robot>\n"}

@@ -13,7 +13,7 @@ from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.compiled import Copies
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.recipe import visible_paths
-from tracing_desk import SYSTEM_PYTHON, environment, request, write_node
+from support.tracing_harness import SYSTEM_PYTHON, environment, request, write_node
 
 pytestmark = pytest.mark.ros
 

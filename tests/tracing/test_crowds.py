@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing import cgroup, sandbox
-from tracing_desk import trace, write_node
+from support.tracing_harness import trace, write_node
 
 pytestmark = pytest.mark.ros
 

@@ -55,7 +55,7 @@ def generate_launch_description():
 """
 
 
-class Desk:
+class Harness:
     """A folder for launch files."""
 
     def __init__(self, folder: Path) -> None:
@@ -78,8 +78,8 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return Desk(tmp_path)
+def harness(tmp_path: Path) -> Harness:
+    return Harness(tmp_path)
 
 
 def args(analysis: Analysis) -> list[str]:
@@ -90,44 +90,44 @@ def told(analysis: Analysis) -> list[tuple[str, str]]:
     return [(f.rule, f.message.rpartition(": ")[2]) for f in analysis.findings if f.rule.startswith("LCH")]
 
 
-def test_in_xml(desk: Desk) -> None:
+def test_in_xml(harness: Harness) -> None:
     for expression, value in EXPRESSIONS.items():
-        analysis = desk.launch(xml(expression))
+        analysis = harness.launch(xml(expression))
         assert (args(analysis), told(analysis)) == ([value], []), expression
 
 
-def test_in_python(desk: Desk) -> None:
+def test_in_python(harness: Harness) -> None:
     for expression, value in EXPRESSIONS.items():
-        analysis = desk.launch(PYTHON.format(expression), "a.launch.py")
+        analysis = harness.launch(PYTHON.format(expression), "a.launch.py")
         assert (args(analysis), told(analysis)) == ([value], []), expression
 
 
-def test_what_fails_is_an_error(desk: Desk) -> None:
+def test_what_fails_is_an_error(harness: Harness) -> None:
     for expression, message in FAILING.items():
-        analysis = desk.launch(xml(expression))
+        analysis = harness.launch(xml(expression))
         assert told(analysis) == [("LCH011", message)], expression
         assert analysis.findings[0].stops_launch
 
 
-def test_modules(desk: Desk) -> None:
+def test_modules(harness: Harness) -> None:
     text = """<launch><node pkg="p" exec="e" args="$(eval 'os.sep' 'os')"/></launch>"""
-    assert args(desk.launch(text)) == ["/"]
-    assert told(desk.launch(text.replace("os.sep", "pi"))) == [("LCH011", "name 'pi' is not defined")]
-    assert told(desk.launch(text, distro="humble")) == [("LCH011", "$(eval) takes 1 argument in ROS 2 humble")]
+    assert args(harness.launch(text)) == ["/"]
+    assert told(harness.launch(text.replace("os.sep", "pi"))) == [("LCH011", "name 'pi' is not defined")]
+    assert told(harness.launch(text, distro="humble")) == [("LCH011", "$(eval) takes 1 argument in ROS 2 humble")]
     of_math = """<launch><node pkg="p" exec="e" args="$(eval 'math.floor(1.5)')"/></launch>"""
-    assert args(desk.launch(of_math)) == ["1"]
-    assert told(desk.launch(of_math, distro="humble")) == [("LCH011", "name 'math' is not defined")]
-    assert args(desk.launch(of_math.replace("math.", ""), distro="humble")) == ["1"]
+    assert args(harness.launch(of_math)) == ["1"]
+    assert told(harness.launch(of_math, distro="humble")) == [("LCH011", "name 'math' is not defined")]
+    assert args(harness.launch(of_math.replace("math.", ""), distro="humble")) == ["1"]
 
 
-def test_where_nothing_is_run_it_is_said(desk: Desk) -> None:
-    analysis = desk.launch(xml("set()"), why_not="nobody trusts it")
+def test_where_nothing_is_run_it_is_said(harness: Harness) -> None:
+    analysis = harness.launch(xml("set()"), why_not="nobody trusts it")
     assert told(analysis) == [("LCH018", "nobody trusts it")]
     assert analysis.findings[0].severity == "info"
 
 
-def test_what_the_machine_lacks_is_no_error_of_the_file(desk: Desk) -> None:
-    analysis = desk.launch(xml("open('/nowhere').read()"))
+def test_what_the_machine_lacks_is_no_error_of_the_file(harness: Harness) -> None:
+    analysis = harness.launch(xml("open('/nowhere').read()"))
     assert [(f.rule, f.severity) for f in analysis.findings if f.rule.startswith("LCH")] == [("LCH018", "info")]
     text = """<launch><node pkg="p" exec="e" args="$(eval '1' 'no_such_module')"/></launch>"""
-    assert [rule for rule, _ in told(desk.launch(text))] == ["LCH018"]
+    assert [rule for rule, _ in told(harness.launch(text))] == ["LCH018"]

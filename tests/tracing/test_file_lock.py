@@ -14,7 +14,7 @@ import pytest
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.file_lock import file_lock
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, request, write_node
+from support.tracing_harness import environment, request, write_node
 
 pytestmark = pytest.mark.ros
 

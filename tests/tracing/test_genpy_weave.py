@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from tracing_desk import trace, write_node
+from support.tracing_harness import trace, write_node
 
 pytestmark = pytest.mark.ros
 

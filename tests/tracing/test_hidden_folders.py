@@ -16,7 +16,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe, ros1_recipe, sandbox
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import known_backends, request, write_node
+from support.tracing_harness import known_backends, request, write_node
 
 INDEX = "share/ament_index/resource_index/packages"
 LOOK = """

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, processes_with, request, trace, write_node
+from support.tracing_harness import environment, own, processes_with, request, trace, write_node
 
 pytestmark = pytest.mark.ros
 
@@ -300,7 +300,7 @@ def test_cancelling_kills_the_run(tmp_path: Path) -> None:
 HOST = """
 import sys, threading
 from pathlib import Path
-from tracing_desk import trace
+from support.tracing_harness import trace
 print("tracing", flush=True)
 trace(Path(sys.argv[1]))
 """

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from fuzz_targets import check_json, check_printable, check_report
+from fuzzing.targets import check_json, check_printable, check_report
 from markdown_it import MarkdownIt
 from preflight_analysis.findings.report import Report
 from preflight_analysis.graph.graph_json import graph_json
@@ -18,7 +18,7 @@ from preflight_analysis.view.layout import lay_out
 from preflight_analysis.view.mermaid import mermaid
 from preflight_analysis.view.model import graph_view
 from preflight_analysis.view.svg import standalone_svg
-from ros2_desk import Ros2Desk, node_of
+from support.ros2_harness import Ros2Harness, node_of
 
 pytestmark = pytest.mark.ros
 
@@ -53,8 +53,8 @@ for number in range(30000):
 
 
 def test_names_of_a_node_that_lies_drive_nothing(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, node=node_of(BODY, "import json, os"))
-    analysis = desk.check("<node pkg='pkg' exec='node' name='n'/>")
+    harness = Ros2Harness(tmp_path, node=node_of(BODY, "import json, os"))
+    analysis = harness.check("<node pkg='pkg' exec='node' name='n'/>")
     path = analysis.root
     assert analysis.graph is not None
     (interface, *_) = analysis.graph.interfaces
@@ -88,6 +88,6 @@ def _plain_markdown(markdown: str) -> None:
 
 
 def test_more_parameters_than_anybody_reads_are_bounded(tmp_path: Path) -> None:
-    interface = Ros2Desk(tmp_path, node=node_of(MANY)).trace("node")
+    interface = Ros2Harness(tmp_path, node=node_of(MANY)).trace("node")
     assert 0 < len(interface.params) <= 5000
     assert any("left out" in note for note in interface.notes)

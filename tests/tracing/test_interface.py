@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
-from tracing_desk import ROS1_FIXTURES, own, trace, write_node
+from support.tracing_harness import ROS1_FIXTURES, own, trace, write_node
 
 pytestmark = pytest.mark.ros
 

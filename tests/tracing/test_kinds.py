@@ -14,7 +14,7 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Frame
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, trace, write_node
+from support.tracing_harness import environment, own, trace, write_node
 
 pytestmark = pytest.mark.ros
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from python_launch_desk import PythonDesk
+from support.python_launch_harness import PythonHarness
 
 pytestmark = pytest.mark.ros
 
@@ -47,8 +47,8 @@ launch = sys.modules['launch']
 def generate_launch_description():
     return launch.LaunchDescription([sys.modules['launch_ros'].actions.Node(package='p', executable='x', name='n')])
 """
-    desk = PythonDesk(tmp_path)
-    tree = desk.launch(desk.write("launch/a.launch.py", text)).tree
+    harness = PythonHarness(tmp_path)
+    tree = harness.launch(harness.write("launch/a.launch.py", text)).tree
     assert [node.name for node in tree.nodes] == ["/n"]
 
 
@@ -82,15 +82,15 @@ def generate_launch_description():
 
 
 def test_what_they_do(tmp_path: Path) -> None:
-    desk = PythonDesk(tmp_path)
-    desk.write(
+    harness = PythonHarness(tmp_path)
+    harness.write(
         "launch/other.launch.py",
         "from launch import LaunchDescription\nfrom launch_ros.actions import Node\nNAME = 'named'\n"
         "def generate_launch_description():\n"
         "    return LaunchDescription([Node(package='p', executable='x', name='other')])\n",
     )
-    desk.write("launch/third.launch.xml", '<launch><node pkg="p" exec="x" name="third"/></launch>')
-    tree = desk.launch(desk.write("launch/a.launch.py", LOADED)).tree
+    harness.write("launch/third.launch.xml", '<launch><node pkg="p" exec="x" name="third"/></launch>')
+    tree = harness.launch(harness.write("launch/a.launch.py", LOADED)).tree
     assert not tree.problems
     assert [node.name for node in tree.nodes] == ["/named", "/ab_c", "/other", "/third", "/n8"]
 
@@ -104,8 +104,8 @@ from launch_ros.ros_adapters import get_ros_node
 def generate_launch_description():
     return LaunchDescription([OpaqueFunction(function=lambda context: [get_ros_node(context).get_name()])])
 """
-    desk = PythonDesk(tmp_path)
-    (finding,) = desk.launch(desk.write("launch/a.launch.py", text)).findings
+    harness = PythonHarness(tmp_path)
+    (finding,) = harness.launch(harness.write("launch/a.launch.py", text)).findings
     assert (finding.rule, finding.severity) == ("LCH018", "hint")
     assert "ROSAdapter.ros_node needs ROS" in finding.message
 
@@ -122,7 +122,7 @@ def test_loops_of_xml(tmp_path: Path) -> None:
       </for_each>
       <for len="many" name="i"/>
     </launch>"""
-    desk = PythonDesk(tmp_path)
-    analysis = desk.launch(desk.write("launch/a.launch.xml", text))
+    harness = PythonHarness(tmp_path)
+    analysis = harness.launch(harness.write("launch/a.launch.xml", text))
     assert [node.name for node in analysis.tree.nodes] == ["/n10", "/a_1", "/b_0"]
     assert [problem.data["expected"] for problem in analysis.tree.problems] == ["an integer"]

@@ -12,7 +12,7 @@ from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Dependencies, Observation
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, trace, write_node
+from support.tracing_harness import environment, own, trace, write_node
 
 
 def lacks(*said: str, status: str = "crashed", wrote: tuple[str, ...] = ()) -> str | None:

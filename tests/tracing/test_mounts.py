@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing import mounts
-from tracing_desk import working_backends
+from support.tracing_harness import working_backends
 
 pytestmark = pytest.mark.ros
 
@@ -19,7 +19,7 @@ import json, subprocess, sys
 from pathlib import Path
 sys.path.insert(0, {tests!r})
 from preflight_analysis.tracing import sandbox
-from tracing_desk import trace, write_node
+from support.tracing_harness import trace, write_node
 workspace, outside = map(Path, sys.argv[1:3])
 places = [workspace / "chroot/proc", outside / "proc 2", workspace / "chroot/sys"]
 for place, kind in zip(places, ("proc", "proc", "sysfs")):

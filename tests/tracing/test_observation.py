@@ -12,7 +12,7 @@ from preflight_analysis.tracing import node_recipe
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.observation import observe
 from preflight_analysis.tracing.run import RawRun
-from tracing_desk import environment, request, write_node
+from support.tracing_harness import environment, request, write_node
 
 SPINNING = {"own": {"ev": "end", "status": "spinning"}}
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing.agents import xml_rpc
-from tracing_desk import own, trace, write_node
+from support.tracing_harness import own, trace, write_node
 
 LAZY = """
     import rospy

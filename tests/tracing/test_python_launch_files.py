@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import launch_files, run
 from preflight_analysis.workspace.sources import Sources
-from python_launch_desk import PythonDesk, line_of
+from support.python_launch_harness import PythonHarness, line_of
 
 pytestmark = pytest.mark.ros
 
@@ -26,19 +26,19 @@ from ament_index_python.packages import get_package_share_directory
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> PythonDesk:
-    return PythonDesk(tmp_path)
+def harness(tmp_path: Path) -> PythonHarness:
+    return PythonHarness(tmp_path)
 
 
-def _described(desk: PythonDesk, *actions: str, before: str = "", name: str = "launch/a.launch.py") -> Path:
+def _described(harness: PythonHarness, *actions: str, before: str = "", name: str = "launch/a.launch.py") -> Path:
     text = HEAD + before + "\ndef generate_launch_description():\n    return LaunchDescription([\n"
-    return desk.write(name, text + "".join(f"        {action},\n" for action in actions) + "    ])\n")
+    return harness.write(name, text + "".join(f"        {action},\n" for action in actions) + "    ])\n")
 
 
-def test_actions_are_evaluated_like_those_of_xml(desk: PythonDesk) -> None:
-    params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n")
+def test_actions_are_evaluated_like_those_of_xml(harness: PythonHarness) -> None:
+    params = harness.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n")
     path = _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('robot', default_value='r1', choices=['r1', 'r2'])",
         "PushRosNamespace(LaunchConfiguration('robot'))",
         "SetParameter('use_sim_time', True)",
@@ -54,7 +54,7 @@ def test_actions_are_evaluated_like_those_of_xml(desk: PythonDesk) -> None:
         "TimerAction(period=2.0, actions=[Node(package='p', executable='x', name='later')])",
         "ExecuteProcess(cmd=['echo', 'hello'])",
     )
-    tree = desk.launch(path, {"robot": "r2"}).tree
+    tree = harness.launch(path, {"robot": "r2"}).tree
     assert not tree.problems
     found = {node.name: node for node in tree.nodes if node.kind != "process"}
     assert {name: node.kind for name, node in found.items()} == {
@@ -92,31 +92,31 @@ def test_actions_are_evaluated_like_those_of_xml(desk: PythonDesk) -> None:
     assert text[count.span.start : count.span.end] == "count"
 
 
-def test_a_wrong_keyword_is_a_finding_on_its_line(desk: PythonDesk) -> None:
-    path = _described(desk, "Node(package='p', executable='x', name='a')", "Node(package='p', node_executable='y')")
-    analysis = desk.launch(path)
+def test_a_wrong_keyword_is_a_finding_on_its_line(harness: PythonHarness) -> None:
+    path = _described(harness, "Node(package='p', executable='x', name='a')", "Node(package='p', node_executable='y')")
+    analysis = harness.launch(path)
     assert [(f.rule, f.stops_launch) for f in analysis.findings] == [("LCH032", True)]
     assert "node_executable" in analysis.findings[0].message or "executable" in analysis.findings[0].message
     text = path.read_text().splitlines()
     assert "node_executable" in text[line_of(analysis)[1] - 1]
 
 
-def test_an_exception_in_a_helper_leads_to_the_call(desk: PythonDesk) -> None:
-    desk.write("p/__init__.py", "")
-    desk.write("p/helper.py", "def made():\n    return {}['nothing']\n")
-    path = _described(desk, "made()", before="from p.helper import made\n")
-    analysis = desk.launch(path)
+def test_an_exception_in_a_helper_leads_to_the_call(harness: PythonHarness) -> None:
+    harness.write("p/__init__.py", "")
+    harness.write("p/helper.py", "def made():\n    return {}['nothing']\n")
+    path = _described(harness, "made()", before="from p.helper import made\n")
+    analysis = harness.launch(path)
     assert [f.rule for f in analysis.findings] == ["LCH032"]
     assert "made()" in path.read_text().splitlines()[line_of(analysis)[1] - 1]
     assert "KeyError" in analysis.findings[0].message
 
 
-def test_what_is_not_there_is_told(desk: PythonDesk) -> None:
-    path = _described(desk, before="SHARE = get_package_share_directory('missing_package')\n")
-    analysis = desk.launch(path)
+def test_what_is_not_there_is_told(harness: PythonHarness) -> None:
+    path = _described(harness, before="SHARE = get_package_share_directory('missing_package')\n")
+    analysis = harness.launch(path)
     assert [f.rule for f in analysis.findings] == ["PKG001"]
-    path = _described(desk, "Node(package='p', executable='x', name='n')", before="import no_such_module\n")
-    analysis = desk.launch(path)
+    path = _described(harness, "Node(package='p', executable='x', name='n')", before="import no_such_module\n")
+    analysis = harness.launch(path)
     assert [(f.rule, f.severity) for f in analysis.findings if f.rule == "LCH032"] == [("LCH032", "info")]
     assert [node.name for node in analysis.tree.nodes] == ["/n"], "what is written is read all the same"
     assert not analysis.tree.complete
@@ -132,16 +132,16 @@ def setup(context, prefix):
 """
 
 
-def test_an_opaque_function_gets_the_context(desk: PythonDesk) -> None:
+def test_an_opaque_function_gets_the_context(harness: PythonHarness) -> None:
     path = _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('robot', default_value='r1')",
         "OpaqueFunction(function=setup, args=['my_'])",
         "Node(package='p', executable='x', name=LaunchConfiguration('found'))",
         before=OPAQUE,
     )
-    assert [n.name for n in desk.launch(path).tree.nodes] == ["/my_r1", "/r1_inner", "/R1"]
-    analysis = desk.launch(path, {"robot": "r2"})
+    assert [n.name for n in harness.launch(path).tree.nodes] == ["/my_r1", "/r1_inner", "/R1"]
+    analysis = harness.launch(path, {"robot": "r2"})
     assert [n.name for n in analysis.tree.nodes] == ["/my_r2", "/r2_inner", "/R2"]
     assert analysis.tree.complete
 
@@ -178,24 +178,24 @@ class Twice(Action):
 """
 
 
-def test_substitutions_and_actions_of_the_users_own(desk: PythonDesk) -> None:
-    params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
+def test_substitutions_and_actions_of_the_users_own(harness: PythonHarness) -> None:
+    params = harness.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
     path = _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('robot', default_value='r1')",
         f"Node(package='p', executable='x', name='n', parameters=[Rewritten(TextSubstitution(text={str(params)!r}),"
         " {'frame': LaunchConfiguration('robot')})])",
         "Twice(LaunchConfiguration('robot'))",
         before="from launch import Action\n" + CUSTOM,
     )
-    tree = desk.launch(path, {"robot": "r7"}).tree
+    tree = harness.launch(path, {"robot": "r7"}).tree
     assert not tree.problems
     assert {p.name: p.value for p in tree.nodes[0].params} == {"rate": 5, "frame": "r7"}
     assert [n.name for n in tree.nodes] == ["/n", "/r7_left", "/r7_right"]
 
 
 @pytest.mark.parametrize("written", ["n: {ros__parameters: {rate: 5}}", "n: [1, 2", "[]"])
-def test_nothing_points_into_a_file_that_is_gone(desk: PythonDesk, written: str) -> None:
+def test_nothing_points_into_a_file_that_is_gone(harness: PythonHarness, written: str) -> None:
     """What a run wrote into a temporary file belongs to the call that wrote it."""
     own = f"""
 class Rewritten(Substitution):
@@ -204,8 +204,8 @@ class Rewritten(Substitution):
             file.write({written!r})
         return file.name
 """
-    path = _described(desk, "Node(package='p', executable='x', name='n', parameters=[Rewritten()])", before=own)
-    analysis = desk.launch(path)
+    path = _described(harness, "Node(package='p', executable='x', name='n', parameters=[Rewritten()])", before=own)
+    analysis = harness.launch(path)
     (node,) = analysis.tree.nodes
     assert bool(node.params) == ("rate" in written)
     problems = [problem.origin for problem in analysis.tree.problems]
@@ -217,27 +217,27 @@ class Rewritten(Substitution):
     assert {place.file for place in places if place is not None} <= {str(path)}
 
 
-def test_includes_of_all_four_formats(desk: PythonDesk) -> None:
-    desk.write("launch/b.launch.xml", '<launch><arg name="n"/><node pkg="p" exec="x" name="$(var n)_xml"/></launch>')
-    desk.write(
+def test_includes_of_all_four_formats(harness: PythonHarness) -> None:
+    harness.write("launch/b.launch.xml", '<launch><arg name="n"/><node pkg="p" exec="x" name="$(var n)_xml"/></launch>')
+    harness.write(
         "launch/c.launch.yaml",
         "launch:\n- arg: {name: n}\n- node: {pkg: p, exec: x, name: $(var n)_yaml}\n"
         "- include: {file: $(dirname)/d.launch.py, arg: [{name: n, value: $(var n)}]}\n",
     )
     _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('n')",
         "Node(package='p', executable='x', name=[LaunchConfiguration('n'), '_python'])",
         name="launch/d.launch.py",
     )
     include = "IncludeLaunchDescription(AnyLaunchDescriptionSource([ThisLaunchFileDir(), '/{}']), launch_arguments={})"
     path = _described(
-        desk,
+        harness,
         include.format("b.launch.xml", "{'n': 'one'}.items()"),
         include.format("c.launch.yaml", "[('n', 'two')]"),
         include.format("d.launch.py", "{}.items()"),
     )
-    analysis = desk.launch(path)
+    analysis = harness.launch(path)
     assert [n.name for n in analysis.tree.nodes][:3] == ["/one_xml", "/two_yaml", "/two_python"]
     found = {(f.rule, line_of(analysis, i)[1]) for i, f in enumerate(analysis.findings)}
     assert found == {("ARG002", 16), ("LCH016", 15)}, "launch wants each include to pass it, and then uses what is set"
@@ -256,106 +256,108 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_file_is_stopped(desk: PythonDesk, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_hostile_file_is_stopped(harness: PythonHarness, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run, "COMMAND_SECONDS", 1.0)
-    path = _described(desk, "Node(package='p', executable='x', name='n')", before=HOSTILE[name] + "\n")
-    analysis = desk.launch(path)
+    path = _described(harness, "Node(package='p', executable='x', name='n')", before=HOSTILE[name] + "\n")
+    analysis = harness.launch(path)
     assert not analysis.tree.complete
     assert {f.rule for f in analysis.findings} <= {"LCH018", "LCH032", "PKG002"}
     assert [node.name for node in analysis.tree.nodes] == ["/n"]
 
 
-def test_the_home_folder_is_hidden_and_nothing_is_written(desk: PythonDesk, tmp_path: Path) -> None:
+def test_the_home_folder_is_hidden_and_nothing_is_written(harness: PythonHarness, tmp_path: Path) -> None:
     victim = tmp_path / "src" / "p" / "victim"
     secret = tmp_path.parent / f"secret of {tmp_path.name}"
     secret.write_text("password")
     path = _described(
-        desk,
+        harness,
         f"Node(package='p', executable='x', name=('seen' if os.path.exists({str(secret)!r}) else 'hidden'))",
         before=f"import os\ntry: open({str(victim)!r}, 'w')\nexcept OSError: pass\n",
     )
-    assert [n.name for n in desk.launch(path).tree.nodes] == ["/hidden"]
+    assert [n.name for n in harness.launch(path).tree.nodes] == ["/hidden"]
     assert not victim.exists()
 
 
-def test_a_file_that_is_not_run_is_read_as_far_as_it_goes(desk: PythonDesk) -> None:
-    ran = desk.folder / "ran"
+def test_a_file_that_is_not_run_is_read_as_far_as_it_goes(harness: PythonHarness) -> None:
+    ran = harness.folder / "ran"
     path = _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('model', default_value='s1', choices=['a1', 's2'])",
         "Node(package='p', executable='x', name='a')",
         "Node(package=NAME, executable=EXE, name='b')",
         "Node(package='p', executable='x', name=LaunchConfiguration('never_declared'))",
         before=f"open({str(ran)!r}, 'w')\nNAME = 'p'\nEXE = NAME + 'x'\n",
     )
-    analysis = desk.launch(path, why_not="not trusted")
+    analysis = harness.launch(path, why_not="not trusted")
     assert sorted({f.rule for f in analysis.findings}) == ["ARG009", "LCH018"]
     assert [node.name for node in analysis.tree.nodes][:2] == ["/a", "/b"]
     assert all(node.unknowns for node in analysis.tree.nodes)
     assert not ran.exists()
 
 
-def test_a_half_typed_file(desk: PythonDesk) -> None:
+def test_a_half_typed_file(harness: PythonHarness) -> None:
     path = _described(
-        desk, "DeclareLaunchArgument('model', default_value='a1')", "Node(package='p', executable='x', name='a')"
+        harness, "DeclareLaunchArgument('model', default_value='a1')", "Node(package='p', executable='x', name='a')"
     )
     path.write_text(path.read_text().replace("    ])", "        Node(package='p', na\n    ])"))
-    analysis = desk.launch(path)
+    analysis = harness.launch(path)
     assert [f.rule for f in analysis.findings] == ["LCH001"]
     assert [node.name for node in analysis.tree.nodes] == ["/a"]
     assert list(analysis.tree.args) == ["model"]
 
 
-def test_the_editors_text_counts(desk: PythonDesk) -> None:
-    path = _described(desk, "Node(package='p', executable='x', name='disk')")
+def test_the_editors_text_counts(harness: PythonHarness) -> None:
+    path = _described(harness, "Node(package='p', executable='x', name='disk')")
     sources = Sources()
     sources.open(str(path), path.read_text().replace("disk", "buffer"))
-    assert [n.name for n in desk.launch(path, sources=sources).tree.nodes] == ["/buffer"]
+    assert [n.name for n in harness.launch(path, sources=sources).tree.nodes] == ["/buffer"]
 
 
-def test_a_module_that_changed_is_run_again(desk: PythonDesk) -> None:
-    desk.write("p/__init__.py", "")
-    helper = desk.write("p/names.py", "NAME = 'before'\n")
-    path = _described(desk, "Node(package='p', executable='x', name=NAME)", before="from p.names import NAME\n")
-    assert [n.name for n in desk.launch(path).tree.nodes] == ["/before"]
+def test_a_module_that_changed_is_run_again(harness: PythonHarness) -> None:
+    harness.write("p/__init__.py", "")
+    helper = harness.write("p/names.py", "NAME = 'before'\n")
+    path = _described(harness, "Node(package='p', executable='x', name=NAME)", before="from p.names import NAME\n")
+    assert [n.name for n in harness.launch(path).tree.nodes] == ["/before"]
     helper.write_text("NAME = 'afterwards'\n")
-    assert [n.name for n in desk.launch(path).tree.nodes] == ["/afterwards"]
+    assert [n.name for n in harness.launch(path).tree.nodes] == ["/afterwards"]
 
 
-def test_what_the_file_sets_in_the_environment_stays(desk: PythonDesk) -> None:
+def test_what_the_file_sets_in_the_environment_stays(harness: PythonHarness) -> None:
     path = _described(
-        desk,
+        harness,
         "Node(package='p', executable='x', name=EnvironmentVariable('ROBOT'))",
         before="import os\nos.environ['ROBOT'] = 'r9'\n",
     )
-    (node,) = desk.launch(path).tree.nodes
+    (node,) = harness.launch(path).tree.nodes
     assert node.name == "/r9"
     assert dict(node.env) == {"ROBOT": "r9"}
 
 
-def test_variables_that_the_file_names_are_those_of_the_environment(desk: PythonDesk) -> None:
+def test_variables_that_the_file_names_are_those_of_the_environment(harness: PythonHarness) -> None:
     path = _described(
-        desk,
+        harness,
         "Node(package='p', executable='x', name=MODEL + os.getenv('SIZE', '_small') + str(len(OTHERS)))",
         before="import os\nMODEL = os.environ['ROBOT']\nOTHERS = [v for v in os.environ if v.startswith('NOT_N')]\n",
     )
     for robot in ("r7", "r8"):
-        tree = desk.launch(path, variables={"ROBOT": robot, "NOT_NAMED": "x"}).tree
+        tree = harness.launch(path, variables={"ROBOT": robot, "NOT_NAMED": "x"}).tree
         assert [node.name for node in tree.nodes] == [f"/{robot}_small0"]
 
 
 @pytest.mark.parametrize(("name", "value"), [("MY_TOKEN", "hidden"), ("MIRROR", "https://me:hidden@host/path")])
-def test_secrets_are_not_handed_on_and_not_said_to_be_unset(desk: PythonDesk, name: str, value: str) -> None:
-    path = _described(desk, "Node(package='p', executable='x', name='n')", before=f"import os\nos.environ['{name}']\n")
-    tree = desk.launch(path, variables={name: value}).tree
+def test_secrets_are_not_handed_on_and_not_said_to_be_unset(harness: PythonHarness, name: str, value: str) -> None:
+    path = _described(
+        harness, "Node(package='p', executable='x', name='n')", before=f"import os\nos.environ['{name}']\n"
+    )
+    tree = harness.launch(path, variables={name: value}).tree
     assert not tree.problems
     assert f"the sandbox is not told what {name} is" in [unknown.reason for unknown in tree.unknowns]
 
 
-def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(desk: PythonDesk) -> None:
-    params = desk.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
+def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(harness: PythonHarness) -> None:
+    params = harness.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
     _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('params')",
         "Node(package='p', executable='x', name='n', parameters=["
         "Rewritten(LaunchConfiguration('params'), {'rate': TextSubstitution(text='7')})])",
@@ -363,114 +365,114 @@ def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(desk: PythonDesk)
         name="launch/inner.launch.py",
     )
     path = _described(
-        desk,
+        harness,
         f"SetLaunchConfiguration('params', Rewritten(TextSubstitution(text={str(params)!r}),"
         " {'frame': TextSubstitution(text='base')}))",
         "IncludeLaunchDescription(PythonLaunchDescriptionSource([ThisLaunchFileDir(), '/inner.launch.py']),"
         " launch_arguments={'params': LaunchConfiguration('params')}.items())",
         before=CUSTOM.replace("class Twice(Action)", "class Twice"),
     )
-    (node,) = desk.launch(path).tree.nodes
+    (node,) = harness.launch(path).tree.nodes
     assert {p.name: p.value for p in node.params} == {"rate": "7", "frame": "base"}
 
 
-def test_a_file_that_the_build_makes(desk: PythonDesk) -> None:
-    desk.write("launch/made.launch.xml.in", '<launch><node pkg="p" exec="x" name="v@VERSION@"/></launch>')
+def test_a_file_that_the_build_makes(harness: PythonHarness) -> None:
+    harness.write("launch/made.launch.xml.in", '<launch><node pkg="p" exec="x" name="v@VERSION@"/></launch>')
     path = _described(
-        desk, "IncludeLaunchDescription(AnyLaunchDescriptionSource([ThisLaunchFileDir(), '/made.launch.xml']))"
+        harness, "IncludeLaunchDescription(AnyLaunchDescriptionSource([ThisLaunchFileDir(), '/made.launch.xml']))"
     )
-    tree = desk.launch(path).tree
+    tree = harness.launch(path).tree
     assert [n.name for n in tree.nodes] == ["/v0"]
     assert [u.what for u in tree.unknowns] == ["@VERSION@"]
 
 
-def test_a_file_of_a_test_framework(desk: PythonDesk) -> None:
+def test_a_file_of_a_test_framework(harness: PythonHarness) -> None:
     path = _described(
-        desk,
+        harness,
         "Node(package='p', executable='x', name='n')",
         "launch_testing.actions.ReadyToTest()",
         before="import launch_testing.actions\n"
         + "from launch_testing.legacy import LaunchTestService\nfrom launch_testing.markers import keep_alive\n",
     )
-    analysis = desk.launch(path)
+    analysis = harness.launch(path)
     assert [n.name for n in analysis.tree.nodes] == ["/n"]
     assert analysis.findings == ()
 
 
-def test_what_only_the_sandbox_refuses_is_no_error(desk: PythonDesk, tmp_path: Path) -> None:
+def test_what_only_the_sandbox_refuses_is_no_error(harness: PythonHarness, tmp_path: Path) -> None:
     hidden = tmp_path.parent / f"hidden from {tmp_path.name}"
     hidden.write_text("x")
-    written = desk.folder / "src" / "p" / "written"
+    written = harness.folder / "src" / "p" / "written"
     for before in (f"open({str(hidden)!r})\n", f"open({str(written)!r}, 'w')\n"):
-        path = _described(desk, "Node(package='p', executable='x', name='n')", before=before)
-        analysis = desk.launch(path)
+        path = _described(harness, "Node(package='p', executable='x', name='n')", before=before)
+        analysis = harness.launch(path)
         assert [(f.rule, f.severity) for f in analysis.findings] == [("LCH018", "hint")]
         assert "the sandbox" in analysis.findings[0].message
     assert not written.exists()
 
 
-def test_what_another_version_of_ours_told_is_not_kept(desk: PythonDesk, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = _described(desk, "Node(package='p', executable='x', name='n')")
-    desk.launch(path)
+def test_what_another_version_of_ours_told_is_not_kept(harness: PythonHarness, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = _described(harness, "Node(package='p', executable='x', name='n')")
+    harness.launch(path)
     runs: list[object] = []
     execute = run.execute_command
     monkeypatch.setattr(run, "execute_command", lambda *args: runs.append(args) or execute(*args))
-    desk.launch(path)
+    harness.launch(path)
     assert not runs, "it is cached"
     monkeypatch.setattr(launch_files, "_edition", lambda: "another")
-    desk.launch(path)
+    harness.launch(path)
     assert len(runs) == 1
 
 
-def test_what_is_not_installed_and_what_is_no_container(desk: PythonDesk) -> None:
-    desk.write("setup.py", "from setuptools import setup\nsetup(name='p', data_files=[('share/p', ['package.xml']), "
+def test_what_is_not_installed_and_what_is_no_container(harness: PythonHarness) -> None:
+    harness.write("setup.py", "from setuptools import setup\nsetup(name='p', data_files=[('share/p', ['package.xml']), "
                "('share/p/launch', ['launch/a.launch.py'])])\n")  # fmt: skip
-    desk.write("config/p.yaml", "n:\n  ros__parameters: {a: 1}\n")
+    harness.write("config/p.yaml", "n:\n  ros__parameters: {a: 1}\n")
     path = _described(
-        desk,
+        harness,
         "Node(package='p', executable='x', name='n', "
         "parameters=[PathJoinSubstitution([FindPackageShare('p'), 'config', 'p.yaml'])])",
         "ComposableNodeContainer(package='p', executable='component_container', name='camera_container', namespace='')",
         "LoadComposableNodes(target_container='cam_container', "
         "composable_node_descriptions=[ComposableNode(package='p', plugin='p::A', name='a')])",
     )
-    found = {f.rule: f for f in desk.launch(path).findings if f.rule in ("PKG005", "LCH034")}
+    found = {f.rule: f for f in harness.launch(path).findings if f.rule in ("PKG005", "LCH034")}
     assert {rule: finding.severity for rule, finding in found.items()} == {"PKG005": "warning", "LCH034": "warning"}
     span = found["LCH034"].location.span
     assert path.read_text()[span.start : span.end] == "cam_container"
     path.write_text(path.read_text().replace("cam_container", "camera_container") + "HERE = __file__\n")
-    assert not {f.rule for f in desk.launch(path).findings} & {"PKG005", "LCH034"}
+    assert not {f.rule for f in harness.launch(path).findings} & {"PKG005", "LCH034"}
 
 
-def test_what_a_newer_launch_has(desk: PythonDesk) -> None:
-    desk.write("a/b", "")
+def test_what_a_newer_launch_has(harness: PythonHarness) -> None:
+    harness.write("a/b", "")
     path = _described(
-        desk,
+        harness,
         "ForLoop('2', function=lambda i: [Node(package='p', executable='x', name=f'loop{i}')])",
         "ForEach(\"{name: 'a'};{name: 'b'}\", function=lambda name: [Node(package='p', executable='x', name=name)])",
         "Node(package='p', executable='x', name='n', parameters=[PathSubstitution(FindPackageShare('p')) / 'a' / 'b'])",
     )
-    tree = desk.launch(path).tree
+    tree = harness.launch(path).tree
     assert [node.name for node in tree.nodes] == ["/loop0", "/loop1", "/a", "/b", "/n"]
-    assert [source.path for source in tree.nodes[-1].param_sources] == [str(desk.package / "a" / "b")]
+    assert [source.path for source in tree.nodes[-1].param_sources] == [str(harness.package / "a" / "b")]
 
 
-def test_a_class_that_finds_no_package(desk: PythonDesk) -> None:
+def test_a_class_that_finds_no_package(harness: PythonHarness) -> None:
     """launch_ros raises NotImplementedError when it is performed; a class made from it says where to look."""
     before = (
         "from launch_ros.substitutions import FindPackage\n"
         "class Lib(FindPackage):\n    def find(self, name):\n        return '/lib_of_' + name\n"
     )
-    path = _described(desk, "LogInfo(msg=[FindPackage('p'), '/x'])", before=before)
-    (finding,) = desk.launch(path).findings
+    path = _described(harness, "LogInfo(msg=[FindPackage('p'), '/x'])", before=before)
+    (finding,) = harness.launch(path).findings
     expected = "FindPackage finds no folder by itself; use FindPackageShare or FindPackagePrefix"
     assert (finding.rule, finding.message) == ("LCH011", expected)
-    path = _described(desk, "ExecuteProcess(cmd=['ls', Lib('p')])", before=before)
-    assert [node.args for node in desk.launch(path).tree.nodes] == ["/lib_of_p"]
+    path = _described(harness, "ExecuteProcess(cmd=['ls', Lib('p')])", before=before)
+    assert [node.args for node in harness.launch(path).tree.nodes] == ["/lib_of_p"]
 
 
-def test_a_file_for_launch_test_is_a_launch_file(desk: PythonDesk) -> None:
-    path = desk.write(
+def test_a_file_for_launch_test_is_a_launch_file(harness: PythonHarness) -> None:
+    path = harness.write(
         "test/test_launch.py",
         HEAD
         + """
@@ -487,35 +489,35 @@ class Ends(unittest.TestCase):
     pass
 """,
     )
-    analysis = desk.launch(path)
+    analysis = harness.launch(path)
     assert [node.name for node in analysis.tree.nodes] == ["/n"]
     assert [finding.message for finding in analysis.findings if finding.rule == "LCH032"] == []
 
 
-def test_an_include_that_raises_and_is_never_executed(desk: PythonDesk) -> None:
+def test_an_include_that_raises_and_is_never_executed(harness: PythonHarness) -> None:
     """launch looks into it for required arguments, and says nothing of what it raises."""
-    desk.write("launch/broken.launch.py", "def generate_launch_description():\n    raise ValueError('no')\n")
+    harness.write("launch/broken.launch.py", "def generate_launch_description():\n    raise ValueError('no')\n")
     include = "IncludeLaunchDescription([FindPackageShare('p'), '/launch/broken.launch.py']"
-    path = _described(desk, f"{include}, condition=IfCondition('false'))")
-    assert not desk.launch(path).tree.problems
-    path = _described(desk, f"{include})")
-    assert [problem.kind for problem in desk.launch(path).tree.problems] == ["python-exception"]
+    path = _described(harness, f"{include}, condition=IfCondition('false'))")
+    assert not harness.launch(path).tree.problems
+    path = _described(harness, f"{include})")
+    assert [problem.kind for problem in harness.launch(path).tree.problems] == ["python-exception"]
 
 
-def test_an_argument_that_nothing_uses(desk: PythonDesk) -> None:
+def test_an_argument_that_nothing_uses(harness: PythonHarness) -> None:
     actions = (
         "DeclareLaunchArgument('speed', default_value='1')",
         "DeclareLaunchArgument('name', default_value='n')",
         "Node(package='p', executable='x', name=LaunchConfiguration('name'))",
     )
-    findings = desk.launch(_described(desk, *actions)).findings
+    findings = harness.launch(_described(harness, *actions)).findings
     assert [f.message for f in findings if f.rule == "ARG008"] == [
         "argument 'speed' is declared and never used in this launch"
     ]
 
 
-def test_helpers_of_the_project_may_use_an_argument(desk: PythonDesk) -> None:
-    desk.write(
+def test_helpers_of_the_project_may_use_an_argument(harness: PythonHarness) -> None:
+    harness.write(
         "launch/helper.py",
         """
         from launch.substitutions import LaunchConfiguration
@@ -523,19 +525,19 @@ def test_helpers_of_the_project_may_use_an_argument(desk: PythonDesk) -> None:
         """,
     )
     path = _described(
-        desk,
+        harness,
         "DeclareLaunchArgument('speed', default_value='1')",
         "Node(package='p', executable='x', name='n', parameters=[{'speed': SPEED}])",
         before="import os, sys\nsys.path.insert(0, os.path.dirname(__file__))\nfrom helper import SPEED\n",
     )
-    analysis = desk.launch(path)
+    analysis = harness.launch(path)
     assert [node.name for node in analysis.tree.nodes] == ["/n"]
     assert "ARG008" not in {f.rule for f in analysis.findings}
 
 
-def test_a_parameter_that_is_set_again(desk: PythonDesk) -> None:
+def test_a_parameter_that_is_set_again(harness: PythonHarness) -> None:
     """Which value counts is what real rclpy has: `tests/evaluation/test_params_against_rclpy.py`."""
-    desk.write("config/a.yaml", "a:\n  ros__parameters: {rate: 2.0, frame: map}\n")
+    harness.write("config/a.yaml", "a:\n  ros__parameters: {rate: 2.0, frame: map}\n")
     file = "PathJoinSubstitution([FindPackageShare('p'), 'config', 'a.yaml'])"
     before = "common = {'rate': 5.0}\ndef of_library():\n    return {'rate': 6.0}\n"
     sources = (
@@ -550,8 +552,8 @@ def test_a_parameter_that_is_set_again(desk: PythonDesk) -> None:
         f"[{{'rate': 2.0}}, {file}]",
     )
     nodes = [f"Node(package='p', executable='x', name='a', namespace='', parameters={each})" for each in sources]
-    path = _described(desk, *nodes, before="from launch_ros.parameter_descriptions import Parameter\n" + before)
-    analysis = desk.launch(path)
+    path = _described(harness, *nodes, before="from launch_ros.parameter_descriptions import Parameter\n" + before)
+    analysis = harness.launch(path)
     found = []
     for finding in analysis.findings:
         if finding.rule == "PRM006":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from python_launch_desk import MANIFEST, PythonDesk
+from support.python_launch_harness import MANIFEST, PythonHarness
 
 pytestmark = pytest.mark.ros
 
@@ -31,9 +31,9 @@ ament_python_install_package(${PROJECT_NAME}_py PACKAGE_DIR python/inner)
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> PythonDesk:
-    desk = PythonDesk(tmp_path)
-    desk.write("setup.py", "from setuptools import setup\nsetup(name='p')\n")
+def harness(tmp_path: Path) -> PythonHarness:
+    harness = PythonHarness(tmp_path)
+    harness.write("setup.py", "from setuptools import setup\nsetup(name='p')\n")
     demo = tmp_path / "src" / "demo"
     for name, text in {
         "package.xml": CMAKE_MANIFEST.format("demo"),
@@ -46,11 +46,11 @@ def desk(tmp_path: Path) -> PythonDesk:
     }.items():
         (demo / name).parent.mkdir(parents=True, exist_ok=True)
         (demo / name).write_text(text)
-    return desk
+    return harness
 
 
-def _names(desk: PythonDesk, code: str) -> list[str]:
-    analysis = desk.launch(desk.write("launch/a.launch.py", HEAD + code + DESCRIPTION))
+def _names(harness: PythonHarness, code: str) -> list[str]:
+    analysis = harness.launch(harness.write("launch/a.launch.py", HEAD + code + DESCRIPTION))
     assert [finding.message for finding in analysis.findings if finding.rule == "LCH032"] == []
     return [node.name for node in analysis.tree.nodes]
 
@@ -72,13 +72,15 @@ SHARE = "SHARE = get_package_share_directory('demo')\n"
         ("NAME = 'n%d' % os.path.exists(SHARE + '/doc/names.txt')", "n1"),
     ],
 )
-def test_a_file_is_where_it_will_be_installed(desk: PythonDesk, code: str, name: str) -> None:
-    assert _names(desk, SHARE + code) == [f"/{name}"]
+def test_a_file_is_where_it_will_be_installed(harness: PythonHarness, code: str, name: str) -> None:
+    assert _names(harness, SHARE + code) == [f"/{name}"]
 
 
-def test_what_is_installed_nowhere_is_missing(desk: PythonDesk) -> None:
-    path = desk.write("launch/a.launch.py", HEAD + SHARE + "open(SHARE + '/config/q.yaml')\nNAME = 'n'" + DESCRIPTION)
-    (finding,) = [f for f in desk.launch(path).findings if f.rule == "LCH032"]
+def test_what_is_installed_nowhere_is_missing(harness: PythonHarness) -> None:
+    path = harness.write(
+        "launch/a.launch.py", HEAD + SHARE + "open(SHARE + '/config/q.yaml')\nNAME = 'n'" + DESCRIPTION
+    )
+    (finding,) = [f for f in harness.launch(path).findings if f.rule == "LCH032"]
     assert finding.message.startswith("FileNotFoundError: ")
     assert finding.message.endswith("demo/config/q.yaml'")
 
@@ -87,23 +89,23 @@ def test_what_is_installed_nowhere_is_missing(desk: PythonDesk) -> None:
     ("code", "name"),
     [("from scripts.names import NAME", "in_scripts"), ("from demo_py import NAME", "in_inner")],
 )
-def test_modules_that_cmake_installs(desk: PythonDesk, code: str, name: str) -> None:
-    assert _names(desk, code) == [f"/{name}"]
+def test_modules_that_cmake_installs(harness: PythonHarness, code: str, name: str) -> None:
+    assert _names(harness, code) == [f"/{name}"]
 
 
-def test_the_prefix_path_is_set_where_ros2_launch_runs(desk: PythonDesk, tmp_path: Path) -> None:
+def test_the_prefix_path_is_set_where_ros2_launch_runs(harness: PythonHarness, tmp_path: Path) -> None:
     code = "NAME = 'n%d' % bool(os.getenv('AMENT_PREFIX_PATH').split(':')[0])"
-    assert _names(desk, code) == ["/n1"]
-    path = desk.write(
+    assert _names(harness, code) == ["/n1"]
+    path = harness.write(
         "launch/a.launch.py", HEAD + "NAME = os.environ['AMENT_PREFIX_PATH'].split('/')[-1]" + DESCRIPTION
     )
     underlay = tmp_path / "underlay"
     underlay.mkdir()
-    tree = desk.launch(path, variables={"AMENT_PREFIX_PATH": str(underlay)}).tree
+    tree = harness.launch(path, variables={"AMENT_PREFIX_PATH": str(underlay)}).tree
     assert [node.name for node in tree.nodes] == ["/underlay"]
 
 
-def test_an_underlay_of_links_shows_what_they_lead_to(desk: PythonDesk, tmp_path: Path) -> None:
+def test_an_underlay_of_links_shows_what_they_lead_to(harness: PythonHarness, tmp_path: Path) -> None:
     """`colcon build --symlink-install` of a package with `setup.py` has links to `build/`, and there to the source."""
     underlay = tmp_path.parent / f"underlay of {tmp_path.name}"
     source, build, share = underlay / "src" / "u", underlay / "build" / "u", underlay / "install" / "share" / "u"
@@ -116,6 +118,6 @@ def test_an_underlay_of_links_shows_what_they_lead_to(desk: PythonDesk, tmp_path
         (build / name).symlink_to(source / name)
         (share / name).symlink_to(Path("..", "..", "..", "build", "u", name))
     code = "NAME = open(get_package_share_directory('u') + '/names.txt').read()"
-    path = desk.write("launch/a.launch.py", HEAD + code + DESCRIPTION)
-    tree = desk.launch(path, prefixes=[underlay / "install"]).tree
+    path = harness.write("launch/a.launch.py", HEAD + code + DESCRIPTION)
+    tree = harness.launch(path, prefixes=[underlay / "install"]).tree
     assert [node.name for node in tree.nodes] == ["/in_underlay"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.evaluation.ros2.evaluate import EXECUTED, MEANS_NOTHING
 from preflight_analysis.tracing.backend import AGENTS
-from python_launch_desk import PythonDesk
+from support.python_launch_harness import PythonHarness
 
 pytestmark = pytest.mark.ros
 
@@ -26,18 +26,20 @@ def n(name, **more):
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> PythonDesk:
-    return PythonDesk(tmp_path)
+def harness(tmp_path: Path) -> PythonHarness:
+    return PythonHarness(tmp_path)
 
 
-def _described(desk: PythonDesk, *actions: str, before: str = "") -> Path:
+def _described(harness: PythonHarness, *actions: str, before: str = "") -> Path:
     text = HEAD + before + "\ndef generate_launch_description():\n    return LaunchDescription([\n"
-    return desk.write("launch/a.launch.py", text + "".join(f"        {action},\n" for action in actions) + "    ])\n")
+    return harness.write(
+        "launch/a.launch.py", text + "".join(f"        {action},\n" for action in actions) + "    ])\n"
+    )
 
 
-def _started(desk: PythonDesk, *actions: str, before: str = "", args: dict[str, str] | None = None) -> list[str]:
+def _started(harness: PythonHarness, *actions: str, before: str = "", args: dict[str, str] | None = None) -> list[str]:
     """The names of the nodes in order, those that are deferred in brackets."""
-    tree = desk.launch(_described(desk, *actions, before=before), args).tree
+    tree = harness.launch(_described(harness, *actions, before=before), args).tree
     assert not tree.problems
     return [f"({node.name})" if node.deferred else node.name for node in tree.nodes if node.kind != "process"]
 
@@ -75,9 +77,9 @@ def test_what_is_recorded_is_evaluated_or_named_as_meaning_nothing() -> None:
     assert not EXECUTED & MEANS_NOTHING
 
 
-def test_environments_have_a_stack_of_their_own(desk: PythonDesk) -> None:
+def test_environments_have_a_stack_of_their_own(harness: PythonHarness) -> None:
     names = _started(
-        desk,
+        harness,
         "SetEnvironmentVariable('A', 'one')",
         "SetLaunchConfiguration('c', 'one')",
         "PushEnvironment()",
@@ -97,18 +99,18 @@ def test_environments_have_a_stack_of_their_own(desk: PythonDesk) -> None:
 
 
 @pytest.mark.parametrize("kind", ["Environment", "LaunchConfigurations"])
-def test_a_pop_without_a_push_stops_launch(desk: PythonDesk, kind: str) -> None:
-    path = _described(desk, f"Push{kind}()", f"Pop{kind}()", f"Pop{kind}()")
-    (finding,) = desk.launch(path).findings
+def test_a_pop_without_a_push_stops_launch(harness: PythonHarness, kind: str) -> None:
+    path = _described(harness, f"Push{kind}()", f"Pop{kind}()", f"Pop{kind}()")
+    (finding,) = harness.launch(path).findings
     assert (finding.rule, finding.stops_launch) == ("LCH032", True)
     assert finding.message.endswith("stack unexpectedly empty")
     assert path.read_text()[: finding.location.span.start].count("Pop") == 1
 
 
-def test_what_a_group_keeps_is_set_one_after_the_other(desk: PythonDesk) -> None:
+def test_what_a_group_keeps_is_set_one_after_the_other(harness: PythonHarness) -> None:
     kept = "launch_configurations={'a': '2', 'b': LaunchConfiguration('a')}"
     names = _started(
-        desk,
+        harness,
         "SetLaunchConfiguration('a', '1')",
         f"GroupAction([n(['x', LaunchConfiguration('b')])], {kept})",
         f"GroupAction([n(['y', LaunchConfiguration('b')])], forwarding=False, {kept})",
@@ -116,20 +118,20 @@ def test_what_a_group_keeps_is_set_one_after_the_other(desk: PythonDesk) -> None
     assert names == ["/x2", "/y1"]
 
 
-def test_a_description_within_another_is_no_scope(desk: PythonDesk) -> None:
+def test_a_description_within_another_is_no_scope(harness: PythonHarness) -> None:
     before = (
         "arguments = LaunchDescription([DeclareLaunchArgument('rate', default_value='5'),"
         " SetLaunchConfiguration('frame', 'base')])\n"
     )
     used = "n(['r', LaunchConfiguration('rate'), LaunchConfiguration('frame')])"
-    assert _started(desk, "arguments", used, before=before) == ["/r5base"]
-    assert _started(desk, "arguments", used, before=before, args={"rate": "6"}) == ["/r6base"]
+    assert _started(harness, "arguments", used, before=before) == ["/r5base"]
+    assert _started(harness, "arguments", used, before=before, args={"rate": "6"}) == ["/r6base"]
 
 
-def test_a_description_that_is_included_without_a_file_gets_arguments(desk: PythonDesk) -> None:
+def test_a_description_that_is_included_without_a_file_gets_arguments(harness: PythonHarness) -> None:
     before = "inner = LaunchDescription([DeclareLaunchArgument('rate'), n(['r', LaunchConfiguration('rate')])])\n"
     include = "IncludeLaunchDescription(LaunchDescriptionSource(inner), launch_arguments={'rate': '7'}.items())"
-    assert _started(desk, include, before=before) == ["/r7"]
+    assert _started(harness, include, before=before) == ["/r7"]
 
 
 FIRST = "first = n('first')\nother = n('other', condition=IfCondition('false'))\n"
@@ -171,14 +173,14 @@ def _on_start(target: str, *nodes: str) -> str:
         ),
     ],
 )
-def test_nodes_of_the_start_of_a_process(desk: PythonDesk, actions: tuple[str, ...], expected: list[str]) -> None:
-    assert _started(desk, *actions, before=FIRST) == expected
+def test_nodes_of_the_start_of_a_process(harness: PythonHarness, actions: tuple[str, ...], expected: list[str]) -> None:
+    assert _started(harness, *actions, before=FIRST) == expected
 
 
-def test_starts_follow_each_other(desk: PythonDesk) -> None:
+def test_starts_follow_each_other(harness: PythonHarness) -> None:
     second = "second = n('second')\n"
     names = _started(
-        desk,
+        harness,
         _on_start("target_action=second, ", "n('third')"),
         _on_start("target_action=first, ", "second"),
         "first",
@@ -187,20 +189,22 @@ def test_starts_follow_each_other(desk: PythonDesk) -> None:
     assert names == ["/first", "/second", "/third"]
 
 
-def test_a_handler_that_was_removed_does_nothing(desk: PythonDesk) -> None:
+def test_a_handler_that_was_removed_does_nothing(harness: PythonHarness) -> None:
     before = FIRST + "handler = OnProcessStart(target_action=first, on_start=[n('late')])\n"
-    names = _started(desk, "RegisterEventHandler(handler)", "UnregisterEventHandler(handler)", "first", before=before)
+    names = _started(
+        harness, "RegisterEventHandler(handler)", "UnregisterEventHandler(handler)", "first", before=before
+    )
     assert names == ["/first"]
 
 
-def test_a_handler_of_what_may_be_started_is_deferred(desk: PythonDesk) -> None:
+def test_a_handler_of_what_may_be_started_is_deferred(harness: PythonHarness) -> None:
     """Whether it is depends on a command, which is not run here."""
     before = "first = n('first', condition=IfCondition(Command('no_such_command')))\n"
-    path = _described(desk, "first", _on_start("target_action=first, ", "n('late')"), before=before)
-    assert [(node.name, node.deferred) for node in desk.launch(path).tree.nodes] == [("/late", True)]
+    path = _described(harness, "first", _on_start("target_action=first, ", "n('late')"), before=before)
+    assert [(node.name, node.deferred) for node in harness.launch(path).tree.nodes] == [("/late", True)]
 
 
-def test_what_is_no_process_is_no_target(desk: PythonDesk) -> None:
-    path = _described(desk, _on_start("target_action='first', ", "n('late')"))
-    (finding,) = [f for f in desk.launch(path).findings if f.rule == "LCH032"]
+def test_what_is_no_process_is_no_target(harness: PythonHarness) -> None:
+    path = _described(harness, _on_start("target_action='first', ", "n('late')"))
+    (finding,) = [f for f in harness.launch(path).findings if f.rule == "LCH032"]
     assert finding.message == "TypeError: action_matcher must be an 'ExecuteProcess' instance or a callable"

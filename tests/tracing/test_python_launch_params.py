@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from python_launch_desk import PythonDesk
+from support.python_launch_harness import PythonHarness
 
 pytestmark = pytest.mark.ros
 
@@ -141,10 +141,10 @@ def generate_launch_description():
 
 
 def test_values_are_those_of_launch_ros(tmp_path: Path) -> None:
-    desk = PythonDesk(tmp_path)
+    harness = PythonHarness(tmp_path)
     nodes = "".join(f"        node('n{n}', lambda: {case}),\n" for n, case in enumerate(CASES))
-    path = desk.write("launch/a.launch.py", f"{TEXT}{nodes}    ])\n")
-    tree = desk.launch(path).tree
+    path = harness.write("launch/a.launch.py", f"{TEXT}{nodes}    ])\n")
+    tree = harness.launch(path).tree
     assert len(tree.nodes) == len(CASES)
     found = {}
     for case, node in zip(CASES, tree.nodes, strict=True):

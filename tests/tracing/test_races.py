@@ -15,7 +15,7 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.store import fingerprint
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, request, write_node
+from support.tracing_harness import environment, own, request, write_node
 
 pytestmark = pytest.mark.ros
 

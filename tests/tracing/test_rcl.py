@@ -13,8 +13,8 @@ from preflight_analysis.tracing import preload, preload_compile
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import MadeNode
 from preflight_analysis.tracing.preload import Library
-from rcl_desk import RclDesk
-from ros2_desk import ends, uses
+from support.rcl_harness import RclHarness
+from support.ros2_harness import ends, uses
 
 pytestmark = pytest.mark.ros
 
@@ -28,12 +28,12 @@ ALL = {
 
 
 @pytest.fixture(params=["kilted", "jazzy"])
-def desk(request: pytest.FixtureRequest, tmp_path: Path) -> RclDesk:
-    return RclDesk(tmp_path, request.param)
+def harness(request: pytest.FixtureRequest, tmp_path: Path) -> RclHarness:
+    return RclHarness(tmp_path, request.param)
 
 
-def test_endpoints_have_the_names_that_the_node_gave(desk: RclDesk) -> None:
-    found = desk.trace("ends", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
+def test_endpoints_have_the_names_that_the_node_gave(harness: RclHarness) -> None:
+    found = harness.trace("ends", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
     assert (found.source, found.outcome.status, found.outcome.answers, found.notes) == ("trace", "spinning", (), ())
     assert found.nodes == (MadeNode("n", "own", "", renamed=True),)
     by_name = ends(found)
@@ -49,35 +49,37 @@ def test_endpoints_have_the_names_that_the_node_gave(desk: RclDesk) -> None:
 
 
 def test_nodes_are_seen_the_same_with_each_way_to_isolate(tmp_path: Path, each_backend: str) -> None:
-    desk = RclDesk(tmp_path)
-    found = desk.trace("ends")
+    harness = RclHarness(tmp_path)
+    found = harness.trace("ends")
     if each_backend == "landlock":  # which leaves the middleware no socket: nothing is known then, and nothing is said
         assert (found.source, found.outcome.status) == ("none", "not-run")
         assert "the middleware may need what the sandbox by landlock refuses" in (found.outcome.reason or "")
         return
     assert (found.outcome.status, found.notes, set(ends(found))) == ("spinning", (), set(ALL))
-    assert set(ends(desk.trace("managed"))) == {("publisher", "made"), ("subscriber", "active")}
+    assert set(ends(harness.trace("managed"))) == {("publisher", "made"), ("subscriber", "active")}
 
 
 @pytest.mark.parametrize("mode", ["ends", "poll", "thread", "sleep"])
-def test_event_loops(desk: RclDesk, mode: str) -> None:
-    found = desk.trace(mode)
+def test_event_loops(harness: RclHarness, mode: str) -> None:
+    found = harness.trace(mode)
     assert (found.outcome.status, set(ends(found))) == ("spinning", set(ALL))
 
 
-def test_what_is_made_after_a_short_wait_is_seen(desk: RclDesk) -> None:
-    assert set(ends(desk.trace("late"))) == {*ALL, ("publisher", "late")}
+def test_what_is_made_after_a_short_wait_is_seen(harness: RclHarness) -> None:
+    assert set(ends(harness.trace("late"))) == {*ALL, ("publisher", "late")}
 
 
-def test_a_node_in_a_namespace_of_its_own_has_full_names(desk: RclDesk) -> None:
-    found = desk.trace("elsewhere", attributes="")
+def test_a_node_in_a_namespace_of_its_own_has_full_names(harness: RclHarness) -> None:
+    found = harness.trace("elsewhere", attributes="")
     assert ("publisher", "/there/chatter") in ends(found)
     assert [(node.name, node.space) for node in found.nodes] == [("own", "/there")]
 
 
 @pytest.mark.parametrize("mode", ["wait", "watch"])
-def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative(desk: RclDesk, mode: str) -> None:
-    found = desk.trace(mode)
+def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative(
+    harness: RclHarness, mode: str
+) -> None:
+    found = harness.trace(mode)
     assert found.outcome.status == "spinning"
     assert set(found.outcome.answers) == {
         "it asks for the service /start again and again, and was told that it is there",
@@ -89,8 +91,8 @@ def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative
     }
 
 
-def test_actions_are_one_end_each_and_their_servers_are_waited_for(desk: RclDesk) -> None:
-    found = desk.trace("action")
+def test_actions_are_one_end_each_and_their_servers_are_waited_for(harness: RclHarness) -> None:
+    found = harness.trace("action")
     assert found.outcome.status == "spinning"
     assert found.outcome.answers == ("it waits for the action server /n/other, and was told that it is there",)
     assert {key: (end.type, end.speculative) for key, end in ends(found).items()} == {
@@ -100,25 +102,25 @@ def test_actions_are_one_end_each_and_their_servers_are_waited_for(desk: RclDesk
     }
 
 
-def test_lifecycle_nodes_are_configured_and_activated(desk: RclDesk) -> None:
-    found = desk.trace("managed")
+def test_lifecycle_nodes_are_configured_and_activated(harness: RclHarness) -> None:
+    found = harness.trace("managed")
     assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
     assert set(ends(found)) == {("publisher", "made"), ("subscriber", "active")}
     builtin = {e.name for e in found.endpoints if e.builtin}
     assert {"~/change_state", "~/get_state", "~/transition_event"} <= builtin
 
 
-def test_a_lifecycle_node_that_refuses_to_be_configured_is_left_alone(desk: RclDesk) -> None:
-    found = desk.trace("managed fail")
+def test_a_lifecycle_node_that_refuses_to_be_configured_is_left_alone(harness: RclHarness) -> None:
+    found = harness.trace("managed fail")
     assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "made")})
     assert found.outcome.answers == ("it was asked to configure, as a manager of lifecycle nodes would, and did not",)
     assert not found.complete
 
 
-def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None:
+def test_how_it_ends_is_told_with_what_it_made_until_then(harness: RclHarness) -> None:
     outcomes = {}
     for mode in ("exit 0", "exit 7", "crash", "early"):
-        found = desk.trace(mode)
+        found = harness.trace(mode)
         outcomes[mode] = found.outcome.status, found.outcome.exit_code, found.outcome.signal
         assert set(ends(found)) == (set() if mode == "early" else set(ALL))
     assert outcomes == {
@@ -129,8 +131,8 @@ def test_how_it_ends_is_told_with_what_it_made_until_then(desk: RclDesk) -> None
     }
 
 
-def test_parameters_are_those_that_the_client_library_publishes(desk: RclDesk) -> None:
-    found = desk.trace("declare", "<param name='count' value='3'/>")
+def test_parameters_are_those_that_the_client_library_publishes(harness: RclHarness) -> None:
+    found = harness.trace("declare", "<param name='count' value='3'/>")
     assert {name: (use.type, use.default, use.has_default) for name, use in uses(found).items()} == {
         "~on": ("bool", True, True),
         "~count": ("integer", None, False),  # what is seen is the value that it was given
@@ -145,38 +147,46 @@ def test_parameters_are_those_that_the_client_library_publishes(desk: RclDesk) -
     assert [use.name for use in found.params if use.builtin] == ["~use_sim_time"]
 
 
-def test_a_parameter_that_is_not_declared_is_told_only_where_they_are_known(desk: RclDesk) -> None:
+def test_a_parameter_that_is_not_declared_is_told_only_where_they_are_known(harness: RclHarness) -> None:
     launch = "<node pkg='cpkg' exec='node' name='n' args='{}'><param name='rte' value='1.0'/></node>"
-    (finding,) = [f for f in desk.check(launch.format("declare")).findings if f.rule == "PRM013"]
+    (finding,) = [f for f in harness.check(launch.format("declare")).findings if f.rule == "PRM013"]
     assert "rate" in finding.message
-    assert "PRM013" not in {f.rule for f in desk.check(launch.format("ends")).findings}
+    assert "PRM013" not in {f.rule for f in harness.check(launch.format("ends")).findings}
 
 
 @pytest.mark.parametrize(("topic", "space", "found"), [("chatter", "", 0), ("chater", "", 1), ("chatter", "robot", 1)])
-def test_check_says_which_topics_of_two_nodes_do_not_meet(desk: RclDesk, topic: str, space: str, found: int) -> None:
-    desk.launch_file.write_text(
+def test_check_says_which_topics_of_two_nodes_do_not_meet(
+    harness: RclHarness, topic: str, space: str, found: int
+) -> None:
+    harness.launch_file.write_text(
         "<launch><node pkg='cpkg' exec='node' name='talker' args='talk chatter'/>"
         f"<node pkg='cpkg' exec='node' name='listener' args='listen {topic}' namespace='{space}'/></launch>"
     )
-    command = [str(Path(sys.executable).with_name("ros-preflight")), "check", str(desk.launch_file), "--format", "json"]
-    told = subprocess.run(command, env=desk.variables, capture_output=True, text=True, check=False)
+    command = [
+        str(Path(sys.executable).with_name("ros-preflight")),
+        "check",
+        str(harness.launch_file),
+        "--format",
+        "json",
+    ]
+    told = subprocess.run(command, env=harness.variables, capture_output=True, text=True, check=False)
     findings = json.loads(told.stdout)["findings"]
     assert [(f["rule"], f["confidence"]) for f in findings] == [("TOP001", "likely")] * found
     assert all("did you mean '/chatter', published by /talker" in f["message"] for f in findings)
 
 
-def test_a_trace_is_kept_until_the_name_a_parameter_or_the_program_changes(desk: RclDesk) -> None:
-    desk.cache = TraceCache(desk.folder / "cache")
-    assert not desk.trace("talk a").cached
-    assert desk.trace("talk a", "<remap from='a' to='b'/>").cached
-    assert not desk.trace("talk a", attributes="name='m'").cached
+def test_a_trace_is_kept_until_the_name_a_parameter_or_the_program_changes(harness: RclHarness) -> None:
+    harness.cache = TraceCache(harness.folder / "cache")
+    assert not harness.trace("talk a").cached
+    assert harness.trace("talk a", "<remap from='a' to='b'/>").cached
+    assert not harness.trace("talk a", attributes="name='m'").cached
     # rcl does not tell which parameters the node looks at.
-    assert not desk.trace("talk a", "<param name='rate' value='1.0'/>").cached
-    assert desk.trace("talk a", "<param name='rate' value='1.0'/>").cached
-    assert not desk.trace("talk a", "<param name='rate' value='2.0'/>").cached
-    with desk.program.open("ab") as file:
+    assert not harness.trace("talk a", "<param name='rate' value='1.0'/>").cached
+    assert harness.trace("talk a", "<param name='rate' value='1.0'/>").cached
+    assert not harness.trace("talk a", "<param name='rate' value='2.0'/>").cached
+    with harness.program.open("ab") as file:
         file.write(b"more")
-    assert not desk.trace("talk a").cached
+    assert not harness.trace("talk a").cached
 
 
 SOURCE = """#include "rclcpp/rclcpp.hpp"
@@ -192,11 +202,11 @@ int main(int argc, char ** argv) {
 """
 
 
-def with_source(desk: RclDesk) -> str:
+def with_source(harness: RclHarness) -> str:
     """Put a source of the program beside it, which says more than the program does."""
-    package = desk.folder / "src" / "cpkg"
+    package = harness.folder / "src" / "cpkg"
     package.mkdir(parents=True)
-    (package / "package.xml").write_text((desk.launch_file.parent.parent / "package.xml").read_text())
+    (package / "package.xml").write_text((harness.launch_file.parent.parent / "package.xml").read_text())
     (package / "CMakeLists.txt").write_text(
         "add_executable(node node.cpp)\ninstall(TARGETS node DESTINATION lib/cpkg)\n"
     )
@@ -205,15 +215,15 @@ def with_source(desk: RclDesk) -> str:
 
 
 def test_a_trace_wins_over_the_source_which_says_where_things_are_made(tmp_path: Path) -> None:
-    desk = RclDesk(tmp_path)
-    source = with_source(desk)
-    found = desk.trace("talk chatter")
+    harness = RclHarness(tmp_path)
+    source = with_source(harness)
+    found = harness.trace("talk chatter")
     places = {key: (end.source_file, end.source_line, end.inferred) for key, end in ends(found).items()}
     assert (found.source, places) == ("trace", {("publisher", "chatter"): (source, 6, False)})
     # Of parameters rcl knows nothing.
     rate = uses(found)["~rate"]
     assert (rate.default, rate.inferred, rate.source_line) == (10.0, True, 8)
-    given = uses(desk.trace("declare", "<param name='rate' value='2.0'/>"))
+    given = uses(harness.trace("declare", "<param name='rate' value='2.0'/>"))
     rate, frames = given["~rate"], given["~frames"]
     assert (rate.default, rate.inferred, rate.source_line) == (10.0, False, 8)
     assert (frames.default, frames.type, frames.source_line) == (["map", "base"], "string array", None)
@@ -227,29 +237,29 @@ def test_a_trace_wins_over_the_source_which_says_where_things_are_made(tmp_path:
     ],
 )
 def test_of_a_program_without_rcl_the_source_is_read(tmp_path: Path, body: str, reason: str) -> None:
-    desk = RclDesk(tmp_path)
-    with_source(desk)
-    compiled = ["cc", "-x", "c", "-", "-o", str(desk.program)]
+    harness = RclHarness(tmp_path)
+    with_source(harness)
+    compiled = ["cc", "-x", "c", "-", "-o", str(harness.program)]
     subprocess.run(compiled, input=f"int main(void) {{ return {body.split()[1]}; }}", text=True, check=True)
-    found = desk.trace("")
+    found = harness.trace("")
     assert (found.source, found.outcome.status, found.outcome.reason) == ("source", "not-run", reason)
     assert set(ends(found)) == {("publisher", "chatter"), ("publisher", "other")}
 
 
 def test_without_a_compiler_the_source_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    desk = RclDesk(tmp_path)
-    with_source(desk)
+    harness = RclHarness(tmp_path)
+    with_source(harness)
     monkeypatch.setattr(preload_compile, "COMPILERS", ("no-such-compiler",))
     lacking = Library(tmp_path / "cache", tmp_path / "absent", preload_compile.RCL)
     monkeypatch.setattr(preload, "library", lambda _: lacking)
-    found = desk.trace("ends")
+    found = harness.trace("ends")
     assert found.source == "source"
     assert "there is no C++ compiler to watch rcl nodes with" in (found.outcome.reason or "")
 
 
 @pytest.mark.parametrize("distribution", ["kilted", "jazzy"])
 def test_types_of_cpp_are_known_as_those_of_c(tmp_path: Path, distribution: str) -> None:
-    found = RclDesk(tmp_path, distribution, "rcl_types.cpp").trace("")
+    found = RclHarness(tmp_path, distribution, "rcl_types.cpp").trace("")
     assert found.outcome.status == "spinning"
     assert {key: end.type for key, end in ends(found).items()} == {
         ("client", "start"): "std_srvs/srv/Trigger",
@@ -258,9 +268,9 @@ def test_types_of_cpp_are_known_as_those_of_c(tmp_path: Path, distribution: str)
     assert uses(found)["~frames"].default == ["map", "base"]
 
 
-def test_arguments_of_ros_that_are_wrong_end_the_node_and_it_says_so(desk: RclDesk) -> None:
+def test_arguments_of_ros_that_are_wrong_end_the_node_and_it_says_so(harness: RclHarness) -> None:
     for given in ("--ros-args -r __ns:=/not-a-name --", "--ros-args --params-file /absent.yaml --"):
-        outcome = desk.trace(f"ends {given}").outcome
+        outcome = harness.trace(f"ends {given}").outcome
         assert (outcome.status, outcome.exit_code) == ("crashed", 3)
         assert "error: " in (outcome.reason or "")
 

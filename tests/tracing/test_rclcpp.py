@@ -12,8 +12,8 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Range
-from rcl_desk import RclDesk
-from ros2_desk import ends, uses
+from support.rcl_harness import RclHarness
+from support.ros2_harness import ends, uses
 
 pytestmark = pytest.mark.ros
 
@@ -22,37 +22,37 @@ CHILD = "node=own pub=chatter double=rate@1.5 child=costmap@/n/costmap pub=map d
 
 
 @pytest.fixture(params=["kilted", "jazzy"])
-def desk(request: pytest.FixtureRequest, tmp_path: Path) -> RclDesk:
-    return RclDesk(tmp_path, request.param, SOURCE)
+def harness(request: pytest.FixtureRequest, tmp_path: Path) -> RclHarness:
+    return RclHarness(tmp_path, request.param, SOURCE)
 
 
 @pytest.fixture
-def kilted(tmp_path: Path) -> RclDesk:
-    return RclDesk(tmp_path, source=SOURCE)
+def kilted(tmp_path: Path) -> RclHarness:
+    return RclHarness(tmp_path, source=SOURCE)
 
 
-def launched(desk: RclDesk, args: str, inside: str = "", attributes: str = "name='n'") -> str:
+def launched(harness: RclHarness, args: str, inside: str = "", attributes: str = "name='n'") -> str:
     """The tag of a node that does this."""
     return f"<node pkg='cpkg' exec='node' args='{args}' {attributes}>{inside}</node>"
 
 
-def found(desk: RclDesk, rule: str, launch: str) -> list[Finding]:
+def found(harness: RclHarness, rule: str, launch: str) -> list[Finding]:
     """What the rule says of a launch."""
-    return [finding for finding in desk.check(launch).findings if finding.rule == rule]
+    return [finding for finding in harness.check(launch).findings if finding.rule == rule]
 
 
-def command(desk: RclDesk, *words: str) -> subprocess.CompletedProcess[str]:
+def command(harness: RclHarness, *words: str) -> subprocess.CompletedProcess[str]:
     """Run `ros-preflight` on the launch file that was checked last."""
     program = str(Path(sys.executable).with_name("ros-preflight"))
-    line = [program, words[0], str(desk.launch_file), *words[1:]]
-    return subprocess.run(line, env=desk.variables, capture_output=True, text=True, check=False)
+    line = [program, words[0], str(harness.launch_file), *words[1:]]
+    return subprocess.run(line, env=harness.variables, capture_output=True, text=True, check=False)
 
 
 # Several nodes
 
 
-def test_events_carry_the_node_that_they_are_of(desk: RclDesk) -> None:
-    trace = desk.trace(CHILD)
+def test_events_carry_the_node_that_they_are_of(harness: RclHarness) -> None:
+    trace = harness.trace(CHILD)
     assert trace.names == ("/n", "/n/costmap/costmap")
     assert {(e.name, e.node) for e in trace.endpoints if not e.builtin} == {
         ("chatter", "/n"),
@@ -62,10 +62,10 @@ def test_events_carry_the_node_that_they_are_of(desk: RclDesk) -> None:
         ("~rate", "/n"),
         ("~resolution", "/n/costmap/costmap"),
     }
-    assert desk.trace("node=own pub=chatter").names == ()
+    assert harness.trace("node=own pub=chatter").names == ()
 
 
-def test_each_node_of_a_process_is_a_node_of_the_graph(kilted: RclDesk) -> None:
+def test_each_node_of_a_process_is_a_node_of_the_graph(kilted: RclHarness) -> None:
     graph = kilted.check(launched(kilted, CHILD)).graph
     assert graph is not None
     assert [(node.name, node.namespace, node.within) for node in graph.tree.nodes] == [
@@ -86,7 +86,7 @@ def test_each_node_of_a_process_is_a_node_of_the_graph(kilted: RclDesk) -> None:
     ]
 
 
-def test_a_name_of_the_launch_is_that_of_each_node_and_others_are_their_own(kilted: RclDesk) -> None:
+def test_a_name_of_the_launch_is_that_of_each_node_and_others_are_their_own(kilted: RclHarness) -> None:
     both = "node=front pub=a node=rear pub=b"
     graph = kilted.check(launched(kilted, both, attributes="")).graph
     assert graph is not None
@@ -102,7 +102,7 @@ def test_a_name_of_the_launch_is_that_of_each_node_and_others_are_their_own(kilt
     assert topics["/robot/y"] == ["/robot/back"]
 
 
-def test_a_remap_counts_for_each_node_as_rcl_has_it(kilted: RclDesk) -> None:
+def test_a_remap_counts_for_each_node_as_rcl_has_it(kilted: RclHarness) -> None:
     graph = kilted.check(
         launched(kilted, CHILD, "<remap from='map' to='grid'/><remap from='/n/costmap/x' to='y'/>")
     ).graph
@@ -111,7 +111,7 @@ def test_a_remap_counts_for_each_node_as_rcl_has_it(kilted: RclDesk) -> None:
     assert "/n/costmap/map" not in graph.topics
 
 
-def test_each_node_gets_what_the_parameter_file_has_for_it(kilted: RclDesk) -> None:
+def test_each_node_gets_what_the_parameter_file_has_for_it(kilted: RclHarness) -> None:
     file = kilted.folder / "p.yaml"
     file.write_text(
         "n:\n  ros__parameters:\n    rate: 2.0\n"
@@ -130,7 +130,7 @@ def test_each_node_gets_what_the_parameter_file_has_for_it(kilted: RclDesk) -> N
     assert [interface.outcome.status for interface in graph.interfaces] == ["spinning", "spinning"]
 
 
-def test_a_process_of_several_nodes_is_kept_until_what_one_of_them_gets_changes(kilted: RclDesk) -> None:
+def test_a_process_of_several_nodes_is_kept_until_what_one_of_them_gets_changes(kilted: RclHarness) -> None:
     kilted.cache = TraceCache(kilted.folder / "cache")
     file = kilted.folder / "p.yaml"
     inside = f"<param from='{file}'/>"
@@ -143,8 +143,8 @@ def test_a_process_of_several_nodes_is_kept_until_what_one_of_them_gets_changes(
 
 
 @pytest.mark.parametrize("how", ["", "intra", "silent"])
-def test_parameters_are_known_however_the_node_publishes_them(desk: RclDesk, how: str) -> None:
-    trace = desk.trace(f"{how} node=own double=rate@1.5 percent=level", "<param name='rate' value='2.5'/>")
+def test_parameters_are_known_however_the_node_publishes_them(harness: RclHarness, how: str) -> None:
+    trace = harness.trace(f"{how} node=own double=rate@1.5 percent=level", "<param name='rate' value='2.5'/>")
     assert (trace.outcome.status, trace.outcome.answers, trace.notes) == ("spinning", (), ())
     assert {name: (use.type, use.default, use.range) for name, use in uses(trace).items()} == {
         "~rate": ("double", None, None),  # what is seen is the value that it was given
@@ -152,24 +152,24 @@ def test_parameters_are_known_however_the_node_publishes_them(desk: RclDesk, how
     }
 
 
-def test_parameters_of_a_node_that_publishes_none_before_its_end_are_known(kilted: RclDesk) -> None:
+def test_parameters_of_a_node_that_publishes_none_before_its_end_are_known(kilted: RclHarness) -> None:
     trace = kilted.trace("intra node=own double=rate@1.5 invalid=a")
     assert (trace.outcome.status, set(uses(trace))) == ("crashed", {"~rate"})
 
 
-def test_a_value_out_of_range_is_told_of_a_node_that_goes_on(kilted: RclDesk) -> None:
+def test_a_value_out_of_range_is_told_of_a_node_that_goes_on(kilted: RclHarness) -> None:
     launch = launched(kilted, "node=own percent=level", "<param name='level' value='50'/>")
     assert kilted.check(launch).findings == ()
 
 
 @pytest.mark.parametrize(("topic", "reliability"), [("/num", "best_effort"), ("/overridable", "reliable")])
-def test_qos_is_overridden_under_the_remapped_name(desk: RclDesk, topic: str, reliability: str) -> None:
+def test_qos_is_overridden_under_the_remapped_name(harness: RclHarness, topic: str, reliability: str) -> None:
     override = f"<param name='qos_overrides.{topic}.publisher.reliability' value='best_effort'/>"
-    trace = desk.trace("node=own overridable=overridable", f"<remap from='overridable' to='num'/>{override}")
+    trace = harness.trace("node=own overridable=overridable", f"<remap from='overridable' to='num'/>{override}")
     assert ends(trace)["publisher", "overridable"].qos["reliability"] == reliability
 
 
-def test_a_trace_with_overridden_qos_is_kept_until_the_remap_changes(kilted: RclDesk) -> None:
+def test_a_trace_with_overridden_qos_is_kept_until_the_remap_changes(kilted: RclHarness) -> None:
     kilted.cache = TraceCache(kilted.folder / "cache")
     override = "<param name='qos_overrides./num.publisher.reliability' value='best_effort'/>"
     for target, cached in (("num", False), ("num", True), ("other", False)):
@@ -181,14 +181,14 @@ def test_a_trace_with_overridden_qos_is_kept_until_the_remap_changes(kilted: Rcl
 # The graph
 
 
-def test_a_node_that_asks_who_is_there_is_not_fully_known(desk: RclDesk) -> None:
-    relay = desk.trace("node=own relay=in")
+def test_a_node_that_asks_who_is_there_is_not_fully_known(harness: RclHarness) -> None:
+    relay = harness.trace("node=own relay=in")
     assert (relay.outcome.status, relay.looks, relay.complete, relay.seen_through) == ("spinning", True, False, False)
-    plain = desk.trace("node=own pub=out")
+    plain = harness.trace("node=own pub=out")
     assert (plain.looks, plain.complete) == (False, True)
 
 
-def test_nothing_is_said_to_be_missing_at_a_node_that_asks_who_is_there(kilted: RclDesk) -> None:
+def test_nothing_is_said_to_be_missing_at_a_node_that_asks_who_is_there(kilted: RclHarness) -> None:
     others = launched(kilted, "node=own pub=in", "", "name='talker'") + launched(
         kilted, "node=own sub=in_relay", "", "name='listener'"
     )
@@ -201,8 +201,8 @@ def test_nothing_is_said_to_be_missing_at_a_node_that_asks_who_is_there(kilted: 
 # How it ends
 
 
-def test_an_error_that_rcl_had_on_our_way_is_not_the_nodes(desk: RclDesk) -> None:
-    outcome = desk.trace("node=own double=rate@1.0 error invalid=a").outcome
+def test_an_error_that_rcl_had_on_our_way_is_not_the_nodes(harness: RclHarness) -> None:
+    outcome = harness.trace("node=own double=rate@1.0 error invalid=a").outcome
     assert outcome.status == "crashed"
     assert "overwritten" not in "".join(outcome.stderr_tail)
 
@@ -218,44 +218,44 @@ def test_an_error_that_rcl_had_on_our_way_is_not_the_nodes(desk: RclDesk) -> Non
     ],
 )
 def test_a_constructor_that_throws_tells_of_the_parameter(
-    desk: RclDesk, args: str, params: dict[str, str], rule: str, message: str
+    harness: RclHarness, args: str, params: dict[str, str], rule: str, message: str
 ) -> None:
     inside = "".join(f"<param name='{name}' value='{value}'/>" for name, value in params.items())
     how, _, declares = args.rpartition(" ")
-    findings = desk.check(launched(desk, f"{how} node=own {declares}", inside)).findings
+    findings = harness.check(launched(harness, f"{how} node=own {declares}", inside)).findings
     assert {(f.rule, f.severity) for f in findings} == {(rule, "error"), ("TRC001", "info")}
     assert message in next(f.message for f in findings if f.rule == rule)
-    assert command(desk, "check").returncode == 1
+    assert command(harness, "check").returncode == 1
 
 
-def test_a_mandatory_parameter_that_is_misspelt_is_told_where_it_stands(kilted: RclDesk) -> None:
+def test_a_mandatory_parameter_that_is_misspelt_is_told_where_it_stands(kilted: RclHarness) -> None:
     findings = kilted.check(launched(kilted, "node=own mandatory=speed", "<param name='sped' value='1.0'/>")).findings
     assert {(f.rule, f.severity) for f in findings} == {("PRM010", "error"), ("PRM013", "warning"), ("TRC001", "info")}
     assert "did you mean 'speed'" in next(f.message for f in findings if f.rule == "PRM013")
 
 
-def test_of_a_value_that_the_node_refuses_by_its_default_only_the_crash_is_told(kilted: RclDesk) -> None:
+def test_of_a_value_that_the_node_refuses_by_its_default_only_the_crash_is_told(kilted: RclHarness) -> None:
     given = "<param name='other' value='1'/>"
     findings = kilted.check(launched(kilted, "node=own refuse=level", given)).findings
     assert [(f.rule, f.severity) for f in findings] == [("TRC001", "warning")]
 
 
-def test_what_a_node_that_goes_on_declares_is_not_refused(kilted: RclDesk) -> None:
+def test_what_a_node_that_goes_on_declares_is_not_refused(kilted: RclHarness) -> None:
     given = "<param name='speed' value='2.0'/><param name='level' value='100'/>"
     given += "<param name='speed2' value='1.0'/>"
     launch = launched(kilted, "node=own double=speed@1.0 mandatory=speed2 percent=level", given)
     assert kilted.check(launch).findings == ()
 
 
-def test_a_crash_shows_what_was_thrown(desk: RclDesk) -> None:
-    outcome = desk.trace("node=own invalid=a-b").outcome
+def test_a_crash_shows_what_was_thrown(harness: RclHarness) -> None:
+    outcome = harness.trace("node=own invalid=a-b").outcome
     assert outcome.reason == (
         "it was killed by SIGABRT: InvalidTopicNameError: Invalid topic name: topic name must not contain characters "
         "other than alphanumerics, '_', '~', '{', or '}': 'a-b'"
     )
 
 
-def test_watch_expects_each_node_with_its_own_ends(kilted: RclDesk) -> None:
+def test_watch_expects_each_node_with_its_own_ends(kilted: RclHarness) -> None:
     analysis = kilted.check(launched(kilted, CHILD))
     assert analysis.graph is not None
     expected = expected_of(analysis.graph, analysis.documents)

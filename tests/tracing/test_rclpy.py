@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from action_package import action_package
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface, Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from ros2_desk import Ros2Desk, ends, node_of, ros2_prefix, uses
+from support.action_package import action_package
+from support.ros2_harness import Ros2Harness, ends, node_of, ros2_prefix, uses
 
 pytestmark = pytest.mark.ros
 
@@ -31,8 +31,8 @@ ALL_ENDS = node_of(
 
 
 def test_endpoints_have_the_names_that_the_node_gave(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
-    found = desk.trace("talker", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
+    harness = Ros2Harness(tmp_path, talker=ALL_ENDS)
+    found = harness.trace("talker", "<remap from='chatter' to='/elsewhere'/>", "name='n' namespace='/robot'")
     assert (found.source, found.outcome.status, found.outcome.answers, found.notes) == ("trace", "spinning", (), ())
     by_name = ends(found)
     assert {key: end.type for key, end in by_name.items()} == {
@@ -50,10 +50,10 @@ def test_endpoints_have_the_names_that_the_node_gave(tmp_path: Path) -> None:
     }
     assert by_name["subscriber", "/scan"].qos["reliability"] == "best_effort"
     chatter = by_name["publisher", "chatter"]
-    line = (desk.package / "pkg/talker.py").read_text().splitlines().index(
+    line = (harness.package / "pkg/talker.py").read_text().splitlines().index(
         "        self.create_publisher(String, 'chatter', 10)"
     )  # fmt: skip
-    assert (chatter.source_file, chatter.source_line) == (str(desk.package / "pkg/talker.py"), line + 1)
+    assert (chatter.source_file, chatter.source_line) == (str(harness.package / "pkg/talker.py"), line + 1)
 
 
 def test_jazzy_is_seen_as_kilted(tmp_path: Path) -> None:
@@ -64,18 +64,18 @@ def test_jazzy_is_seen_as_kilted(tmp_path: Path) -> None:
     assert client.call(Trigger.Request()).success
     self.create_publisher(String, 'after', 1)
     """
-    desk = Ros2Desk(tmp_path, talker=ALL_ENDS, waits=node_of(waits, "from std_srvs.srv import Trigger"))
-    kilted = [desk.trace("talker"), desk.trace("waits")]
-    desk.variables["PATH"] = f"{ros2_prefix('jazzy') / 'bin'}:/usr/bin:/bin"
-    jazzy = [desk.trace("talker"), desk.trace("waits")]
+    harness = Ros2Harness(tmp_path, talker=ALL_ENDS, waits=node_of(waits, "from std_srvs.srv import Trigger"))
+    kilted = [harness.trace("talker"), harness.trace("waits")]
+    harness.variables["PATH"] = f"{ros2_prefix('jazzy') / 'bin'}:/usr/bin:/bin"
+    jazzy = [harness.trace("talker"), harness.trace("waits")]
     for one, other in zip(kilted, jazzy, strict=True):
         assert other.outcome.status == "spinning"
         assert (ends(one), uses(one), one.outcome.answers) == (ends(other), uses(other), other.outcome.answers)
 
 
 def test_final_names_are_those_of_the_launch(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
-    graph = desk.check(
+    harness = Ros2Harness(tmp_path, talker=ALL_ENDS)
+    graph = harness.check(
         "<node pkg='pkg' exec='talker' name='n' namespace='robot'><remap from='chatter' to='/elsewhere'/></node>"
     ).graph
     assert graph is not None
@@ -85,8 +85,8 @@ def test_final_names_are_those_of_the_launch(tmp_path: Path) -> None:
 
 def test_a_node_in_a_namespace_of_its_own_has_full_names(tmp_path: Path) -> None:
     body = node_of("self.create_publisher(String, 'chatter', 10)\nself.create_publisher(String, '~/own', 10)")
-    desk = Ros2Desk(tmp_path, talker=body.replace("__init__('own')", "__init__('own', namespace='/there')"))
-    assert set(ends(desk.trace("talker", attributes=""))) == {
+    harness = Ros2Harness(tmp_path, talker=body.replace("__init__('own')", "__init__('own', namespace='/there')"))
+    assert set(ends(harness.trace("talker", attributes=""))) == {
         ("publisher", "/there/chatter"),
         ("publisher", "/there/own/own"),
     }
@@ -101,8 +101,8 @@ def test_parameters_are_declared_with_their_defaults(tmp_path: Path) -> None:
     topic = self.declare_parameter('topic', 'chatter').value
     self.create_publisher(String, topic, 10)
     """
-    desk = Ros2Desk(tmp_path, talker=node_of(body, "from rclpy.parameter import Parameter"))
-    found = desk.trace("talker", "<param name='topic' value='given'/>")
+    harness = Ros2Harness(tmp_path, talker=node_of(body, "from rclpy.parameter import Parameter"))
+    found = harness.trace("talker", "<param name='topic' value='given'/>")
     assert {name: (use.default, use.has_default, use.mandatory) for name, use in uses(found).items()} == {
         "~rate": (10.0, True, False),
         "~frames": (["a", "b"], True, False),
@@ -129,9 +129,9 @@ DESCRIBING = (
 
 
 def test_descriptors_of_parameters(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, talker=node_of(DESCRIBED, *DESCRIBING))
-    desk.cache = TraceCache(tmp_path / "cache")
-    found = [desk.trace("talker"), desk.trace("talker")]
+    harness = Ros2Harness(tmp_path, talker=node_of(DESCRIBED, *DESCRIBING))
+    harness.cache = TraceCache(tmp_path / "cache")
+    found = [harness.trace("talker"), harness.trace("talker")]
     for interface in found:
         assert {n.removeprefix("~"): (u.type, u.dynamic, u.read_only, u.range) for n, u in uses(interface).items()} == {
             "rate": ("integer", False, False, Range(0, 50, 5)),
@@ -156,8 +156,8 @@ def test_descriptors_of_parameters(tmp_path: Path) -> None:
     ],
 )
 def test_a_descriptor_is_kept_to(tmp_path: Path, params: str, rule: str | None) -> None:
-    desk = Ros2Desk(tmp_path, talker=node_of(DESCRIBED, *DESCRIBING))
-    analysis = desk.check(f"<node pkg='pkg' exec='talker' name='n'>{params}</node>")
+    harness = Ros2Harness(tmp_path, talker=node_of(DESCRIBED, *DESCRIBING))
+    analysis = harness.check(f"<node pkg='pkg' exec='talker' name='n'>{params}</node>")
     assert analysis.graph is not None
     status = analysis.graph.interfaces[0].outcome.status
     assert status == ("spinning" if rule is None else "crashed")
@@ -173,13 +173,13 @@ def test_parameters_arrive_as_launch_gives_them(tmp_path: Path, xml: str, python
     value = self.declare_parameter('value', {python!r}).value
     self.create_publisher(String, 'equal' if value == {python!r} else 'other', 10)
     """
-    desk = Ros2Desk(tmp_path, talker=node_of(body))
-    assert set(ends(desk.trace("talker", f"<param name='value' value={xml}/>"))) == {("publisher", "equal")}
+    harness = Ros2Harness(tmp_path, talker=node_of(body))
+    assert set(ends(harness.trace("talker", f"<param name='value' value={xml}/>"))) == {("publisher", "equal")}
 
 
 def test_a_value_of_another_type_ends_the_node_and_says_so(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, talker=node_of("self.declare_parameter('rate', 10.0)"))
-    analysis = desk.check("<node pkg='pkg' exec='talker' name='n'><param name='rate' value='5'/></node>")
+    harness = Ros2Harness(tmp_path, talker=node_of("self.declare_parameter('rate', 10.0)"))
+    analysis = harness.check("<node pkg='pkg' exec='talker' name='n'><param name='rate' value='5'/></node>")
     assert analysis.graph is not None
     outcome = analysis.graph.interfaces[0].outcome
     assert outcome.status == "crashed"
@@ -191,10 +191,10 @@ def test_undeclared_parameters_are_no_mistake_where_the_node_takes_any(tmp_path:
     body = node_of("self.create_publisher(String, 'a', 1)").replace(
         "__init__('own')", "__init__('own', automatically_declare_parameters_from_overrides=True)"
     )
-    desk = Ros2Desk(tmp_path, any=body, none=node_of("self.declare_parameter('rate', 1.0)"))
+    harness = Ros2Harness(tmp_path, any=body, none=node_of("self.declare_parameter('rate', 1.0)"))
     launch = "<node pkg='pkg' exec='{}' name='n'><param name='rte' value='1.0'/></node>"
-    assert "PRM013" not in {finding.rule for finding in desk.check(launch.format("any")).findings}
-    assert "PRM013" in {finding.rule for finding in desk.check(launch.format("none")).findings}
+    assert "PRM013" not in {finding.rule for finding in harness.check(launch.format("any")).findings}
+    assert "PRM013" in {finding.rule for finding in harness.check(launch.format("none")).findings}
 
 
 @pytest.mark.parametrize(("option", "rules"), [(True, set()), (False, {"PRM014", "TRC001"})])
@@ -212,7 +212,7 @@ def test_a_parameter_that_is_declared_from_overrides_has_any_type(
         "__init__('own')", f"__init__('own', automatically_declare_parameters_from_overrides={option})"
     )
     launch = "<node pkg='pkg' exec='talker' name='n'><param name='rate' value='30.0'/></node>"
-    assert {finding.rule for finding in Ros2Desk(tmp_path, talker=text).check(launch).findings} == rules
+    assert {finding.rule for finding in Ros2Harness(tmp_path, talker=text).check(launch).findings} == rules
 
 
 def test_what_a_node_waits_for_is_told_and_what_comes_after_is_speculative(tmp_path: Path) -> None:
@@ -228,8 +228,8 @@ def test_what_a_node_waits_for_is_told_and_what_comes_after_is_speculative(tmp_p
     assert future.result().success
     self.create_publisher(String, 'after', 1)
     """
-    desk = Ros2Desk(tmp_path, talker=node_of(body, "from std_srvs.srv import Trigger"))
-    found = desk.trace("talker")
+    harness = Ros2Harness(tmp_path, talker=node_of(body, "from std_srvs.srv import Trigger"))
+    found = harness.trace("talker")
     assert found.outcome.status == "spinning"
     assert "it waits for the service /start, and was told that it is there" in found.outcome.answers
     speculative = {name: end.speculative for (_, name), end in ends(found).items()}
@@ -241,8 +241,8 @@ def test_a_first_message_is_made_up(tmp_path: Path) -> None:
     got, message = wait_for_message(String, self, 'first')
     self.create_publisher(String, 'after' + message.data, 1)
     """
-    desk = Ros2Desk(tmp_path, talker=node_of(body, "from rclpy.wait_for_message import wait_for_message"))
-    found = desk.trace("talker")
+    harness = Ros2Harness(tmp_path, talker=node_of(body, "from rclpy.wait_for_message import wait_for_message"))
+    found = harness.trace("talker")
     assert set(ends(found)) == {("subscriber", "first"), ("publisher", "after")}
     assert found.outcome.status == "spinning"
 
@@ -266,7 +266,7 @@ def main():
     rclpy.init()
     rclpy.spin(Own('own'))
 """
-    found = Ros2Desk(tmp_path, managed=body).trace("managed")
+    found = Ros2Harness(tmp_path, managed=body).trace("managed")
     assert set(ends(found)) == {("publisher", "made"), ("subscriber", "active")}
     assert found.outcome.status == "spinning"
 
@@ -286,7 +286,7 @@ def main():
     rclpy.init()
     rclpy.spin(Own('own'))
 """
-    found = Ros2Desk(tmp_path, managed=body).trace("managed")
+    found = Ros2Harness(tmp_path, managed=body).trace("managed")
     assert set(ends(found)) == {("publisher", "made")}
     assert found.outcome.answers == ("it was asked to configure, as a manager of lifecycle nodes would, and did not",)
     assert not found.complete
@@ -306,7 +306,7 @@ def main():
 def test_event_loops(tmp_path: Path, loop: str) -> None:
     body = node_of("self.create_publisher(String, 'a', 1)", "import rclpy.executors")
     body = body.replace("rclpy.spin(Own())", f"node = Own()\n    {loop}")
-    found = Ros2Desk(tmp_path, talker=body).trace("talker")
+    found = Ros2Harness(tmp_path, talker=body).trace("talker")
     assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "a")})
 
 
@@ -316,71 +316,71 @@ def test_a_package_that_is_not_built_has_its_share_folder(tmp_path: Path) -> Non
         self.create_publisher(String, file.read(), 1)
     """
     imported = "from ament_index_python.packages import get_package_share_directory"
-    desk = Ros2Desk(tmp_path, talker=node_of(body, imported))
-    desk.write("config/topic.txt", "from_file")
-    assert set(ends(desk.trace("talker"))) == {("publisher", "from_file")}
+    harness = Ros2Harness(tmp_path, talker=node_of(body, imported))
+    harness.write("config/topic.txt", "from_file")
+    assert set(ends(harness.trace("talker"))) == {("publisher", "from_file")}
 
 
 def test_a_node_that_needs_messages_that_are_not_built_is_not_said_to_crash(tmp_path: Path) -> None:
     own, foreign = (node_of("pass", f"from {package}.msg import Own") for package in ("own_msgs", "foreign_msgs"))
-    desk = Ros2Desk(tmp_path, own=own, foreign=foreign)
-    manifest = (desk.package / "package.xml").read_text().replace(">pkg<", ">own_msgs<")
-    desk.write("../own_msgs/package.xml", manifest.replace("ament_python", "ament_cmake"))
-    outcome = desk.trace("own").outcome
+    harness = Ros2Harness(tmp_path, own=own, foreign=foreign)
+    manifest = (harness.package / "package.xml").read_text().replace(">pkg<", ">own_msgs<")
+    harness.write("../own_msgs/package.xml", manifest.replace("ament_python", "ament_cmake"))
+    outcome = harness.trace("own").outcome
     assert (outcome.status, outcome.reason) == (
         "not-run",
         "it imports own_msgs, a package of the workspace whose Python modules are not built",
     )
-    assert desk.trace("foreign").outcome.status == "crashed"
+    assert harness.trace("foreign").outcome.status == "crashed"
 
 
 def test_a_trace_is_kept_until_what_it_depends_on_changes(tmp_path: Path) -> None:
     body = "self.create_publisher(String, self.declare_parameter('topic', 'a').value, 1)"
-    desk = Ros2Desk(tmp_path / "ws", talker=node_of(body, "from pkg import helper"))
-    desk.write("pkg/helper.py", "")
-    desk.cache = TraceCache(tmp_path / "cache")
-    assert not desk.trace("talker", "<param name='topic' value='b'/>").cached
-    assert desk.trace("talker", "<param name='topic' value='b'/><param name='other' value='1'/>").cached
-    assert desk.trace("talker", "<param name='topic' value='b'/><remap from='b' to='c'/>").cached
-    assert not desk.trace("talker", "<param name='topic' value='c'/>").cached
-    desk.write("pkg/helper.py", "x = 1")
-    assert not desk.trace("talker", "<param name='topic' value='c'/>").cached
+    harness = Ros2Harness(tmp_path / "ws", talker=node_of(body, "from pkg import helper"))
+    harness.write("pkg/helper.py", "")
+    harness.cache = TraceCache(tmp_path / "cache")
+    assert not harness.trace("talker", "<param name='topic' value='b'/>").cached
+    assert harness.trace("talker", "<param name='topic' value='b'/><param name='other' value='1'/>").cached
+    assert harness.trace("talker", "<param name='topic' value='b'/><remap from='b' to='c'/>").cached
+    assert not harness.trace("talker", "<param name='topic' value='c'/>").cached
+    harness.write("pkg/helper.py", "x = 1")
+    assert not harness.trace("talker", "<param name='topic' value='c'/>").cached
 
 
 def test_traces_of_two_entry_points_of_one_module_are_told_apart(tmp_path: Path) -> None:
     body = node_of("self.create_publisher(String, os.environ.pop('TOPIC', 'a'), 1)", "import os")
     body += "\n\ndef other():\n    os.environ['TOPIC'] = 'b'\n    main()\n"
-    desk = Ros2Desk(tmp_path / "ws", talker=body)
-    setup = (desk.package / "setup.py").read_text()
-    desk.write("setup.py", setup.replace("['talker", "['second = pkg.talker:other', 'talker"))
-    desk.cache = TraceCache(tmp_path / "cache")
-    assert set(ends(desk.trace("talker"))) == {("publisher", "a")}
-    assert set(ends(desk.trace("second"))) == {("publisher", "b")}
+    harness = Ros2Harness(tmp_path / "ws", talker=body)
+    setup = (harness.package / "setup.py").read_text()
+    harness.write("setup.py", setup.replace("['talker", "['second = pkg.talker:other', 'talker"))
+    harness.cache = TraceCache(tmp_path / "cache")
+    assert set(ends(harness.trace("talker"))) == {("publisher", "a")}
+    assert set(ends(harness.trace("second"))) == {("publisher", "b")}
 
 
 def test_what_depends_on_the_name_is_traced_anew(tmp_path: Path) -> None:
-    desk = Ros2Desk(
+    harness = Ros2Harness(
         tmp_path / "ws",
         asks=node_of("self.create_publisher(String, '/of_' + self.get_name(), 1)"),
         there=node_of("self.create_publisher(String, 'a', 1)").replace("'own')", "'own', namespace='/there')"),
     )
-    desk.cache = TraceCache(tmp_path / "cache")
-    assert set(ends(desk.trace("asks"))) == {("publisher", "/of_n")}
-    assert set(ends(desk.trace("asks", attributes="name='m'"))) == {("publisher", "/of_m")}
-    assert set(ends(desk.trace("there"))) == {("publisher", "/there/a")}
-    assert set(ends(desk.trace("there", attributes="name='n' namespace='robot'"))) == {("publisher", "a")}
+    harness.cache = TraceCache(tmp_path / "cache")
+    assert set(ends(harness.trace("asks"))) == {("publisher", "/of_n")}
+    assert set(ends(harness.trace("asks", attributes="name='m'"))) == {("publisher", "/of_m")}
+    assert set(ends(harness.trace("there"))) == {("publisher", "/there/a")}
+    assert set(ends(harness.trace("there", attributes="name='n' namespace='robot'"))) == {("publisher", "a")}
 
 
 def test_a_crash_is_not_kept_when_its_parameters_change(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path / "ws", talker=node_of("assert self.declare_parameter('n', 1).value == 2"))
-    desk.cache = TraceCache(tmp_path / "cache")
-    assert desk.trace("talker", "<param name='n' value='1'/>").outcome.status == "crashed"
-    assert desk.trace("talker", "<param name='n' value='2'/>").outcome.status == "spinning"
+    harness = Ros2Harness(tmp_path / "ws", talker=node_of("assert self.declare_parameter('n', 1).value == 2"))
+    harness.cache = TraceCache(tmp_path / "cache")
+    assert harness.trace("talker", "<param name='n' value='1'/>").outcome.status == "crashed"
+    assert harness.trace("talker", "<param name='n' value='2'/>").outcome.status == "spinning"
 
 
 def test_without_rclpy_nothing_is_run(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, talker=ALL_ENDS)
-    launch = desk.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='talker' name='n'/></launch>")
+    harness = Ros2Harness(tmp_path, talker=ALL_ENDS)
+    launch = harness.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='talker' name='n'/></launch>")
     bare = detect_environment(str(tmp_path), {"PATH": "/usr/bin:/bin"}, root=str(tmp_path / "nothing"))
     assert bare.ros2_python is None
     workspace = Workspace(bare, Sources())
@@ -410,14 +410,14 @@ def test_actions_are_one_end_each_and_their_servers_are_waited_for(tmp_path: Pat
     self.create_publisher(String, 'after', 1)
     """
     imports = ("from rclpy.action import ActionClient, ActionServer", "from fib.action import Fib")
-    desk = Ros2Desk(tmp_path, counter=node_of(body, *imports))
+    harness = Ros2Harness(tmp_path, counter=node_of(body, *imports))
     package = action_package(distribution)
-    desk.variables |= {
+    harness.variables |= {
         "PATH": f"{ros2_prefix(distribution) / 'bin'}:/usr/bin:/bin",
         "PYTHONPATH": str(package.folder),
         "LD_LIBRARY_PATH": str(package.libraries),
     }
-    found = desk.trace("counter")
+    found = harness.trace("counter")
     assert (found.outcome.status, found.notes) == ("spinning", found.outcome.answers)
     assert found.outcome.answers == ("it waits for the action server ~/other, and was told that it is there",)
     assert {key: (end.type, end.speculative) for key, end in ends(found).items()} == {
@@ -446,7 +446,7 @@ def main():
 
 @pytest.mark.parametrize(("attributes", "told"), [("name='scanner'", True), ("", False)])
 def test_a_name_for_a_process_with_several_nodes(tmp_path: Path, attributes: str, told: bool) -> None:
-    analysis = Ros2Desk(tmp_path, both=TWO).check(f"<node pkg='pkg' exec='both' {attributes}/>")
+    analysis = Ros2Harness(tmp_path, both=TWO).check(f"<node pkg='pkg' exec='both' {attributes}/>")
     assert analysis.graph is not None
     (interface,) = analysis.graph.processes
     assert [(node.given, node.name) for node in interface.nodes] == [
@@ -480,14 +480,16 @@ def main():
 
 
 def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, both=APART)
-    analysis = desk.check("<node pkg='pkg' exec='both'><remap from='scan' to='out'/></node>")
+    harness = Ros2Harness(tmp_path, both=APART)
+    analysis = harness.check("<node pkg='pkg' exec='both'><remap from='scan' to='out'/></node>")
     assert analysis.graph is not None
     assert [node.name for node in analysis.graph.tree.nodes] == ["/front", "/back/rear"]
     offers = {name: [c.node.name for c in topic.offers] for name, topic in analysis.graph.topics.items()}
     assert (offers["/out"], offers["/back/out"]) == (["/front"], ["/back/rear"])
-    file = desk.write("p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n")
-    analysis = desk.check(f"<node pkg='pkg' exec='both'><param from='{file}'/></node>")
+    file = harness.write(
+        "p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n"
+    )
+    analysis = harness.check(f"<node pkg='pkg' exec='both'><param from='{file}'/></node>")
     said = {f.rule: f.message.partition(":")[0] for f in analysis.findings if f.rule.startswith("PRM")}
     assert said == {
         "PRM013": "/front declares no parameter 'rat'",
@@ -496,16 +498,16 @@ def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
 
 
 def test_a_node_that_asks_who_is_there_is_not_fully_known(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, asks=node_of("self.count_publishers('scan')"), plain=node_of("self.get_clock()"))
-    assert (desk.trace("asks").looks, desk.trace("asks").complete) == (True, False)
-    assert (desk.trace("plain").looks, desk.trace("plain").complete) == (False, True)
+    harness = Ros2Harness(tmp_path, asks=node_of("self.count_publishers('scan')"), plain=node_of("self.get_clock()"))
+    assert (harness.trace("asks").looks, harness.trace("asks").complete) == (True, False)
+    assert (harness.trace("plain").looks, harness.trace("plain").complete) == (False, True)
 
 
 def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:
-    desk = Ros2Desk(tmp_path, talker=node_of("self.declare_parameter('rate', 1.0)"))
-    own = desk.write("own.yaml", "/there/own:\n  ros__parameters: {rate: 2.5, rat: 1}\n")
-    other = desk.write("other.yaml", "/there/talker:\n  ros__parameters: {rate: 2.5}\n")
-    analysis = desk.check(
+    harness = Ros2Harness(tmp_path, talker=node_of("self.declare_parameter('rate', 1.0)"))
+    own = harness.write("own.yaml", "/there/own:\n  ros__parameters: {rate: 2.5, rat: 1}\n")
+    other = harness.write("other.yaml", "/there/talker:\n  ros__parameters: {rate: 2.5}\n")
+    analysis = harness.check(
         f"<node pkg='pkg' exec='talker' namespace='there'><param from='{own}'/></node>"
         f"<node pkg='pkg' exec='talker' namespace='there'><param from='{other}'/></node>"
         "<node pkg='pkg' exec='talker' namespace='elsewhere'/>"
@@ -526,15 +528,15 @@ def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:
 
 
 def test_a_node_without_a_name_gets_what_files_have_for_the_name_that_it_gives_itself(tmp_path: Path) -> None:
-    desk = Ros2Desk(
+    harness = Ros2Harness(
         tmp_path / "ws", talker=node_of("self.create_publisher(String, self.declare_parameter('topic', 'a').value, 1)")
     )
-    desk.cache = TraceCache(tmp_path / "cache")
+    harness.cache = TraceCache(tmp_path / "cache")
 
     def trace(*sections: str) -> Interface:
         texts = [f"{key}:\n  ros__parameters:\n    {param}\n" for key, _, param in (s.partition("=") for s in sections)]
-        desk.write("launch/p.yaml", "".join(texts))
-        return desk.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
+        harness.write("launch/p.yaml", "".join(texts))
+        return harness.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
 
     assert set(ends(trace("own=topic: b", "other=topic: c"))) == {("publisher", "b")}
     assert set(ends(trace("own=topic: b", "/**=topic: c"))) == {("publisher", "c")}, "the key below counts"
@@ -562,10 +564,10 @@ def main():
     node.create_publisher(String, '/' + name, 1)
     rclpy.spin(node)
 """
-    desk = Ros2Desk(tmp_path / "ws", talker=body.replace("Node('first')", "Node('_first')"))
-    desk.cache = TraceCache(tmp_path / "cache")
-    desk.write("launch/p.yaml", "/**/left: {ros__parameters: {x: 1}}\n/left: {ros__parameters: {name: right}}\n")
-    found = desk.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
+    harness = Ros2Harness(tmp_path / "ws", talker=body.replace("Node('first')", "Node('_first')"))
+    harness.cache = TraceCache(tmp_path / "cache")
+    harness.write("launch/p.yaml", "/**/left: {ros__parameters: {x: 1}}\n/left: {ros__parameters: {name: right}}\n")
+    found = harness.trace("talker", "<param from='$(dirname)/p.yaml'/>", "")
     assert set(ends(found)) == {("publisher", "/right")}
     assert found.outcome.status == "spinning"
 
@@ -576,10 +578,10 @@ def test_a_parameter_that_a_callback_declares_later_is_possible(tmp_path: Path) 
     later = node_of(constructor).replace(
         "\n\n\ndef main", '\n\n    def more(self):\n        self.declare_parameter("gain", 2.0)\n\n\ndef main'
     )
-    desk = Ros2Desk(tmp_path, later=later)
+    harness = Ros2Harness(tmp_path, later=later)
 
     def told(name: str) -> list[tuple[str, str]]:
-        analysis = desk.check(f"<node pkg='pkg' exec='later' name='later'><param name='{name}' value='3.0'/></node>")
+        analysis = harness.check(f"<node pkg='pkg' exec='later' name='later'><param name='{name}' value='3.0'/></node>")
         assert analysis.graph is not None
         assert analysis.graph.processes[0].source == "trace"
         return [(finding.rule, finding.severity) for finding in analysis.findings]

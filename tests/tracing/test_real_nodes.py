@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from real_nodes import LAUNCHES, PAGE, TUTORIALS, missing, rows_of
+from tools.real_nodes import LAUNCHES, PAGE, TUTORIALS, missing, rows_of
 
 pytestmark = pytest.mark.ros
 

@@ -15,7 +15,7 @@ from preflight_analysis.tracing import repositories
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.tracing.repositories import git_paths
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import request, write_node
+from support.tracing_harness import request, write_node
 
 VARIABLES = {"PATH": "/usr/bin:/bin"}
 LOOK = """

@@ -10,14 +10,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from launched_desk import launched, master_view
 from preflight_analysis.tracing import preload, preload_compile
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.preload import Library
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, request, trace
+from support.roslaunch_harness import launched, master_view
+from support.tracing_harness import environment, own, request, trace
 
 pytestmark = pytest.mark.ros
 

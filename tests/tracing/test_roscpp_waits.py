@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.tracing.interface import Frame, Interface
-from tracing_desk import trace
+from support.tracing_harness import trace
 
 pytestmark = pytest.mark.ros
 

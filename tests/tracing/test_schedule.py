@@ -10,7 +10,7 @@ from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import run_all, trace_all
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, request
+from support.tracing_harness import environment, request
 
 
 class Recorder(Tracer):

@@ -8,13 +8,13 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from environment_workspace import file, package
 from preflight_analysis.documents.reading import read_text
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome
 from preflight_analysis.tracing.service_types import Definitions, ServiceTypes
-from tracing_desk import SYSTEM_PYTHON
+from support.package_folders import file, package
+from support.tracing_harness import SYSTEM_PYTHON
 
 SET_BOOL = "bool data # for hardware\n---\nbool success\nstring message\n"
 SET_BOOL_MD5 = "09fb03525b03e7ea1fd3992bafd87e16"

@@ -21,7 +21,7 @@ from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
-from tracing_desk import environment, write_node
+from support.tracing_harness import environment, write_node
 
 pytestmark = pytest.mark.ros
 
@@ -51,7 +51,7 @@ CRASHES = """
 """
 
 
-class Desk:
+class Harness:
     """A package with one executable and a few launch files, with a cache of traces."""
 
     def __init__(self, folder: Path) -> None:
@@ -87,11 +87,11 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    desk = Desk(tmp_path)
-    first = interface(desk.analyse("works.launch", WORKS))
+def harness(tmp_path: Path) -> Harness:
+    harness = Harness(tmp_path)
+    first = interface(harness.analyse("works.launch", WORKS))
     assert (first.source, first.outcome.status) == ("trace", "spinning")
-    return desk
+    return harness
 
 
 def interface(analysis: Analysis) -> Interface:
@@ -103,8 +103,8 @@ def told(found: Interface) -> set[tuple[str, str]]:
     return {(e.role, e.name) for e in found.endpoints if not e.builtin}
 
 
-def test_a_node_that_cannot_be_run_has_what_its_executable_does_elsewhere(desk: Desk) -> None:
-    analysis = desk.analyse("crashes.launch", CRASHES, run=False)
+def test_a_node_that_cannot_be_run_has_what_its_executable_does_elsewhere(harness: Harness) -> None:
+    analysis = harness.analyse("crashes.launch", CRASHES, run=False)
     found = interface(analysis)
     assert found.source == "similar"
     assert not found.complete
@@ -121,8 +121,8 @@ def test_a_node_that_cannot_be_run_has_what_its_executable_does_elsewhere(desk: 
     assert next(p for p in node["publishers"] if p["name"] == "/robot/status")["similar"] is True
 
 
-def test_what_a_crashed_node_made_itself_comes_first(desk: Desk) -> None:
-    found = interface(desk.analyse("crashes.launch", CRASHES))
+def test_what_a_crashed_node_made_itself_comes_first(harness: Harness) -> None:
+    found = interface(harness.analyse("crashes.launch", CRASHES))
     assert (found.source, found.outcome.status) == ("similar", "crashed")
     assert ("subscriber", "nothing") in told(found), "made by itself, with the default"
     assert not any(e.similar for e in found.endpoints if e.name in ("status", "~debug", "scan", "nothing"))
@@ -138,79 +138,79 @@ rospy.spin()
 """
 
 
-def test_a_run_that_is_not_complete_is_not_similar_to_itself(desk: Desk) -> None:
-    write_node(desk.package, WAITS)
+def test_a_run_that_is_not_complete_is_not_similar_to_itself(harness: Harness) -> None:
+    write_node(harness.package, WAITS)
     for runs in (2, 2):
-        found = interface(desk.analyse("waits.launch", WORKS))
+        found = interface(harness.analyse("waits.launch", WORKS))
         assert (found.source, found.elsewhere) == ("trace", None)
         assert found.outcome.answers
-        assert desk.runs == runs
+        assert harness.runs == runs
 
 
-def test_names_of_the_other_configuration_are_left_out(desk: Desk) -> None:
+def test_names_of_the_other_configuration_are_left_out(harness: Harness) -> None:
     other = CRASHES.replace('args="scan"', 'args="points"')
-    assert told(interface(desk.analyse("a.launch", other, run=False))) == {
+    assert told(interface(harness.analyse("a.launch", other, run=False))) == {
         ("publisher", "status"),
         ("publisher", "~debug"),
     }
     same = CRASHES.replace("<group", '<param name="topic" value="/odom/raw"/><group')
-    assert ("subscriber", "/odom/raw") in told(interface(desk.analyse("b.launch", same, run=False)))
+    assert ("subscriber", "/odom/raw") in told(interface(harness.analyse("b.launch", same, run=False)))
 
 
-def test_the_finding_is_weaker_than_that_of_a_run(desk: Desk) -> None:
+def test_the_finding_is_weaker_than_that_of_a_run(harness: Harness) -> None:
     other = '<node pkg="pkg" type="node.py" name="unable" args="scann"/>'
-    analysis = desk.analyse("crashes.launch", f"<launch>{other}</launch>", run=False)
+    analysis = harness.analyse("crashes.launch", f"<launch>{other}</launch>", run=False)
     assert analysis.findings
     for finding in analysis.findings:
         assert finding.severity in ("info", "hint"), finding
         assert finding.rule == "TRC004" or finding.confidence != "certain"
 
 
-def test_annotations_come_first_and_the_source_last(desk: Desk) -> None:
+def test_annotations_come_first_and_the_source_last(harness: Harness) -> None:
     annotated = CRASHES.replace("/></group>", '><topics><topic name="a" class="pub"/></topics></node></group>')
-    assert interface(desk.analyse("a.launch", annotated, run=False)).source == "annotation"
-    empty = TraceCache(desk.package / "other_cache")
-    desk.cache = empty
-    assert interface(desk.analyse("b.launch", CRASHES, run=False)).source == "source"
+    assert interface(harness.analyse("a.launch", annotated, run=False)).source == "annotation"
+    empty = TraceCache(harness.package / "other_cache")
+    harness.cache = empty
+    assert interface(harness.analyse("b.launch", CRASHES, run=False)).source == "source"
 
 
-def test_an_older_build_is_similar_and_said_to_be_one(desk: Desk) -> None:
-    desk.script.write_text(NODE.replace("status", "state"))
-    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+def test_an_older_build_is_similar_and_said_to_be_one(harness: Harness) -> None:
+    harness.script.write_text(NODE.replace("status", "state"))
+    found = interface(harness.analyse("crashes.launch", CRASHES, run=False))
     assert ("publisher", "status") in told(found)
     assert found.elsewhere is not None
     assert found.elsewhere.changed
 
 
-def test_the_present_build_is_more_similar(desk: Desk) -> None:
-    desk.script.write_text("#!/usr/bin/env python3\n" + NODE.replace("status", "state"))
+def test_the_present_build_is_more_similar(harness: Harness) -> None:
+    harness.script.write_text("#!/usr/bin/env python3\n" + NODE.replace("status", "state"))
     past = time.time() - 100
-    os.utime(desk.script, (past, past))
-    assert interface(desk.analyse("works.launch", WORKS)).source == "trace"
-    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    os.utime(harness.script, (past, past))
+    assert interface(harness.analyse("works.launch", WORKS)).source == "trace"
+    found = interface(harness.analyse("crashes.launch", CRASHES, run=False))
     assert ("publisher", "state") in told(found)
     assert ("publisher", "status") not in told(found)
 
 
-def test_an_executable_that_is_gone_has_what_it_did_when_it_was_there(desk: Desk) -> None:
-    desk.script.unlink()
-    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+def test_an_executable_that_is_gone_has_what_it_did_when_it_was_there(harness: Harness) -> None:
+    harness.script.unlink()
+    found = interface(harness.analyse("crashes.launch", CRASHES, run=False))
     assert found.source == "similar"
     assert found.outcome.status == "not-run"
 
 
-def test_another_executable_of_the_same_name_is_none(desk: Desk) -> None:
-    other = desk.package / "scripts"
+def test_another_executable_of_the_same_name_is_none(harness: Harness) -> None:
+    other = harness.package / "scripts"
     other.mkdir()
-    desk.script.rename(other / "node.py")
+    harness.script.rename(other / "node.py")
     write_node(other, "import rospy\n")
-    assert interface(desk.analyse("crashes.launch", CRASHES, run=False)).source != "similar"
+    assert interface(harness.analyse("crashes.launch", CRASHES, run=False)).source != "similar"
 
 
-def test_an_entry_of_the_wrong_shape_is_none(desk: Desk) -> None:
+def test_an_entry_of_the_wrong_shape_is_none(harness: Harness) -> None:
     import hashlib
 
-    (path,) = desk.cache.folder.glob("*/*/*.json")
+    (path,) = harness.cache.folder.glob("*/*/*.json")
     entry = json.loads(path.read_bytes().partition(b"\n")[2])
     made = entry["made"]
     for changed in (
@@ -223,11 +223,11 @@ def test_an_entry_of_the_wrong_shape_is_none(desk: Desk) -> None:
     ):
         data = json.dumps(entry | changed).encode()
         path.write_bytes(hashlib.sha256(data).hexdigest().encode() + b"\n" + data)
-        assert interface(desk.analyse("crashes.launch", CRASHES, run=False)).source == "source", changed
+        assert interface(harness.analyse("crashes.launch", CRASHES, run=False)).source == "source", changed
 
 
-def test_hover_says_where_it_comes_from(desk: Desk) -> None:
-    analysis = desk.analyse("crashes.launch", CRASHES, run=False)
+def test_hover_says_where_it_comes_from(harness: Harness) -> None:
+    analysis = harness.analyse("crashes.launch", CRASHES, run=False)
     text = analysis.documents[analysis.root].text
     found = hover([analysis], analysis.root, text.index("<node"))
     assert found is not None
@@ -237,38 +237,38 @@ def test_hover_says_where_it_comes_from(desk: Desk) -> None:
     assert "not trusted" in found.markdown
 
 
-def test_a_configuration_with_a_secret_leaves_no_more_than_names(desk: Desk) -> None:
+def test_a_configuration_with_a_secret_leaves_no_more_than_names(harness: Harness) -> None:
     secret = WORKS.replace('value="m"', 'value="hunter2"')
-    desk.analyse("works.launch", secret)
-    for path in desk.cache.folder.glob("*/*/*.json"):
+    harness.analyse("works.launch", secret)
+    for path in harness.cache.folder.glob("*/*/*.json"):
         assert b"hunter2" not in path.read_bytes()
 
 
-def test_a_run_that_ended_without_doing_anything_says_nothing(desk: Desk) -> None:
+def test_a_run_that_ended_without_doing_anything_says_nothing(harness: Harness) -> None:
     usage = "import sys, rospy\nrospy.init_node('n')\nif 'help' in sys.argv: sys.exit(0)\n"
-    desk.script.write_text("#!/usr/bin/env python3\n" + usage + NODE)
+    harness.script.write_text("#!/usr/bin/env python3\n" + usage + NODE)
     past = time.time() - 100
-    os.utime(desk.script, (past, past))
-    helped = desk.analyse("help.launch", CRASHES.replace('args="scan"', 'args="help"'))
+    os.utime(harness.script, (past, past))
+    helped = harness.analyse("help.launch", CRASHES.replace('args="scan"', 'args="help"'))
     assert interface(helped).outcome.status == "exited"
-    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+    found = interface(harness.analyse("crashes.launch", CRASHES, run=False))
     assert (found.source, found.elsewhere and found.elsewhere.node) == ("similar", "/works"), "the older build's"
 
 
-def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(desk: Desk) -> None:
-    desk.analyse("works.launch", WORKS)
-    desk.script.unlink()
-    (node,) = desk.analyse("works.launch", WORKS, run=False).tree.nodes
-    similar = SimilarTraces(desk.cache, desk.environment)
+def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(harness: Harness) -> None:
+    harness.analyse("works.launch", WORKS)
+    harness.script.unlink()
+    (node,) = harness.analyse("works.launch", WORKS, run=False).tree.nodes
+    similar = SimilarTraces(harness.cache, harness.environment)
     assert similar.looking({}, 1)(node) is not None
     assert similar.looking({}, 2)(node) is None
 
 
 @pytest.mark.parametrize("built", [True, False])
-def test_another_workspace_tells_nothing(desk: Desk, tmp_path: Path, built: bool) -> None:
+def test_another_workspace_tells_nothing(harness: Harness, tmp_path: Path, built: bool) -> None:
     """Its package has the same name, its executable the same content, and beside it a module that lies."""
-    hostile = Desk(tmp_path / "hostile")
-    hostile.cache = desk.cache = TraceCache(tmp_path / "shared")
+    hostile = Harness(tmp_path / "hostile")
+    hostile.cache = harness.cache = TraceCache(tmp_path / "shared")
     hostile.tracer = Tracer(hostile.environment, hostile.cache)
     (hostile.package / "rospy").mkdir()
     (hostile.package / "rospy/__init__.py").write_text(
@@ -281,18 +281,18 @@ def test_another_workspace_tells_nothing(desk: Desk, tmp_path: Path, built: bool
     assert ("publisher", "/lies") in told(lied)
     again = interface(hostile.analyse("crashes.launch", CRASHES, run=False))
     assert ("publisher", "/lies") in told(again), "where it was made it is similar"
-    assert hostile.script.read_bytes() == desk.script.read_bytes()
+    assert hostile.script.read_bytes() == harness.script.read_bytes()
     if not built:
-        desk.script.unlink()
-    found = interface(desk.analyse("crashes.launch", CRASHES, run=False))
+        harness.script.unlink()
+    found = interface(harness.analyse("crashes.launch", CRASHES, run=False))
     assert (found.source, found.elsewhere) == ("source" if built else "none", None)
 
 
-def test_a_run_for_another_workspace_is_another(desk: Desk) -> None:
+def test_a_run_for_another_workspace_is_another(harness: Harness) -> None:
     """A launch file can give a node of the system all variables that it has elsewhere. What it lacks in a sandbox that
     shows other files must not count there."""
-    elsewhere = replace(desk.environment, workspace_folders=("/elsewhere",))
-    asked = TraceRequest("/n", "pkg", str(desk.script))
-    first = Tracer(elsewhere, desk.cache).trace(asked, threading.Event())
-    assert Tracer(elsewhere, desk.cache).lookup(asked) is not None, first
-    assert Tracer(desk.environment, desk.cache).lookup(asked) is None
+    elsewhere = replace(harness.environment, workspace_folders=("/elsewhere",))
+    asked = TraceRequest("/n", "pkg", str(harness.script))
+    first = Tracer(elsewhere, harness.cache).trace(asked, threading.Event())
+    assert Tracer(elsewhere, harness.cache).lookup(asked) is not None, first
+    assert Tracer(harness.environment, harness.cache).lookup(asked) is None

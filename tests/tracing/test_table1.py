@@ -7,10 +7,10 @@ import threading
 from pathlib import Path
 
 import pytest
-from launched_desk import launched, master_view
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import ROS1_FIXTURES, environment
+from support.roslaunch_harness import launched, master_view
+from support.tracing_harness import ROS1_FIXTURES, environment
 
 pytestmark = pytest.mark.ros
 

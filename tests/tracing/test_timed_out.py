@@ -12,7 +12,7 @@ import pytest
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.observation import observe
 from preflight_analysis.tracing.run import RawRun
-from tracing_desk import environment, own, request, trace, write_node
+from support.tracing_harness import environment, own, request, trace, write_node
 
 
 def reason(tmp_path: Path, waits: Any, told: tuple[dict[str, Any], ...] = (), **more: Any) -> str:

@@ -14,7 +14,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import find_packages
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace import Tracer
-from tracing_desk import environment, own, request, write_node
+from support.tracing_harness import environment, own, request, write_node
 
 pytestmark = pytest.mark.ros
 

@@ -17,7 +17,7 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer, on_host
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from tracing_desk import environment, write_node
+from support.tracing_harness import environment, write_node
 
 pytestmark = pytest.mark.ros
 
@@ -77,7 +77,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-class Desk:
+class Harness:
     """A launch of four nodes that were all run."""
 
     def __init__(self, folder: Path, built: Path) -> None:
@@ -125,17 +125,17 @@ class Desk:
 
 
 @pytest.fixture(scope="module")
-def first(tmp_path_factory: pytest.TempPathFactory, built: Path) -> Desk:
-    """The desk after the first runs."""
-    desk = Desk(tmp_path_factory.mktemp("desk"), built)
-    assert desk.runs() == ["reader.py", "plain.py", "curious.py", "native"]
-    assert desk.runs() == [], "the same again"
-    return desk
+def first(tmp_path_factory: pytest.TempPathFactory, built: Path) -> Harness:
+    """The harness after the first runs."""
+    harness = Harness(tmp_path_factory.mktemp("harness"), built)
+    assert harness.runs() == ["reader.py", "plain.py", "curious.py", "native"]
+    assert harness.runs() == [], "the same again"
+    return harness
 
 
 @pytest.fixture
-def desk(first: Desk, tmp_path: Path) -> Iterator[Desk]:
-    """The same desk for each test: what a test does to its files and its cache is undone."""
+def harness(first: Harness, tmp_path: Path) -> Iterator[Harness]:
+    """The same harness for each test: what a test does to its files and its cache is undone."""
     kept, cache = tmp_path / "kept", first.cache
     shutil.copytree(first.package, kept)
     first.cache = TraceCache(shutil.copytree(cache.folder, tmp_path / "cache"))
@@ -185,49 +185,52 @@ def with_each(inside: str) -> str:
         (with_each('<env name="MODE" value="x"/>'), ["reader.py", "plain.py", "curious.py", "native"]),
     ],
 )
-def test_a_changed_launch_file(desk: Desk, launch: str, again: list[str]) -> None:
+def test_a_changed_launch_file(harness: Harness, launch: str, again: list[str]) -> None:
     assert launch != LAUNCH
-    assert desk.runs(launch) == again
-    assert desk.runs(launch) == [], "it is known from then on"
-    assert desk.runs() == [], "and so is what was before"
+    assert harness.runs(launch) == again
+    assert harness.runs(launch) == [], "it is known from then on"
+    assert harness.runs() == [], "and so is what was before"
 
 
-def replaced_library(desk: Desk) -> None:
-    compiled(desk.package, LINKED.format("linked_anew"), "linked")
+def replaced_library(harness: Harness) -> None:
+    compiled(harness.package, LINKED.format("linked_anew"), "linked")
 
 
-def replaced_plugin(desk: Desk) -> None:
-    compiled(desk.package, "int plugin = 2, more = 3;\n", "plugin")
+def replaced_plugin(harness: Harness) -> None:
+    compiled(harness.package, "int plugin = 2, more = 3;\n", "plugin")
 
 
-CHANGES: list[tuple[Callable[[Desk], object], list[str]]] = [
-    (lambda desk: desk.write("helper.py", "topic = 'olds'\n"), ["reader.py"]),
-    (lambda desk: desk.write("data.yaml", "a: 2\n"), ["reader.py"]),
-    (lambda desk: (desk.package / "plain.py").write_text("#!/usr/bin/env python3\n# new\n" + PLAIN), ["plain.py"]),
-    (lambda desk: desk.write("config.txt", "map\n"), ["native"]),
-    (lambda desk: desk.write("more.txt", "less\n"), ["native"]),
-    (lambda desk: desk.write("absent.txt", "here\n"), ["native"]),
+CHANGES: list[tuple[Callable[[Harness], object], list[str]]] = [
+    (lambda harness: harness.write("helper.py", "topic = 'olds'\n"), ["reader.py"]),
+    (lambda harness: harness.write("data.yaml", "a: 2\n"), ["reader.py"]),
+    (
+        lambda harness: (harness.package / "plain.py").write_text("#!/usr/bin/env python3\n# new\n" + PLAIN),
+        ["plain.py"],
+    ),
+    (lambda harness: harness.write("config.txt", "map\n"), ["native"]),
+    (lambda harness: harness.write("more.txt", "less\n"), ["native"]),
+    (lambda harness: harness.write("absent.txt", "here\n"), ["native"]),
     (replaced_library, ["native"]),
     (replaced_plugin, ["native"]),
-    (lambda desk: desk.write("unrelated.py", "x = 1\n"), []),
-    (lambda desk: desk.write("unrelated.yaml", "x: 1\n"), []),
-    (lambda desk: (desk.package / "data.yaml").touch(), []),
+    (lambda harness: harness.write("unrelated.py", "x = 1\n"), []),
+    (lambda harness: harness.write("unrelated.yaml", "x: 1\n"), []),
+    (lambda harness: (harness.package / "data.yaml").touch(), []),
 ]
 
 
 @pytest.mark.parametrize(("change", "again"), CHANGES)
-def test_a_changed_file(desk: Desk, change: Callable[[Desk], object], again: list[str]) -> None:
-    change(desk)
-    desk.age()
-    assert desk.runs() == again
-    assert desk.runs() == []
+def test_a_changed_file(harness: Harness, change: Callable[[Harness], object], again: list[str]) -> None:
+    change(harness)
+    harness.age()
+    assert harness.runs() == again
+    assert harness.runs() == []
 
 
-def test_a_changed_environment(desk: Desk) -> None:
-    desk.variables["ROS_ANYTHING"] = "x"
-    assert desk.runs() == ["reader.py", "plain.py", "curious.py", "native"]
-    desk.variables["SOMETHING_ELSE"] = "x"
-    assert desk.runs() == [], "nodes do not get it"
+def test_a_changed_environment(harness: Harness) -> None:
+    harness.variables["ROS_ANYTHING"] = "x"
+    assert harness.runs() == ["reader.py", "plain.py", "curious.py", "native"]
+    harness.variables["SOMETHING_ELSE"] = "x"
+    assert harness.runs() == [], "nodes do not get it"
 
 
 def test_what_the_sandbox_has_of_its_own_is_no_dependency() -> None:

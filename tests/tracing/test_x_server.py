@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing import x_server
-from tracing_desk import own, trace, write_node
+from support.tracing_harness import own, trace, write_node
 
 pytestmark = pytest.mark.ros
 

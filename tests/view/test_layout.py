@@ -6,11 +6,11 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-import view_desk
 from preflight_analysis.view import engine
 from preflight_analysis.view.labels import columns, label
 from preflight_analysis.view.layout import Box, Layout, lay_out
 from preflight_analysis.view.model import GraphView
+from support import sample_graphs
 
 EMPTY = GraphView("/empty.launch", 1, (), (), (), (), ())
 
@@ -29,7 +29,9 @@ def is_inside(layout: Layout) -> bool:
 
 
 @pytest.mark.parametrize(
-    "view", [view_desk.robot(), view_desk.hostile(), view_desk.large(40, 160)], ids=["robot", "hostile", "large"]
+    "view",
+    [sample_graphs.robot(), sample_graphs.hostile(), sample_graphs.large(40, 160)],
+    ids=["robot", "hostile", "large"],
 )
 def test_nothing_overlaps_and_all_is_inside(view: GraphView) -> None:
     layout = lay_out(view)
@@ -38,7 +40,7 @@ def test_nothing_overlaps_and_all_is_inside(view: GraphView) -> None:
 
 
 def test_lines_begin_and_end_at_their_boxes_and_go_with_the_messages() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     layout = lay_out(view)
 
     def touches(box: Box, point: tuple[float, float]) -> bool:
@@ -54,7 +56,7 @@ def test_lines_begin_and_end_at_their_boxes_and_go_with_the_messages() -> None:
 
 
 def test_channels_with_the_same_ends_share_a_box_unless_something_is_wrong_with_one() -> None:
-    view = view_desk.robot().without_builtin()
+    view = sample_graphs.robot().without_builtin()
     stacks = [{view.channels[i].name for i in box.channels} for box in lay_out(view).boxes if box.channels]
     assert {"/camera/image_raw/compressed", "/camera/image_raw/theora", "/camera/parameter_updates"} in stacks
     assert {"/battery"} in stacks, "said to be without a subscriber"
@@ -62,7 +64,7 @@ def test_channels_with_the_same_ends_share_a_box_unless_something_is_wrong_with_
 
 
 def test_the_same_graph_has_the_same_layout() -> None:
-    assert lay_out(view_desk.large(30, 90)) == lay_out(view_desk.large(30, 90))
+    assert lay_out(sample_graphs.large(30, 90)) == lay_out(sample_graphs.large(30, 90))
 
 
 def test_a_graph_of_nothing() -> None:
@@ -71,7 +73,7 @@ def test_a_graph_of_nothing() -> None:
 
 def test_without_the_engine_everything_has_a_place_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engine, "_PROGRAM", "raise SystemExit(1)")
-    layout = lay_out(view_desk.robot())
+    layout = lay_out(sample_graphs.robot())
     assert overlapping(layout) == []
     assert is_inside(layout)
     assert all(len(route.points) == 2 for route in layout.routes)
@@ -82,21 +84,21 @@ def test_nothing_of_the_folder_that_we_are_in_is_run(tmp_path: Path, monkeypatch
         (tmp_path / f"{name}.py").write_text("raise SystemExit(1)")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    assert any(len(route.points) > 2 for route in lay_out(view_desk.robot()).routes)
+    assert any(len(route.points) > 2 for route in lay_out(sample_graphs.robot()).routes)
 
 
 def test_an_engine_that_is_not_installed_is_done_without(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engine, "find_spec", lambda name: None)
-    assert overlapping(lay_out(view_desk.robot())) == []
+    assert overlapping(lay_out(sample_graphs.robot())) == []
 
 
 def test_an_engine_that_does_not_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engine, "_PROGRAM", "import time\nwhile True: time.sleep(1)")
     monkeypatch.setattr(engine, "PATIENCE", 0.2)
-    assert overlapping(lay_out(view_desk.robot())) == []
+    assert overlapping(lay_out(sample_graphs.robot())) == []
 
 
-@pytest.mark.parametrize("text", [*view_desk.HOSTILE, "/ordinary/name"])
+@pytest.mark.parametrize("text", [*sample_graphs.HOSTILE, "/ordinary/name"])
 def test_a_label_is_one_short_line(text: str) -> None:
     shown = label(text)
     assert columns(shown) <= 38

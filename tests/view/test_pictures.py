@@ -9,7 +9,6 @@ from html.parser import HTMLParser
 from typing import Any
 
 import pytest
-import view_desk
 from lxml import etree
 from preflight_analysis.view.dot import dot
 from preflight_analysis.view.graph_page import graph_page
@@ -17,9 +16,10 @@ from preflight_analysis.view.layout import lay_out
 from preflight_analysis.view.mermaid import mermaid
 from preflight_analysis.view.model import GraphView
 from preflight_analysis.view.svg import outline, standalone_svg, svg
+from support import sample_graphs
 
 SVG = "{http://www.w3.org/2000/svg}"
-VIEWS = {"robot": view_desk.robot(), "hostile": view_desk.hostile()}
+VIEWS = {"robot": sample_graphs.robot(), "hostile": sample_graphs.hostile()}
 views = pytest.mark.parametrize("view", VIEWS.values(), ids=VIEWS)
 
 
@@ -49,7 +49,7 @@ def test_svg_has_each_part_once(view: GraphView) -> None:
 
 
 def test_svg_tells_what_is_wrong() -> None:
-    root = parsed(view_desk.robot())
+    root = parsed(sample_graphs.robot())
     said = {e.get("aria-label"): e.get("class") for e in root.iter(f"{SVG}g") if e.get("aria-label")}
     assert "error" in said["topic /odom, error"].split()
     assert {"dangling", "warning"} <= set(said["topic /scann, warning"].split())
@@ -59,7 +59,7 @@ def test_svg_tells_what_is_wrong() -> None:
 
 
 def test_a_page_draws_the_same_picture_with_a_style_of_its_own() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     assert "<style>" not in svg(view, lay_out(view))
 
 
@@ -88,7 +88,7 @@ def test_dot_is_what_graphviz_reads(view: GraphView) -> None:
 
 
 def test_dot_shows_names_and_findings() -> None:
-    text = dot(view_desk.robot())
+    text = dot(sample_graphs.robot())
     assert '[shape=box, style="rounded", label="/base", color="#667085"];' in text
     assert re.search(r'n0 -> c\d+ \[edgetooltip="nav_msgs/Odometry", color="#d1242f", tooltip="TOP003 types of', text)
 
@@ -127,7 +127,7 @@ def test_the_page_is_the_same_whatever_the_names_are() -> None:
 
 
 def test_the_page_fetches_nothing() -> None:
-    text = graph_page(view_desk.robot(), None)
+    text = graph_page(sample_graphs.robot(), None)
     policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)
     assert policy is not None
     assert policy[1].startswith("default-src 'none'; style-src 'sha256-")

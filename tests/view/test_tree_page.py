@@ -6,16 +6,16 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from typing import Any
 
-import view_desk
 from preflight_analysis.queries.node_tree import Item, NodeTree, node_tree
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.view.tree_page import tree_page
 from preflight_analysis.workspace.workspace import Analysis
-from preflight_check import analyse, read_fixture
+from support import sample_graphs
+from support.check import analyse, read_fixture
 
 
 def robot() -> tuple[NodeTree, Any]:
-    context = analyse(read_fixture(view_desk.ROBOT))
+    context = analyse(read_fixture(sample_graphs.ROBOT))
     analysis = Analysis(
         context.root,
         (),
@@ -64,7 +64,7 @@ def hostile(item: Item, text: str) -> Item:
 def test_names_stay_texts() -> None:
     tree, documents = robot()
     harmless = Page(tree_page(tree, documents, None)).tags
-    for text in view_desk.HOSTILE:
+    for text in sample_graphs.HOSTILE:
         files = tuple(f"{text}{i}" for i, _ in enumerate(tree.files))
         page = replace(tree, files=files, items=tuple(hostile(item, text) for item in tree.items))
         assert [tag for tag in Page(tree_page(page, documents, None)).tags if tag[0] not in ("svg", "rect")] == [

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 
-import view_desk
 from preflight_analysis.documents.span import Place
 from preflight_analysis.view.layout import lay_out
 from preflight_analysis.view.model import GraphView, ViewEdge
 from preflight_analysis.view.view_json import view_json
+from support import sample_graphs
 
 
 def edges(view: GraphView, channel: str) -> dict[tuple[str, str], ViewEdge]:
@@ -20,7 +20,7 @@ def edges(view: GraphView, channel: str) -> dict[tuple[str, str], ViewEdge]:
 
 
 def test_nodes_and_channels_have_final_names_and_actions_stand_for_their_topics() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     assert [node.name for node in view.nodes][:2] == ["/base", "/laser"]
     kinds = {(channel.kind, channel.name) for channel in view.channels}
     assert {("topic", "/camera/image_colour"), ("service", "/base/reset"), ("action", "/move_base")} <= kinds
@@ -28,7 +28,7 @@ def test_nodes_and_channels_have_final_names_and_actions_stand_for_their_topics(
 
 
 def test_findings_are_at_the_edges_that_they_speak_of() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     odom = edges(view, "/odom")
     assert {end: view.severity(edge.findings) for end, edge in odom.items()} == {
         ("/base", "publisher"): "error",
@@ -42,13 +42,13 @@ def test_findings_are_at_the_edges_that_they_speak_of() -> None:
 
 
 def test_a_finding_about_a_node_is_at_the_node() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     told = {node.name: [view.findings[i].rule for i in node.findings] for node in view.nodes if node.findings}
     assert told == {"/recorder": ["TRC004"]}
 
 
 def test_an_end_leads_to_its_source_and_to_the_launch_file() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     assert edges(view, "/odom")["/base", "publisher"].places == (Place("/src/base.py", 12), Place("/base.launch", 2, 3))
     remapped = edges(view, "/scann")["/planner", "subscriber"]
     assert (remapped.remapped_from, remapped.places) == ("scan", (Place("/navigation.launch", 4, 28),))
@@ -57,7 +57,7 @@ def test_an_end_leads_to_its_source_and_to_the_launch_file() -> None:
 
 
 def test_what_every_node_has_is_left_out_on_demand() -> None:
-    view = view_desk.robot()
+    view = sample_graphs.robot()
     assert [channel.name for channel in view.channels if channel.builtin] == ["/rosout"]
     plain = view.without_builtin()
     assert len(plain.edges) == len(view.edges) - 1
@@ -68,7 +68,7 @@ def test_what_every_node_has_is_left_out_on_demand() -> None:
 
 
 def test_a_tag_in_a_file_that_is_included_twice_has_a_finding_at_both_nodes() -> None:
-    view = view_desk.view_of("""
+    view = sample_graphs.view_of("""
         <launch>
           <group ns="a"><include file="/inc.launch"/></group>
           <group ns="b"><include file="/inc.launch"/></group>
@@ -83,7 +83,7 @@ def test_a_tag_in_a_file_that_is_included_twice_has_a_finding_at_both_nodes() ->
 
 
 def test_json_refers_by_position_and_shows_files_from_the_folder() -> None:
-    view = view_desk.robot().without_builtin()
+    view = sample_graphs.robot().without_builtin()
     data = json.loads(json.dumps(view_json(view, lay_out(view), "/")))
     assert data["schema"] == "ros-preflight/view/1"
     assert [file["shown"] for file in data["files"]] == ["robot.launch", "base.launch", "navigation.launch"]
@@ -94,7 +94,7 @@ def test_json_refers_by_position_and_shows_files_from_the_folder() -> None:
 
 
 def test_a_composable_node_is_told_by_its_plugin() -> None:
-    view = view_desk.view_of("""
+    view = sample_graphs.view_of("""
         //- /c.launch.xml
         <launch>
           <node_container pkg="p" exec="component_container" name="c" namespace="">
@@ -122,7 +122,7 @@ def test_a_file_has_the_colour_that_it_has_in_the_tree() -> None:
     //- interfaces
     {"/n": {}, "/first/n": {}}
     """
-    view = view_desk.view_of(text)
+    view = sample_graphs.view_of(text)
     assert view.files == ("/root.launch", "/a.launch", "/b.launch")
     picture = view_json(view, lay_out(view), "/")
     assert [node["file"] for node in picture["nodes"]] == [2, 2]

@@ -23,7 +23,7 @@ from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
-from ros2_desk import ros2_prefix
+from support.ros2_harness import ros2_prefix
 
 pytestmark = pytest.mark.ros
 

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from growth import Clock, steep
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.cmake import read_build
@@ -33,6 +32,7 @@ from preflight_analysis.workspace.project_settings import read_project_settings
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_server.lsp.positions import Positions
+from support.growth import Clock, steep
 
 MOST_CHARACTERS = 20_000
 

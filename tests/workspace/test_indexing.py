@@ -25,7 +25,7 @@ def include(path: Path, x: str = "a", attributes: str = "") -> str:
     return f'<include file="{path}" {attributes}><arg name="x" value="{x}"/></include>'
 
 
-class Desk:
+class Harness:
     """A workspace of a few launch files."""
 
     def __init__(self, folder: Path) -> None:
@@ -50,91 +50,91 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
-    return Desk(tmp_path)
+def harness(tmp_path: Path) -> Harness:
+    return Harness(tmp_path)
 
 
 def paths(roots: tuple[Root, ...]) -> list[str]:
     return sorted(Path(root.path).name for root in roots)
 
 
-def test_roots_are_what_nothing_includes(desk: Desk) -> None:
-    leaf = desk.write("leaf.launch", LEAF)
-    middle = desk.write("middle.launch", including(include(leaf)))
-    desk.write("one.launch", including(include(middle)))
-    desk.write("two.launch", including(include(leaf, "b")))
-    index = desk.build()
+def test_roots_are_what_nothing_includes(harness: Harness) -> None:
+    leaf = harness.write("leaf.launch", LEAF)
+    middle = harness.write("middle.launch", including(include(leaf)))
+    harness.write("one.launch", including(include(middle)))
+    harness.write("two.launch", including(include(leaf, "b")))
+    index = harness.build()
     assert paths(index.roots_of(str(leaf))) == ["one.launch", "two.launch"]
     assert paths(index.roots_of(str(middle))) == ["one.launch"]
     assert sorted(i.args["x"] or "" for i in index.includers(str(leaf))) == ["a", "b"]
     assert sorted(node.name for _, node in index.nodes()) == ["/a", "/b"]
 
 
-def test_a_file_that_is_only_included_under_a_false_condition_is_its_own_root(desk: Desk) -> None:
-    leaf = desk.write("leaf.launch", LEAF)
-    desk.write("one.launch", including(include(leaf, attributes='if="false"')))
-    index = desk.build()
+def test_a_file_that_is_only_included_under_a_false_condition_is_its_own_root(harness: Harness) -> None:
+    leaf = harness.write("leaf.launch", LEAF)
+    harness.write("one.launch", including(include(leaf, attributes='if="false"')))
+    index = harness.build()
     assert index.roots_of(str(leaf)) == (Root(str(leaf)),)
     assert [i.root for i in index.includers(str(leaf))] == [None], "but who would include it is known"
 
 
-def test_a_file_whose_includer_only_the_evaluation_knows_is_no_root(desk: Desk) -> None:
-    leaf = desk.write("leaf.launch", LEAF)
-    where = f'<arg name="where" default="{desk.folder}"/>'
-    desk.write("one.launch", including(where, '<include file="$(arg where)/leaf.launch"/>'))
-    assert paths(desk.build().roots_of(str(leaf))) == ["one.launch"]
+def test_a_file_whose_includer_only_the_evaluation_knows_is_no_root(harness: Harness) -> None:
+    leaf = harness.write("leaf.launch", LEAF)
+    where = f'<arg name="where" default="{harness.folder}"/>'
+    harness.write("one.launch", including(where, '<include file="$(arg where)/leaf.launch"/>'))
+    assert paths(harness.build().roots_of(str(leaf))) == ["one.launch"]
 
 
-def test_files_that_include_each_other_have_a_root(desk: Desk) -> None:
-    one, two = desk.folder / "one.launch", desk.folder / "two.launch"
-    desk.write("one.launch", including(include(two)))
-    desk.write("two.launch", including(include(one)))
-    index = desk.build()
+def test_files_that_include_each_other_have_a_root(harness: Harness) -> None:
+    one, two = harness.folder / "one.launch", harness.folder / "two.launch"
+    harness.write("one.launch", including(include(two)))
+    harness.write("two.launch", including(include(one)))
+    index = harness.build()
     assert index.roots_of(str(one)) == index.roots_of(str(two))
 
 
-def test_a_root_that_the_settings_name_stays_one(desk: Desk) -> None:
-    leaf = desk.write("leaf.launch", LEAF)
-    desk.write("one.launch", including(include(leaf)))
+def test_a_root_that_the_settings_name_stays_one(harness: Harness) -> None:
+    leaf = harness.write("leaf.launch", LEAF)
+    harness.write("one.launch", including(include(leaf)))
     named = Root.of(str(leaf), {"x": "named"})
-    assert desk.build(named).roots_of(str(leaf))[0] == named
+    assert harness.build(named).roots_of(str(leaf))[0] == named
 
 
-def test_changes_are_followed(desk: Desk) -> None:
-    leaf = desk.write("leaf.launch", LEAF)
-    one = desk.write("one.launch", including(include(leaf)))
-    desk.build()
-    one = desk.write("one.launch", including())
-    assert desk.build(changed=[one]).roots_of(str(leaf)) == (Root(str(leaf)),)
-    two = desk.write("two.launch", including(include(leaf, "z")))
-    assert paths(desk.build(changed=[two]).roots_of(str(leaf))) == ["two.launch"]
+def test_changes_are_followed(harness: Harness) -> None:
+    leaf = harness.write("leaf.launch", LEAF)
+    one = harness.write("one.launch", including(include(leaf)))
+    harness.build()
+    one = harness.write("one.launch", including())
+    assert harness.build(changed=[one]).roots_of(str(leaf)) == (Root(str(leaf)),)
+    two = harness.write("two.launch", including(include(leaf, "z")))
+    assert paths(harness.build(changed=[two]).roots_of(str(leaf))) == ["two.launch"]
     two.unlink()
-    assert desk.build(changed=[two]).roots_of(str(leaf)) == (Root(str(leaf)),)
+    assert harness.build(changed=[two]).roots_of(str(leaf)) == (Root(str(leaf)),)
 
 
 def test_a_file_opened_in_the_home_folder_does_not_make_all_of_it_a_workspace(
-    desk: Desk, monkeypatch: pytest.MonkeyPatch
+    harness: Harness, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("HOME", str(desk.folder))
-    (desk.folder / "project").mkdir()
-    desk.write("project/other.launch", including())
-    mine = desk.write("mine.launch", including())
-    assert list(desk.build().files) == [str(mine)]
+    monkeypatch.setenv("HOME", str(harness.folder))
+    (harness.folder / "project").mkdir()
+    harness.write("project/other.launch", including())
+    mine = harness.write("mine.launch", including())
+    assert list(harness.build().files) == [str(mine)]
 
 
-def test_it_can_be_stopped(desk: Desk) -> None:
-    desk.write("leaf.launch", LEAF)
-    assert build_index(desk.workspace, str(desk.folder), cancelled=lambda: True) is None
+def test_it_can_be_stopped(harness: Harness) -> None:
+    harness.write("leaf.launch", LEAF)
+    assert build_index(harness.workspace, str(harness.folder), cancelled=lambda: True) is None
 
 
-def test_what_the_build_ignores_is_not_checked(desk: Desk) -> None:
+def test_what_the_build_ignores_is_not_checked(harness: Harness) -> None:
     for marker in ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"):
-        (desk.folder / marker / "launch").mkdir(parents=True)
-        (desk.folder / marker / marker).touch()
-        desk.write(f"{marker}/launch/{marker}.launch", LEAF)
-        desk.write(f"{marker}/launch/a.launch.xml", '<launch><node pkg="p" exec="t"/></launch>')
-        desk.write(f"{marker}/launch/a.launch.yaml", "launch: []")
-    index = desk.build()
+        (harness.folder / marker / "launch").mkdir(parents=True)
+        (harness.folder / marker / marker).touch()
+        harness.write(f"{marker}/launch/{marker}.launch", LEAF)
+        harness.write(f"{marker}/launch/a.launch.xml", '<launch><node pkg="p" exec="t"/></launch>')
+        harness.write(f"{marker}/launch/a.launch.yaml", "launch: []")
+    index = harness.build()
     assert paths(tuple(index.entries)) == ["AMENT_IGNORE.launch", "COLCON_IGNORE.launch"]
 
 
@@ -146,7 +146,7 @@ def generate_launch_description():
 """
 
 
-def test_python_files_that_make_a_launch_description_are_launch_files(desk: Desk) -> None:
+def test_python_files_that_make_a_launch_description_are_launch_files(harness: Harness) -> None:
     for name, text in {
         "p/launch/hello-launch.py": PYTHON,
         "p/launch/robots/bringup_all.py": PYTHON,
@@ -157,20 +157,22 @@ def test_python_files_that_make_a_launch_description_are_launch_files(desk: Desk
         "p/setup.py": "from setuptools import setup\n"
         "setup(name='p', packages=['p'], data_files=[('share/p', ['package.xml', 'bringup/installed.py'])])\n",
     }.items():
-        (desk.folder / name).parent.mkdir(parents=True, exist_ok=True)
-        desk.write(name, text)
-    desk.workspace = Workspace(detect(str(desk.folder), package_path=(str(desk.folder),)), Sources())
-    assert paths(tuple(desk.build().entries)) == ["bringup_all.py", "hello-launch.py", "installed.py"]
-    whole = desk.write("whole.launch.xml", f'<launch><include file="{desk.folder}/p/launch/hello-launch.py"/></launch>')
-    index = desk.build(changed=[whole])
+        (harness.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        harness.write(name, text)
+    harness.workspace = Workspace(detect(str(harness.folder), package_path=(str(harness.folder),)), Sources())
+    assert paths(tuple(harness.build().entries)) == ["bringup_all.py", "hello-launch.py", "installed.py"]
+    whole = harness.write(
+        "whole.launch.xml", f'<launch><include file="{harness.folder}/p/launch/hello-launch.py"/></launch>'
+    )
+    index = harness.build(changed=[whole])
     assert paths(tuple(index.entries)) == ["bringup_all.py", "installed.py", "whole.launch.xml"]
 
 
-def test_a_large_circle_is_evaluated_in_parts(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_large_circle_is_evaluated_in_parts(harness: Harness, monkeypatch: pytest.MonkeyPatch) -> None:
     count = 400
     for number in range(count):
-        before = desk.folder / f"a{(number - 1) % count:03}.launch"
-        desk.write(f"a{number:03}.launch", including(f'<include file="{before}"/>'))
+        before = harness.folder / f"a{(number - 1) % count:03}.launch"
+        harness.write(f"a{number:03}.launch", including(f'<include file="{before}"/>'))
     evaluated: list[str] = []
     tree = Workspace.tree
 
@@ -179,20 +181,20 @@ def test_a_large_circle_is_evaluated_in_parts(desk: Desk, monkeypatch: pytest.Mo
         return tree(workspace, path, args)
 
     monkeypatch.setattr(Workspace, "tree", counting)
-    index = build_index(desk.workspace, str(desk.folder))
+    index = build_index(harness.workspace, str(harness.folder))
     assert index is not None
     assert len(evaluated) <= 12
-    assert all(index.roots_of(str(path)) for path in desk.folder.glob("*.launch"))
+    assert all(index.roots_of(str(path)) for path in harness.folder.glob("*.launch"))
 
 
 def test_includes_beyond_the_limit_are_not_evaluated(
-    desk: Desk, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    harness: Harness, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setattr(indexing, "MAX_INCLUDED", 2)
-    leaf = desk.write("leaf.launch", LEAF)
+    leaf = harness.write("leaf.launch", LEAF)
     for number in range(4):
-        desk.write(f"root{number}.launch", including(include(leaf)))
-    index = build_index(desk.workspace, str(desk.folder))
+        harness.write(f"root{number}.launch", including(include(leaf)))
+    index = build_index(harness.workspace, str(harness.folder))
     assert index is not None
     assert len(index.roots_of(str(leaf))) == 2
     (said,) = [record.getMessage() for record in caplog.records]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-import random_edits
 from preflight_analysis.environment.packages import find_packages
 from preflight_analysis.workspace.workspace import Workspace
+from tools import random_edits
 
 ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
 

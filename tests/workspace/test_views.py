@@ -6,7 +6,6 @@ import threading
 from pathlib import Path
 
 import pytest
-from environment_workspace import file, script
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
@@ -15,6 +14,7 @@ from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.package_folders import file, script
 
 MANIFEST = "<package><name>{}</name><export><build_type>{}</build_type></export></package>"
 LAUNCH = """<launch>

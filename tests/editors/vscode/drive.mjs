@@ -1,14 +1,14 @@
-// Drives one VS Code as a user would. Arguments: the scenario's name and the desk, as JSON.
+// Drives one VS Code as a user would. Arguments: the scenario's name and the harness, as JSON.
 // Prints what was seen as JSON; a step that fails is named on standard error, with a picture of the moment.
 import { readdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { walkThroughGraph } from "./graph.mjs";
 import { contents, until, Workbench } from "./workbench.mjs";
 
-const [scenario, deskText] = process.argv.slice(2);
-const desk = JSON.parse(deskText);
+const [scenario, harnessText] = process.argv.slice(2);
+const harness = JSON.parse(harnessText);
 const seen = {};
-const workbench = new Workbench(desk);
+const workbench = new Workbench(harness);
 let current = "start";
 
 async function step(name, action) {
@@ -21,7 +21,7 @@ async function step(name, action) {
 }
 
 function picture(name) {
-  return workbench.screenshot(path.join(desk.screenshots, `${name}.png`));
+  return workbench.screenshot(path.join(harness.screenshots, `${name}.png`));
 }
 
 /** How long it may take to make a virtual environment and install into it. */
@@ -30,13 +30,13 @@ const INSTALLING = 240_000;
 const squiggle = () => workbench.page.locator(".squiggly-warning").first();
 const noSquiggle = () => squiggle().waitFor({ state: "detached" });
 
-// The server of this editor, and no other: the process whose home is the desk's.
+// The server of this editor, and no other: the process whose home is the harness's.
 function processes() {
   const servers = readdirSync("/proc").filter((pid) => {
     try {
       const words = readFileSync(`/proc/${pid}/cmdline`, "utf8").split("\0");
       const environment = readFileSync(`/proc/${pid}/environ`, "utf8").split("\0");
-      return words.includes("lsp") && environment.includes(`HOME=${desk.home}`);
+      return words.includes("lsp") && environment.includes(`HOME=${harness.home}`);
     } catch {
       return false; // not a process, or one that has just ended
     }
@@ -94,9 +94,9 @@ const scenarios = {
     await step("diagnostic gone", noSquiggle);
     await step("file saved", async () => {
       await workbench.page.keyboard.press("Control+s");
-      await until("the fixed file on disk", () => contents(desk.launchFile).includes('to="chatter"'));
+      await until("the fixed file on disk", () => contents(harness.launchFile).includes('to="chatter"'));
     });
-    seen.fixed = contents(desk.launchFile);
+    seen.fixed = contents(harness.launchFile);
     await step("picture after the fix", async () => {
       await workbench.parkMouse();
       await picture("5-after");
@@ -143,7 +143,7 @@ const scenarios = {
       await workbench.rename('"rate"', "rate", "frequency");
       await page.locator(".view-line", { hasText: "frequency" }).first().waitFor();
       await workbench.command("File: Save All Files");
-      const robot = path.join(path.dirname(desk.launchFile), "robot.launch");
+      const robot = path.join(path.dirname(harness.launchFile), "robot.launch");
       await until("the renamed argument on disk", () => contents(robot).includes('name="frequency" value="20"'));
     });
     await step("insert an annotation", async () => {
@@ -155,7 +155,7 @@ const scenarios = {
       await workbench.line("<topics>").waitFor();
       await page.keyboard.press("Control+s");
       await until("the annotation on disk", () =>
-        contents(path.join(path.dirname(desk.launchFile), "robot.launch")).includes('class="pub"'),
+        contents(path.join(path.dirname(harness.launchFile), "robot.launch")).includes('class="pub"'),
       );
     });
   },
@@ -185,7 +185,7 @@ const scenarios = {
     const message = workbench.page.locator(".tree-explorer-viewlet-tree-view > .message");
     const healthy = message.filter({ hasText: "as it should be" });
     seen.healthy = await step("the system is as it should be", () => healthy.innerText());
-    process.kill(desk.victim, "SIGKILL");
+    process.kill(harness.victim, "SIGKILL");
     const broken = message.filter({ hasText: "difference" });
     seen.broken = await step("a node is missed", () => broken.innerText());
     const marked = ".codicon-error, .codicon-debug-disconnect";
@@ -211,7 +211,7 @@ const scenarios = {
     seen.missing = await step("message about the set-up", () => workbench.message("/no/such/setup.bash").innerText());
     await step("squiggle without it", () => squiggle().waitFor());
     const before = serverProcess();
-    workbench.configure({ "rosPreflight.environment.setup": [desk.setup] });
+    workbench.configure({ "rosPreflight.environment.setup": [harness.setup] });
     await step("another server", () =>
       until("another server", () => processes().length === 1 && processes()[0] !== before),
     );
@@ -246,7 +246,7 @@ const scenarios = {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
     await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
     await step("squiggle", () => squiggle().waitFor());
-    await walkThroughGraph({ workbench, desk, step, picture, seen });
+    await walkThroughGraph({ workbench, harness, step, picture, seen });
   },
 
   // Nothing is run and the reason is shown; once trust is granted, the finding comes without a restart.
@@ -256,7 +256,7 @@ const scenarios = {
     seen.problems = await step("reason shown", () => workbench.problems("not trusted"));
     await step("picture of the reason", () => picture("6-untrusted"));
     seen.squiggles = await squiggle().count();
-    seen.sandboxStarts = contents(desk.sandboxRecord).length;
+    seen.sandboxStarts = contents(harness.sandboxRecord).length;
     const before = serverProcess();
     await step("trust the workspace", trust);
     await step("badge gone", () => workbench.status("Not trusted").waitFor({ state: "detached" }));
@@ -274,7 +274,7 @@ const scenarios = {
     await step("status of the missing server", () => workbench.status("no server").waitFor());
     seen.buttons = await step("its buttons", () => missing.locator(".monaco-button").allInnerTexts());
     await step("picture of the message", () => picture("8-no-server"));
-    workbench.configure({ "rosPreflight.server.command": [desk.server] });
+    workbench.configure({ "rosPreflight.server.command": [harness.server] });
     await step("squiggle of the configured server", () => squiggle().waitFor());
     for (let death = 1; death <= 5; death += 1) {
       await step(`death ${death}`, killServer);
@@ -303,7 +303,7 @@ try {
     const messages = await workbench.page.locator(".notification-list-item-message").allInnerTexts();
     console.error(`messages shown: ${JSON.stringify(messages)}`);
     await workbench.page
-      .screenshot({ path: path.join(desk.screenshots, `failed-${scenario}.png`) })
+      .screenshot({ path: path.join(harness.screenshots, `failed-${scenario}.png`) })
       .catch(() => undefined);
   }
   process.exitCode = 1;

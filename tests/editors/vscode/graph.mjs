@@ -3,8 +3,8 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { contents, until } from "./workbench.mjs";
 
-/** @param the means of drive.mjs: the workbench, its desk, what names a step and takes a picture, and what is told. */
-export async function walkThroughGraph({ workbench, desk, step, picture, seen }) {
+/** @param the means of drive.mjs: the workbench, its harness, what names a step and takes pictures, what is told. */
+export async function walkThroughGraph({ workbench, harness, step, picture, seen }) {
   const graph = () => workbench.page.frameLocator("iframe.webview.ready").frameLocator("iframe#active-frame");
   const item = (label) => graph().locator(`[aria-label^="${label}"]`).first();
   const labels = () =>
@@ -42,7 +42,7 @@ export async function walkThroughGraph({ workbench, desk, step, picture, seen })
     await cursor(/Ln 3, Col 3/);
   });
   await step("followed", async () => {
-    writeFileSync(desk.launchFile, contents(desk.launchFile).replace('to="chater"', 'to="chatter"'));
+    writeFileSync(harness.launchFile, contents(harness.launchFile).replace('to="chater"', 'to="chatter"'));
     await item("topic /chater").waitFor({ state: "detached" });
     seen.followed = await labels();
   });
@@ -50,7 +50,7 @@ export async function walkThroughGraph({ workbench, desk, step, picture, seen })
     await graph().locator("#save").click();
     // The box proposes a name, once it has looked at the folder.
     const box = workbench.page.locator(".quick-input-widget input[type=text]");
-    const target = path.join(desk.workspace, "graph.svg");
+    const target = path.join(harness.workspace, "graph.svg");
     await until("the name to be taken", async () => {
       if (/graph\.svg$/.test(await box.inputValue())) {
         await box.press("Enter");

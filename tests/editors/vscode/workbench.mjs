@@ -38,10 +38,10 @@ export class Workbench {
   settings = {};
 
   /**
-   * @param {{home: string, vsix: string, workspace: string, log: string, chromium: string}} desk
+   * @param {{home: string, vsix: string, workspace: string, log: string, chromium: string}} harness
    */
-  constructor(desk) {
-    this.desk = desk;
+  constructor(harness) {
+    this.harness = harness;
   }
 
   /**
@@ -50,7 +50,7 @@ export class Workbench {
    * @param {string[]} options more arguments for code-server
    */
   async open(options = []) {
-    const { home, vsix, workspace, log } = this.desk;
+    const { home, vsix, workspace, log } = this.harness;
     const folders = ["--user-data-dir", path.join(home, "data"), "--extensions-dir", path.join(home, "extensions")];
     this.configure(USER_SETTINGS, "User");
     this.configure(this.settings);
@@ -79,7 +79,7 @@ export class Workbench {
       return (await fetch(`${url}healthz`).catch(() => undefined))?.ok;
     });
 
-    const browser = await chromium.launch({ executablePath: this.desk.chromium, args: CHROMIUM_FLAGS });
+    const browser = await chromium.launch({ executablePath: this.harness.chromium, args: CHROMIUM_FLAGS });
     this.#ends.push(() => browser.close());
     this.page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
     this.page.setDefaultTimeout(PATIENCE);
@@ -261,7 +261,7 @@ export class Workbench {
 
   /** Changes settings as an edit of settings.json would. Those of the scopes `machine*` count in `Machine` alone. */
   configure(settings, scope = "Machine") {
-    const file = path.join(this.desk.home, "data", scope, "settings.json");
+    const file = path.join(this.harness.home, "data", scope, "settings.json");
     mkdirSync(path.dirname(file), { recursive: true });
     writeFileSync(file, JSON.stringify(settings));
   }

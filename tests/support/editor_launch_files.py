@@ -1,10 +1,10 @@
-"""Launch files that the editors are shown besides the demo's, laid into a desk's workspace."""
+"""Launch files that the editors are shown besides the demo's, in the workspace of a harness."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from editor_desk import Desk
+from support.editor_harness import Harness
 
 ROBOT = """<launch>
   <arg name="sim" default="false"/>
@@ -74,17 +74,17 @@ def generate_launch_description():
 """
 
 
-def lay_robot(desk: Desk) -> Path:
+def create_robot(harness: Harness) -> Path:
     """A robot with two arms, a launch file each; returns the folder."""
-    folder = desk.launch_file.parent
+    folder = harness.launch_file.parent
     for name, text in (("robot", ROBOT), ("arm", ARM), ("gripper", GRIPPER)):
         (folder / f"{name}.launch").write_text(text)
     return folder
 
 
-def lay_formats(desk: Desk) -> Path:
+def create_formats(harness: Harness) -> Path:
     """A package of ROS 2 with a launch file of each format; returns the folder."""
-    folder = desk.workspace / "chapter"
+    folder = harness.workspace / "chapter"
     folder.mkdir()
     (folder / "package.xml").write_text(MANIFEST)
     for name, text in (("first.launch.xml", ROS2_XML), ("second.launch.yaml", ROS2_YAML)):

@@ -21,7 +21,7 @@ MANIFEST = """<package format="3"><name>{}</name><version>0.1.0</version><descri
 
 
 @dataclass
-class PythonDesk:
+class PythonHarness:
     """A folder with one package."""
 
     folder: Path

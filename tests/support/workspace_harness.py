@@ -1,6 +1,6 @@
 """A workspace on the disk for the queries that look across files, written as one text.
 
-    lay(tmp_path, '''
+    create_workspace(tmp_path, '''
         <launch><arg name="x"/></launch>
         //- inc.launch
         <launch><arg name="$0x"/></launch>
@@ -8,7 +8,7 @@
 
 `//- path` starts another file, the first one is `main.launch`; `{folder}` stands for the workspace's folder and `$0`
 is the cursor. There is a package `p` in the folder, whose executables are the files of `p/scripts`. Interfaces as in
-`preflight_check`.
+`support.check`.
 """
 
 from __future__ import annotations
@@ -32,14 +32,17 @@ from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from preflight_check import interface_from_json
+
+from support.check import interface_from_json
 
 _FILE = re.compile(r"//- (\S+)\s*\Z")
 
 
 @dataclass(frozen=True)
-class Stage:
+class TestWorkspace:
     """A scene, the cursor in it, and how to speak of what is in it."""
+
+    __test__ = False  # pytest: no class of tests
 
     folder: Path
     scene: Scene
@@ -63,7 +66,7 @@ class Stage:
         return {str(Path(path).relative_to(self.folder)): text for path, text in texts.items()}
 
 
-def lay(
+def create_workspace(
     folder: Path,
     text: str,
     *,
@@ -71,7 +74,7 @@ def lay(
     analysed: int = 8,
     build_type: str | None = None,
     runs: bool = False,
-) -> Stage:
+) -> TestWorkspace:
     """Write the files and analyse what the cursor's file needs. `build_type` is that of the package `p`, of ROS 2 where
     it is an ament one; `runs`: Python launch files are run."""
     cursor: tuple[str, int] | None = None
@@ -111,4 +114,4 @@ def lay(
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]
             analysis = workspace.with_interfaces(analysis, given, None)
         analyses.append(analysis)
-    return Stage(folder, Scene(path, tuple(analyses), index, workspace), cursor[1])
+    return TestWorkspace(folder, Scene(path, tuple(analyses), index, workspace), cursor[1])

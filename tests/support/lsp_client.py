@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 from urllib.parse import unquote
 
-from editor_desk import Desk
 from lsprotocol import types
 from pygls.protocol import default_converter
 from pytest_lsp import LanguageClient
 from pytest_lsp.client import DEFAULT_CLIENT_FEATURES, register_lsp_features
+
+from support.editor_harness import Harness
 
 ENCODINGS = ("utf-8", "utf-16", "utf-32")
 T = TypeVar("T")
@@ -452,7 +453,7 @@ class Editor:
 
 @contextlib.asynccontextmanager
 async def editing(
-    desk: Desk,
+    harness: Harness,
     *,
     trusted: bool = False,
     client: types.ClientCapabilities | None = None,
@@ -462,16 +463,18 @@ async def editing(
     folders: Sequence[Path] = (),
     without_folder: bool = False,
 ) -> AsyncIterator[Editor]:
-    """The server, started as editors start it, on the desk's workspace (or on no folder at all); shut down as editors
-    do it at the end."""
+    """The server, started as editors start it, on the workspace of the harness (or on no folder at all); shut down as
+    editors do it at the end."""
     editor = Editor()
     client = client or capabilities()
     offered = (client.general.position_encodings if client.general else None) or ["utf-16"]
     editor.encoding = str(getattr(offered[0], "value", offered[0]))
     if settings is not None:
         editor.client.set_configuration({"rosPreflight": settings})
-    await editor.client.start_io(str(desk.server), "lsp", "--stdio", env={**desk.environment, **(environment or {})})
-    opened = [] if without_folder else list(folders) or [folder or desk.workspace]
+    await editor.client.start_io(
+        str(harness.server), "lsp", "--stdio", env={**harness.environment, **(environment or {})}
+    )
+    opened = [] if without_folder else list(folders) or [folder or harness.workspace]
     try:
         editor.result = await editor.client.initialize_session(
             types.InitializeParams(

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tracing_desk import SYSTEM_PYTHON
+from support.tracing_harness import SYSTEM_PYTHON
 
 LIMIT_SECONDS = 60
 COMMAND = Path(sys.executable).with_name("ros-preflight")

@@ -1,4 +1,4 @@
-"""A desk for an editor: a home folder with the demo in it, and a record of every start of the sandbox."""
+"""A home folder for an editor or the command, with the demo in it, and a record of every start of the sandbox."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 LAUNCH_FILE = "talker_listener.launch"
 
 
 @dataclass(frozen=True)
-class Desk:
-    """The world of one editor: nothing of the user's own settings or caches reaches it."""
+class Harness:
+    """What one editor works in: nothing of the user's own settings or caches reaches it."""
 
     home: Path
     workspace: Path
@@ -27,11 +27,11 @@ class Desk:
     sandbox_record: Path
 
     def sandbox_starts(self) -> int:
-        """How often bubblewrap was called since the desk was laid."""
+        """How often bubblewrap was called since the harness was created."""
         return len(self.sandbox_record.read_text().splitlines())
 
     def processes(self) -> list[str]:
-        """The command lines of what was started at this desk and still runs."""
+        """The command lines of what was started with this home and still runs."""
         running = []
         for process in Path("/proc").glob("[0-9]*"):
             try:
@@ -44,7 +44,7 @@ class Desk:
         return running
 
 
-def lay_desk(folder: Path, workspace_name: str, *, server_on_path: bool) -> Desk:
+def create_harness(folder: Path, workspace_name: str, *, server_on_path: bool) -> Harness:
     home, programs = folder / "home", folder / "bin"
     workspace = home / workspace_name
     shutil.copytree(ROOT / "fixtures/ros1/demo", workspace)
@@ -60,7 +60,7 @@ def lay_desk(folder: Path, workspace_name: str, *, server_on_path: bool) -> Desk
         (programs / server.name).symlink_to(server)
     record = folder / "sandbox-starts"
     record.touch()
-    lay_sandbox_recorder(programs, record)
+    create_sandbox_recorder(programs, record)
 
     others = [entry for entry in os.environ["PATH"].split(":") if not Path(entry, server.name).exists()]
     path = ":".join([str(programs), *others])
@@ -77,10 +77,10 @@ def lay_desk(folder: Path, workspace_name: str, *, server_on_path: bool) -> Desk
         "XDG_STATE_HOME": str(home / ".local/state"),
         "LANG": "C.UTF-8",
     }
-    return Desk(home, workspace, launch_file, server, environment, record)
+    return Harness(home, workspace, launch_file, server, environment, record)
 
 
-def lay_sandbox_recorder(folder: Path, record: Path) -> None:
+def create_sandbox_recorder(folder: Path, record: Path) -> None:
     """Put a `bwrap` into `folder` that leaves a line in `record` and goes on as the real one."""
     real = shutil.which("bwrap")
     if real is None:

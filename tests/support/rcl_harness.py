@@ -7,13 +7,14 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from action_package import action_package
-from made_once import made_once
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
-from ros2_desk import ROOT, checked, ros2_prefix
+
+from support.action_package import action_package
+from support.build_once import build_once
+from support.ros2_harness import ROOT, checked, ros2_prefix
 
 SOURCES = ROOT / "tests" / "tracing"
 _LIBRARIES = (
@@ -33,7 +34,7 @@ _LIBRARIES = (
 def rcl_node(distribution: str = "kilted", source: str = "rcl_node.c") -> Path:
     """The program, compiled by the first test that asks."""
     name = f"{Path(source).stem}-{distribution}"
-    return made_once(name, lambda folder: _compile(folder / "node", distribution, source)) / "node"
+    return build_once(name, lambda folder: _compile(folder / "node", distribution, source)) / "node"
 
 
 def _compile(made: Path, distribution: str, source: str) -> None:
@@ -54,7 +55,7 @@ def _compile(made: Path, distribution: str, source: str) -> None:
     )
 
 
-class RclDesk:
+class RclHarness:
     """A workspace with the built package `cpkg`, whose only program is `node`."""
 
     def __init__(self, folder: Path, distribution: str = "kilted", source: str = "rcl_node.c") -> None:

@@ -1,4 +1,4 @@
-"""A fixture with `$0` in one of its files, analysed, for the queries of an editor: see `preflight_check` for the form.
+"""A fixture with `$0` in one of its files, analysed, for the queries of an editor: see `support.check` for the form.
 
 Executables are those that `executables` gives; the interfaces come from `//- interfaces` or annotations.
 """
@@ -14,7 +14,8 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
-from preflight_check import environment_of, interfaces_of, read_fixture
+
+from support.check import environment_of, interfaces_of, read_fixture
 
 CURSOR = "$0"
 

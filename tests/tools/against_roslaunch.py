@@ -1,6 +1,6 @@
 """How `tree --format json` compares with what real roslaunch says of the same file: values, errors and their reason.
 
-  python tests/against_roslaunch.py --root CORPUS EXPECTED.jsonl ACTUAL.jsonl
+  python tests/tools/against_roslaunch.py --root CORPUS EXPECTED.jsonl ACTUAL.jsonl
 
 roslaunch stops at the first error, we go on: what it stops at has to be the first of our `errors`. Its messages name
 the file only where the exception passed an `<include>` on its way; where they do not, the file has to be one of those

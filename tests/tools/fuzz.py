@@ -21,7 +21,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 OUT = ROOT / "out" / "fuzz"
 EDITS = "random-edits"
 """A target of its own: what is remembered while somebody edits, against a fresh analysis."""
@@ -82,8 +83,8 @@ def guided(name: str, seconds: float) -> None:
     import atheris
 
     with atheris.instrument_imports(include=["preflight_analysis"]):
-        import fuzz_targets
-    target = next(each for each in fuzz_targets.TARGETS if each.name == name)
+        from fuzzing import targets
+    target = next(each for each in targets.TARGETS if each.name == name)
     record = Record(name, "atheris", seconds)
     corpus, words = record.folder / "corpus", record.folder / "words"
     corpus.mkdir(exist_ok=True)
@@ -92,31 +93,31 @@ def guided(name: str, seconds: float) -> None:
     words.write_text("".join('"%s"\n' % "".join(f"\\x{b:02x}" for b in word.encode()) for word in target.words))
 
     def one(data: bytes) -> None:
-        record.run(lambda: fuzz_targets.bounded(target.run, data), data)
+        record.run(lambda: targets.bounded(target.run, data), data)
         if time.monotonic() > record.deadline:
             record.write()
             os._exit(0)
 
     dictionary = [f"-dict={words}"] if target.words else []
-    options = [f"-max_len={fuzz_targets.seeds.LONGEST}", "-rss_limit_mb=4096", "-timeout=120", "-verbosity=0"]
+    options = [f"-max_len={targets.seeds.LONGEST}", "-rss_limit_mb=4096", "-timeout=120", "-verbosity=0"]
     atheris.Setup([sys.argv[0], *options, *dictionary, f"-artifact_prefix={record.folder}/", str(corpus)], one)
     atheris.Fuzz()
 
 
 def drawn(name: str, seconds: float) -> None:
     """By hypothesis."""
-    import fuzz_targets
+    from fuzzing import targets
     from hypothesis import HealthCheck, Phase, given, settings
 
-    target = next(each for each in fuzz_targets.TARGETS if each.name == name)
+    target = next(each for each in targets.TARGETS if each.name == name)
     record = Record(name, "hypothesis", seconds)
     for seed in target.seeds():
-        record.run(lambda seed=seed: fuzz_targets.bounded(target.run, seed), seed)  # type: ignore[misc]
+        record.run(lambda seed=seed: targets.bounded(target.run, seed), seed)  # type: ignore[misc]
 
     @settings(max_examples=40, database=None, deadline=None, phases=[Phase.generate], suppress_health_check=HealthCheck)
-    @given(fuzz_targets.inputs(target))
+    @given(targets.inputs(target))
     def some(data: bytes) -> None:
-        record.run(lambda: fuzz_targets.bounded(target.run, data), data)
+        record.run(lambda: targets.bounded(target.run, data), data)
 
     while time.monotonic() < record.deadline:
         some()
@@ -125,8 +126,9 @@ def drawn(name: str, seconds: float) -> None:
 
 def edited(seconds: float) -> None:
     """The random edits."""
-    import random_edits
     from preflight_analysis.environment.packages import find_packages
+
+    from tools import random_edits
 
     corpus = ROOT.parent / "shared" / "corpus" / "ros1" / "src"
     folder = corpus if corpus.is_dir() else ROOT / "fixtures" / "ros1"
@@ -144,9 +146,9 @@ def edited(seconds: float) -> None:
 
 def names() -> list[str]:
     """All targets."""
-    import fuzz_targets
+    from fuzzing import targets
 
-    return [*(target.name for target in fuzz_targets.TARGETS), EDITS]
+    return [*(target.name for target in targets.TARGETS), EDITS]
 
 
 def read_result(name: str) -> dict[str, Any]:
@@ -187,11 +189,11 @@ def main() -> int:
     parser.add_argument("files", nargs="*", type=Path, help="inputs for the target instead of made-up ones")
     options = parser.parse_args()
     if options.files:
-        import fuzz_targets
+        from fuzzing import targets
 
-        target = next(each for each in fuzz_targets.TARGETS if each.name == options.target)
+        target = next(each for each in targets.TARGETS if each.name == options.target)
         for path in options.files:
-            fuzz_targets.bounded(target.run, path.read_bytes())
+            targets.bounded(target.run, path.read_bytes())
         return 0
     if options.target == EDITS:
         edited(options.seconds)

@@ -11,7 +11,8 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
-from tracing_desk import ROS1_FIXTURES, SYSTEM_PYTHON
+
+from support.tracing_harness import ROS1_FIXTURES, SYSTEM_PYTHON
 
 
 def free_port() -> int:

@@ -7,7 +7,8 @@ from typing import Any
 
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.view.model import GraphView, ViewChannel, ViewEdge, ViewFinding, ViewNode, graph_view
-from preflight_check import analyse, read_fixture
+
+from support.check import analyse, read_fixture
 
 ROBOT = """
 //- /robot.launch
@@ -83,7 +84,7 @@ HOSTILE = (
 
 
 def view_of(text: str, **options: Any) -> GraphView:
-    """The view of a fixture, as `preflight_check` describes it."""
+    """The view of a fixture, as `support.check` describes it."""
     context = analyse(read_fixture(text), **options)
     assert context.graph is not None
     return graph_view(context.graph, run_rules(context), context.documents)

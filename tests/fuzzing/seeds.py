@@ -8,10 +8,10 @@ import xmlrpc.client
 from pathlib import Path
 from typing import Any
 
-from fuzz_master import BETWEEN, URI
+from support.scripted_master import BETWEEN, URI
 
-FIXTURES = Path(__file__).parents[1] / "fixtures"
-CORPUS = Path(__file__).parents[2] / "shared" / "corpus"
+FIXTURES = Path(__file__).parents[2] / "fixtures"
+CORPUS = Path(__file__).parents[3] / "shared" / "corpus"
 LONGEST = 8192
 """Of an input, in bytes. What grows faster than its input is looked for with longer ones elsewhere."""
 

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from tracing_desk import ROS1_FIXTURES, SYSTEM_PYTHON
+from support.tracing_harness import ROS1_FIXTURES, SYSTEM_PYTHON
 
 SOURCE = ROS1_FIXTURES / "cpp_tutorials"
 _LIBRARIES = ("roscpp", "rostime", "roscpp_serialization", "rosconsole", "boost_system", "boost_thread", "pthread")

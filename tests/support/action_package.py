@@ -6,8 +6,8 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from made_once import made_once
-from ros2_desk import ROOT, ros2_prefix
+from support.build_once import build_once
+from support.ros2_harness import ROOT, ros2_prefix
 
 _NEEDED = ("action_msgs", "unique_identifier_msgs", "builtin_interfaces", "service_msgs")
 _FACTS = """import sysconfig, numpy
@@ -24,7 +24,7 @@ class ActionPackage:
 
 def action_package(distribution: str = "kilted") -> ActionPackage:
     """Made by the first test that asks, in seconds."""
-    folder = made_once(f"action-{distribution}", lambda folder: _make(folder, ros2_prefix(distribution)))
+    folder = build_once(f"action-{distribution}", lambda folder: _make(folder, ros2_prefix(distribution)))
     return ActionPackage(folder, folder / "lib")
 
 

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from made_once import made_once
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
@@ -20,7 +19,9 @@ from preflight_analysis.tracing.observation import Dependencies
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
-ROS1_FIXTURES = Path(__file__).parent.parent / "fixtures" / "ros1"
+from support.build_once import build_once
+
+ROS1_FIXTURES = Path(__file__).parents[2] / "fixtures" / "ros1"
 SYSTEM_PYTHON = "/usr/bin/python3"
 
 
@@ -46,7 +47,7 @@ def working_backends() -> list[str]:
 
 def known_backends() -> list[str]:
     """The same, asked once for all processes of a test run: each has to collect the same tests."""
-    folder = made_once("backends", lambda folder: (folder / "names").write_text("\n".join(working_backends())))
+    folder = build_once("backends", lambda folder: (folder / "names").write_text("\n".join(working_backends())))
     return (folder / "names").read_text().split()
 
 

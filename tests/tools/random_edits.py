@@ -1,6 +1,6 @@
 """Random edits in a small workspace: what is remembered between them must not show.
 
-  python tests/random_edits.py FOLDER [--seed N] [--edits N] [--seconds N]
+  python tests/tools/random_edits.py FOLDER [--seed N] [--edits N] [--seconds N]
 
 FOLDER has packages. Each seed copies a few launch files that include each other, and the YAML files that they name, and
 edits them as people do: pieces of other files typed character by character, pasted, deleted, undone; files saved,
@@ -18,13 +18,15 @@ import os
 import random
 import re
 import shutil
+import sys
 import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import lsp_desk
+sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
+
 from lsprotocol import types
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import find_packages
@@ -33,6 +35,7 @@ from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, P
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.text_store import TextStore, to_uri
+from support import lsp_client
 
 LONGEST = 6_000
 """Of a file, in characters: many edits in small files find more than few in large ones."""
@@ -107,7 +110,7 @@ class Typing:
 
 
 @dataclass
-class Desk:
+class Harness:
     """An editor with some files open, and the two sides that are compared."""
 
     chance: random.Random
@@ -213,7 +216,9 @@ class Desk:
         start, end = sorted((min(start, len(text)), min(end, len(text))))
         start -= text[start - 1 : start + 1] == "\r\n"
         end += text[end - 1 : end + 1] == "\r\n"
-        there = types.Range(lsp_desk.position(text, start, self.encoding), lsp_desk.position(text, end, self.encoding))
+        there = types.Range(
+            lsp_client.position(text, start, self.encoding), lsp_client.position(text, end, self.encoding)
+        )
         self.changes += 1
         changes = [types.TextDocumentContentChangePartial(there, new)]
         document = self.store.change(to_uri(path), self.changes, changes)
@@ -336,15 +341,15 @@ def run(folder: Path, packages: Mapping[str, Package], seed: int, edits: int, de
     try:
         while done < edits and time.monotonic() < deadline:
             with tempfile.TemporaryDirectory() as copy:
-                desk = make(folder, packages, Path(copy), seed)
+                harness = make(folder, packages, Path(copy), seed)
                 for number in range(min(EDITS_IN_ONE_WORKSPACE, edits - done)):
                     try:
-                        desk.step()
-                        desk.compare()
+                        harness.step()
+                        harness.compare()
                     except Exception as error:
-                        raise Broken(f"seed {seed}, edit {number}, {desk.log[-12:]}: {error}") from error
+                        raise Broken(f"seed {seed}, edit {number}, {harness.log[-12:]}: {error}") from error
                     if errors.messages:
-                        raise Broken(f"seed {seed}, edit {number}, {desk.log[-12:]}: {errors.messages[0]}")
+                        raise Broken(f"seed {seed}, edit {number}, {harness.log[-12:]}: {errors.messages[0]}")
                     done += 1
             seed += 1
     finally:
@@ -352,8 +357,8 @@ def run(folder: Path, packages: Mapping[str, Package], seed: int, edits: int, de
     return done
 
 
-def make(folder: Path, packages: Mapping[str, Package], copy: Path, seed: int) -> Desk:
-    """A desk with a copy of some launch file of `folder` and what it reaches."""
+def make(folder: Path, packages: Mapping[str, Package], copy: Path, seed: int) -> Harness:
+    """A workspace with a copy of some launch file of `folder` and what it reaches."""
     chance = random.Random(seed)
     launch_files = sorted(p for p in folder.rglob("*.launch") if p.stat().st_size < LONGEST)
     while not (found := _reached(chance.choice(launch_files), packages)):
@@ -379,9 +384,9 @@ def make(folder: Path, packages: Mapping[str, Package], copy: Path, seed: int) -
     environment = Environment(1, "noetic", {"HOME": "/root"}, (str(copy / "src"),), copies, {}, (), (), None)
     pool = [p.read_text() for p in chance.sample(launch_files, min(8, len(launch_files)))]
     pool += [p.read_text() for p in found]
-    desk = Desk(chance, str(copy), environment, roots, pool, paths, chance.choice(lsp_desk.ENCODINGS))
+    harness = Harness(chance, str(copy), environment, roots, pool, paths, chance.choice(lsp_client.ENCODINGS))
     paths.append(os.path.join(os.path.dirname(paths[0]), "new.launch"))
-    return desk
+    return harness
 
 
 def _reached(start: Path, packages: Mapping[str, Package]) -> list[Path]:

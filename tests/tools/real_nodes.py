@@ -1,7 +1,7 @@
 """Real nodes: what tracing finds of them beside what a real ROS master shows when the same launch really runs.
 
-  python tests/real_nodes.py [LAUNCH ...]     print the rows of these launch files (all: without arguments)
-  python tests/real_nodes.py --write          run all and write docs/real_nodes.md
+  python tests/tools/real_nodes.py [LAUNCH ...]     print the rows of these launch files (all: without arguments)
+  python tests/tools/real_nodes.py --write          run all and write docs/real_nodes.md
 
 The launch files are those of `fixtures/ros1/real_nodes/launch` (Debian's nodes) and of
 `fixtures/ros1/cpp_tutorials/launch` (ours, which are compiled first). What is not installed is named, and launch files
@@ -25,12 +25,14 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from cpp_tutorials import SOURCE, compiled
-from launched_desk import launched
-from preflight_analysis.evaluation import names
-from tracing_desk import ROS1_FIXTURES
+sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 
-PAGE = Path(__file__).parent.parent / "docs" / "real_nodes.md"
+from preflight_analysis.evaluation import names
+from support.cpp_tutorials import SOURCE, compiled
+from support.roslaunch_harness import launched
+from support.tracing_harness import ROS1_FIXTURES
+
+PAGE = Path(__file__).parents[2] / "docs" / "real_nodes.md"
 FOLDER = ROS1_FIXTURES / "real_nodes"
 LAUNCHES = {path.stem: path for path in sorted((FOLDER / "launch").glob("*.launch"))}
 TUTORIALS = sorted(path.stem for path in (SOURCE / "launch").glob("*.launch"))

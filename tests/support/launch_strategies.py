@@ -1,6 +1,6 @@
 """Launch files as hypothesis makes them: every tag, attribute and substitution of roslaunch, right ones and wrong.
 
-A case has the form of `meaning_desk.write_case`. Most of what is drawn is right: roslaunch stops at the first error,
+A case has the form of `meaning_harness.write_case`. Most of what is drawn is right: roslaunch stops at the first error,
 and what comes after it is not compared.
 """
 

@@ -1,4 +1,4 @@
-"""What is expensive and the same for all tests of a run: made by the first that asks, also of those side by side."""
+"""Builds what is expensive and the same for all tests of a run, once: whichever process asks first."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def begin_run() -> Path:
     return folder
 
 
-def made_once(name: str, make: Callable[[Path], object]) -> Path:
+def build_once(name: str, make: Callable[[Path], object]) -> Path:
     """The folder of that name, in which `make` was called by one of all processes."""
     folder = Path(os.environ.get(VARIABLE) or begin_run(), name)
     ready = folder.with_name(f"{name}.ready")

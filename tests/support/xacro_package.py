@@ -33,7 +33,7 @@ LAUNCH = """<launch>
 """
 
 
-def lay_robot(folder: Path) -> Path:
+def create_robot(folder: Path) -> Path:
     """Make `folder` a catkin workspace with packages `xacro` and `arm`, all of yesterday. Its launch file."""
     (spec,) = [importlib.util.find_spec("xacro")]
     assert spec is not None, "xacro is missing: pip install --group dev"

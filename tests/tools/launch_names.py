@@ -1,7 +1,7 @@
 """Lists the public names of `launch`, `launch_ros`, `launch_xml` and `launch_yaml` with what they take, from source.
 
-`python tests/launch_names.py --source launch=COMMIT --source launch_ros=COMMIT FOLDER...` prints the list of a version;
-the folders are its checkouts (`git -C launch archive COMMIT | tar x -C FOLDER`). Nothing of them is imported.
+`python tests/tools/launch_names.py --source launch=COMMIT --source launch_ros=COMMIT FOLDER...` prints the list of a
+version; the folders are its checkouts (`git -C launch archive COMMIT | tar x -C FOLDER`). Nothing of them is imported.
 `fixtures/ros2/launch_names/` has the lists of Humble, Jazzy and of Rolling as Kilted began; what came later, and was at
 hand in single files and pages only, is in its `newer.json` by hand, with where each was read.
 """

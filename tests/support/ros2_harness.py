@@ -17,7 +17,7 @@ from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 NODE = """
 import rclpy
 from rclpy.node import Node
@@ -49,7 +49,7 @@ def node_of(constructor: str, *imports: str) -> str:
     return "\n".join(imports) + NODE.format(constructor=textwrap.indent(textwrap.dedent(constructor).strip(), " " * 8))
 
 
-class Ros2Desk:
+class Ros2Harness:
     """A workspace with the package `pkg`, whose console scripts are its modules."""
 
     def __init__(self, folder: Path, **modules: str) -> None:

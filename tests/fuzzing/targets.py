@@ -24,9 +24,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import fuzz_seeds as seeds
-from fuzz_master import master
-from fuzz_server import messages, server
 from hypothesis import strategies as st
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable, _decode
@@ -87,6 +84,10 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_server.cli.output import dumps_json, visible
+from support.scripted_master import master
+
+from fuzzing import seeds
+from fuzzing.server import messages, server
 
 SECONDS = 3.0
 """Of processor time that an input may take; a hundred times what a seed takes, on a busy machine with coverage."""

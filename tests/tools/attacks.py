@@ -24,10 +24,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing
 from pathlib import Path
 
-from preflight_analysis.tracing import sandbox
-from tracing_desk import trace, write_node
+sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 
-ROOT = Path(__file__).parents[1]
+from preflight_analysis.tracing import sandbox
+from support.tracing_harness import trace, write_node
+
+ROOT = Path(__file__).parents[2]
 SECURITY = ROOT / "docs" / "security.md"
 COLUMNS = ("bubblewrap", "firejail", "landlock")
 IDENTITIES = ("root", "user")
@@ -315,7 +317,7 @@ def _readable_python(name: str) -> list[str]:
     site = next(path for path in sys.path if path.endswith("site-packages"))
     path = os.pathsep.join((str(ROOT / "analysis"), str(ROOT / "server"), str(ROOT / "tests"), site))
     for python in (sys.executable, _SYSTEM_PYTHON):
-        probe = [*_become(name), "env", f"PYTHONPATH={path}", python, "-c", "import attacks"]
+        probe = [*_become(name), "env", f"PYTHONPATH={path}", python, "-c", "import tools.attacks"]
         if subprocess.run(probe, capture_output=True, check=False, cwd="/").returncode == 0:
             return [f"PYTHONPATH={path}", python]
     raise LookupError("neither this Python nor the system's can be used by another user")

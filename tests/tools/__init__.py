@@ -1,0 +1,1 @@
+"""Commands for developers. Tests run some of them in short."""
