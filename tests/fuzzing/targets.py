@@ -60,9 +60,9 @@ from preflight_analysis.queries.hints import hints
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.queries.lenses import lenses
 from preflight_analysis.queries.links import links
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import references
 from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
-from preflight_analysis.queries.scene import Scene
 from preflight_analysis.queries.signature import signature
 from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.queries.tokens import tokens
@@ -360,7 +360,7 @@ def look(generation: int, texts: Mapping[str, str], root: str, answers: str | No
     index = build_index(workspace, str(there.folder), ())
     if index is None:
         return
-    scene = Scene(path, (analysis,), index, workspace)
+    scene = QueryContext(path, (analysis,), index, workspace)
     for target in definition(scene, offset, analysis.findings):
         check_spans(target, text) if target.__class__ is Span else None
     for reference in references(scene, offset):

@@ -12,8 +12,8 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.rename import RenameRefusedError, rename
-from preflight_analysis.queries.scene import Scene
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -38,7 +38,7 @@ def renames(workspace: Workspace, folder: Path, kind: str) -> Iterator[tuple[str
         analyses = tuple(workspace.static(root.path) for root in index.roots_of(path))
         for mention in (m for m in facts.mentions if m.kind == kind):
             try:
-                edits = rename(Scene(path, analyses, index, workspace), mention.span.start, NEW)
+                edits = rename(QueryContext(path, analyses, index, workspace), mention.span.start, NEW)
             except RenameRefusedError:
                 continue
             yield path, mention.name, mention.span, edits

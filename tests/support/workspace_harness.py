@@ -23,7 +23,7 @@ from pathlib import Path
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Edit
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.commands import CommandResults
@@ -45,7 +45,7 @@ class TestWorkspace:
     __test__ = False  # pytest: no class of tests
 
     folder: Path
-    scene: Scene
+    scene: QueryContext
     offset: int
 
     def shown(self, location: Location) -> str:
@@ -114,4 +114,4 @@ def create_workspace(
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]
             analysis = workspace.with_interfaces(analysis, given, None)
         analyses.append(analysis)
-    return TestWorkspace(folder, Scene(path, tuple(analyses), index, workspace), cursor[1])
+    return TestWorkspace(folder, QueryContext(path, tuple(analyses), index, workspace), cursor[1])

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.queries.scene import Scene
-from preflight_analysis.queries.subject import subject_at
+from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.queries.symbol_at import symbol_at
 from preflight_analysis.workspace.index import Inclusion
 
 
@@ -31,43 +31,43 @@ class Call:
     places: tuple[Location, ...]
 
 
-def items_at(scene: Scene, offset: int) -> tuple[Item, ...]:
+def items_at(context: QueryContext, offset: int) -> tuple[Item, ...]:
     """The files that the include at `offset` leads to; anywhere else the file itself."""
-    subject = subject_at(scene, offset)
-    here = scene.current.included_from(scene.path)
+    symbol = symbol_at(context, offset)
+    here = context.current.included_from(context.path)
     targets = [i.target for i in here if i.tag.span.contains(offset)]
-    if subject is not None and subject.kind == "file":
-        targets = list(subject.files)
-    return tuple(_item(scene, path) for path in dict.fromkeys(targets or [scene.path]))
+    if symbol is not None and symbol.kind == "file":
+        targets = list(symbol.files)
+    return tuple(_item(context, path) for path in dict.fromkeys(targets or [context.path]))
 
 
-def incoming(scene: Scene) -> tuple[Call, ...]:
+def incoming(context: QueryContext) -> tuple[Call, ...]:
     """Who includes the scene's file, in the order of their paths."""
-    return _calls(scene, ((i.includer, i) for i in scene.current.includers(scene.path)))
+    return _calls(context, ((i.includer, i) for i in context.current.includers(context.path)))
 
 
-def outgoing(scene: Scene) -> tuple[Call, ...]:
+def outgoing(context: QueryContext) -> tuple[Call, ...]:
     """What the scene's file includes, in the order of its text."""
-    return _calls(scene, ((i.target, i) for i in scene.current.included_from(scene.path)))
+    return _calls(context, ((i.target, i) for i in context.current.included_from(context.path)))
 
 
-def _calls(scene: Scene, ends: Iterable[tuple[str, Inclusion]]) -> tuple[Call, ...]:
+def _calls(context: QueryContext, ends: Iterable[tuple[str, Inclusion]]) -> tuple[Call, ...]:
     by_file: dict[str, list[Inclusion]] = {}
     for path, inclusion in ends:
         by_file.setdefault(path, []).append(inclusion)
     return tuple(
-        Call(_item(scene, path, found), tuple(sorted({i.place for i in found}, key=lambda place: place.span)))
+        Call(_item(context, path, found), tuple(sorted({i.place for i in found}, key=lambda place: place.span)))
         for path, found in by_file.items()
     )
 
 
-def _item(scene: Scene, path: str, inclusions: Iterable[Inclusion] = ()) -> Item:
-    launch_file = scene.launch_file(path)
+def _item(context: QueryContext, path: str, inclusions: Iterable[Inclusion] = ()) -> Item:
+    launch_file = context.launch_file(path)
     root = launch_file.root if launch_file else None
     given = dict.fromkeys(
         " ".join(f"{name}:={'?' if value is None else value}" for name, value in i.args.items()) for i in inclusions
     )
-    folder = os.path.dirname(scene.shown(path))
+    folder = os.path.dirname(context.shown(path))
     detail = ", ".join(part for part in (folder, *given) if part)
     nowhere = Span(0, 0)
     return Item(

@@ -14,9 +14,9 @@ from preflight_analysis.launch.model import Action
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.param_files import from_param_file, is_param_file
 from preflight_analysis.queries.places import action_at, remaps_of, use_at
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import component_at, connections, made_at
-from preflight_analysis.queries.scene import Scene
-from preflight_analysis.queries.subject import Subject, subject_at
+from preflight_analysis.queries.symbol_at import NamedSymbol, symbol_at
 from preflight_analysis.workspace.workspace import Analysis
 
 
@@ -28,15 +28,15 @@ class Target:
     source: Location
 
 
-def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[Target, ...]:
+def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) -> tuple[Target, ...]:
     """Where to go from `offset`: the file of an include, the manifest of a `$(find)`, the declaration of an argument
     (from the declaration: to the place that gave it its value), the script of a node or what builds it, the source
     that reads a parameter; from a remap to the other ends, in the nodes' sources where they are known, and from the
     name that it replaces to the node's own; from a finding to its related places."""
-    analysis, file = scene.analyses[0], scene.path
+    analysis, file = context.analyses[0], context.path
     if is_param_file(analysis, file):
-        return tuple(Target(place, scene.location(file, span)) for place, span in from_param_file(scene, offset))
-    if targets := _targets_of_param(scene, offset):
+        return tuple(Target(place, context.location(file, span)) for place, span in from_param_file(context, offset))
+    if targets := _targets_of_param(context, offset):
         return targets
     use = use_at(analysis.tree, file, offset)
     if use is not None and use.kind != "executable":
@@ -45,14 +45,14 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
             target = next((step for step in reversed(use.origin) if not _same_place(step, use.location)), None)
         if target is not None:
             return (Target(target, use.location),)
-    subject = subject_at(scene, offset)
-    if subject is not None and (targets := _of_subject(scene, subject)):
+    symbol = symbol_at(context, offset)
+    if symbol is not None and (targets := _of_symbol(context, symbol)):
         return targets
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
     if action is not None and action.kind in ("remap", "set_remap"):
         value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
-        if targets := _targets(_other_ends(scene, analysis, action), scene.location(file, value)):
+        if targets := _targets(_other_ends(context, analysis, action), context.location(file, value)):
             return targets
     for finding in findings:
         if finding.location.file == file and finding.location.span.contains(offset) and finding.related:
@@ -60,18 +60,18 @@ def definition(scene: Scene, offset: int, findings: Iterable[Finding]) -> tuple[
     return ()
 
 
-def _targets_of_param(scene: Scene, offset: int) -> tuple[Target, ...]:
+def _targets_of_param(context: QueryContext, offset: int) -> tuple[Target, ...]:
     """From the name of a ROS 2 node's parameter to where its source declares it."""
     found: dict[Target, None] = {}
-    for analysis in scene.analyses:
+    for analysis in context.analyses:
         graph = analysis.graph
         for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
             for param in node.params:
                 place = param.name_location
-                if place is None or place.file != scene.path or not place.span.contains(offset):
+                if place is None or place.file != context.path or not place.span.contains(offset):
                     continue
                 uses = (use for use in interface.params if use.name.removeprefix("~") == param.name)
-                found.update({Target(made, place): None for use in uses if (made := made_at(scene, use)) is not None})
+                found.update({Target(made, place): None for use in uses if (made := made_at(context, use)) is not None})
     return tuple(found)
 
 
@@ -83,87 +83,87 @@ def _targets(places: Iterable[Location], source: Location) -> tuple[Target, ...]
     return tuple(Target(place, source) for place in dict.fromkeys(places) if place != source)
 
 
-def _of_subject(scene: Scene, subject: Subject) -> tuple[Target, ...]:
-    source = scene.location(scene.path, subject.span)
-    match subject.kind:
+def _of_symbol(context: QueryContext, symbol: NamedSymbol) -> tuple[Target, ...]:
+    source = context.location(context.path, symbol.span)
+    match symbol.kind:
         case "arg":
-            declared = (shared_arguments.declared_at(scene, subject.files, name) for name in subject.names)
+            declared = (shared_arguments.declared_at(context, symbol.files, name) for name in symbol.names)
             return _targets((place for places in declared for place in places), source)
-        case "file" if all(path != scene.path for path in subject.files):
-            return _targets((Location.of_file(path) for path in subject.files), source)
+        case "file" if all(path != context.path for path in symbol.files):
+            return _targets((Location.of_file(path) for path in symbol.files), source)
         case "package":
-            packages = map(scene.workspace.environment.packages.get, subject.names)
+            packages = map(context.workspace.environment.packages.get, symbol.names)
             return _targets((Location.of_file(p.manifest) for p in packages if p is not None), source)
         case "executable":
-            return _targets(_executables(scene, subject), source)
+            return _targets(_executables(context, symbol), source)
         case "component":
-            return _targets((place for name in subject.names for place in component_at(scene, name)), source)
+            return _targets((place for name in symbol.names for place in component_at(context, name)), source)
         case "param":
-            return _targets(_readers(scene, subject), source)
+            return _targets(_readers(context, symbol), source)
         case "topic":
-            return _targets(_own_ends(scene, subject), source)
+            return _targets(_own_ends(context, symbol), source)
         case "machine":
-            machines = (tree.machines.get(name) for tree in scene.trees for name in subject.names)
+            machines = (tree.machines.get(name) for tree in context.trees for name in symbol.names)
             return _targets((m.origin[-1] for m in machines if m is not None), source)
         case _:
             return ()
 
 
-def _executables(scene: Scene, subject: Subject) -> Iterator[Location]:
+def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
     """A script; the function of a console script; for what is compiled its source, and its target in the package's
     `CMakeLists.txt`."""
-    for name in subject.names:
+    for name in symbol.names:
         package, _, executable = name.partition("/")
-        nodes = [n for t in scene.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
+        nodes = [n for t in context.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
         paths = sorted({n.resolved.path for n in nodes if n.resolved.path is not None})
-        made = scene.workspace.executables.made_of(package, executable)
+        made = context.workspace.executables.made_of(package, executable)
         if made is not None:  # what stands in a devel space only leads there
             paths = [made.source]
         entries = {n.resolved.path: n.resolved.entry_point for n in nodes if n.resolved.entry_point is not None}
         for path in paths:
             function = entries.get(path, "").partition(":")[2]
-            made_there = scene.workspace.entry_point(path, function) if function else None
+            made_there = context.workspace.entry_point(path, function) if function else None
             if made_there is not None:
-                yield scene.line(made_there.file, made_there.line)
-            elif scene.document(path) is not None:
+                yield context.line(made_there.file, made_there.line)
+            elif context.document(path) is not None:
                 yield Location.of_file(path)
-        if (target := _build_target(scene, package, executable)) is not None:
+        if (target := _build_target(context, package, executable)) is not None:
             yield target
 
 
-def _build_target(scene: Scene, package: str, executable: str) -> Location | None:
-    found = scene.workspace.environment.packages.get(package)
+def _build_target(context: QueryContext, package: str, executable: str) -> Location | None:
+    found = context.workspace.environment.packages.get(package)
     path = os.path.join(found.share, "CMakeLists.txt") if found else ""
-    document = scene.document(path) if found else None
+    document = context.document(path) if found else None
     for call in re.finditer(r"^\s*add_executable\s*\(\s*([^\s()]+)", document.text if document else "", re.MULTILINE):
         if call[1].replace("${PROJECT_NAME}", package) == executable:
-            return scene.location(path, Span(*call.span(1)))
+            return context.location(path, Span(*call.span(1)))
     return None
 
 
-def _readers(scene: Scene, subject: Subject) -> Iterator[Location]:
-    for analysis in scene.analyses:
+def _readers(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
+    for analysis in context.analyses:
         for read in analysis.graph.param_reads if analysis.graph else ():
-            if read.name in subject.names and (place := made_at(scene, read.use)) is not None:
+            if read.name in symbol.names and (place := made_at(context, read.use)) is not None:
                 yield place
 
 
-def _own_ends(scene: Scene, subject: Subject) -> Iterator[Location]:
+def _own_ends(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
     """From the name that a remap replaces, to where the nodes themselves give it."""
-    source = scene.location(scene.path, subject.span)
-    for analysis in scene.analyses:
-        for end, _ in connections(analysis.graph, subject.names) if analysis.graph else ():
+    source = context.location(context.path, symbol.span)
+    for analysis in context.analyses:
+        for end, _ in connections(analysis.graph, symbol.names) if analysis.graph else ():
             if end.remap is not None and end.remap.source_location == source:
-                place = made_at(scene, end.endpoint)
+                place = made_at(context, end.endpoint)
                 if place is not None:
                     yield place
 
 
-def _other_ends(scene: Scene, analysis: Analysis, action: Action) -> Iterator[Location]:
+def _other_ends(context: QueryContext, analysis: Analysis, action: Action) -> Iterator[Location]:
     """The nodes that meet the remapped ones under the new name, in their sources where that is known."""
-    mine = tuple(remaps_of(analysis.tree, scene.path, action))
+    mine = tuple(remaps_of(analysis.tree, context.path, action))
     own = {id(node) for node, _ in mine}
     met = frozenset(names.resolve(remap.target, node.name) for node, remap in mine)
     for end, _ in connections(analysis.graph, met) if analysis.graph else ():
         if id(end.node) not in own:
-            yield made_at(scene, end.endpoint) or end.node.location
+            yield made_at(context, end.endpoint) or end.node.location

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.launch.read import LAUNCH_FUNCTION
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.index import Root
 
 
@@ -22,15 +22,15 @@ class Lenses:
     root: Root
 
 
-def lenses(scene: Scene) -> Lenses | None:
+def lenses(context: QueryContext) -> Lenses | None:
     """What to show; None in a file without a `<launch>` tag."""
-    launch_file = scene.launch_file(scene.path)
+    launch_file = context.launch_file(context.path)
     if launch_file is None or launch_file.root is None:
         return None
-    analysis = scene.analyses[0]
-    places = dict.fromkeys(inclusion.place for inclusion in scene.current.includers(scene.path))
+    analysis = context.analyses[0]
+    places = dict.fromkeys(inclusion.place for inclusion in context.current.includers(context.path))
     nodes = analysis.tree.nodes
-    own = sum(any(step.file == scene.path for step in node.origin) for node in nodes)
+    own = sum(any(step.file == context.path for step in node.origin) for node in nodes)
     head = launch_file.root.head_span
     if launch_file.partial and (found := LAUNCH_FUNCTION.search(launch_file.document.text)) is not None:
         head = Span(*found.span(1))

@@ -14,8 +14,8 @@ from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.graph.annotations import annotated_names
 from preflight_analysis.launch.model import Action
 from preflight_analysis.queries.places import action_at
-from preflight_analysis.queries.scene import Scene
-from preflight_analysis.queries.subject import settings_of
+from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.queries.symbol_at import settings_of
 
 _WORD = re.compile(r"\S+")
 
@@ -29,34 +29,34 @@ class NodeMention:
     span: Span | None
 
 
-def tags_of(scene: Scene, tags: Iterable[Location]) -> Iterator[Location]:
+def tags_of(context: QueryContext, tags: Iterable[Location]) -> Iterator[Location]:
     """The names as written in these start tags of nodes."""
     for tag in tags:
-        facts = scene.facts(tag.file)
+        facts = context.facts(tag.file)
         for mention in facts.mentions if facts else ():
             if mention.kind == "node" and mention.action == tag.span:
-                yield scene.location(tag.file, mention.span)
+                yield context.location(tag.file, mention.span)
 
 
-def mentions_of(scene: Scene, trees: Iterable[LaunchTree], wanted: frozenset[str]) -> Iterator[NodeMention]:
+def mentions_of(context: QueryContext, trees: Iterable[LaunchTree], wanted: frozenset[str]) -> Iterator[NodeMention]:
     """Where names below those of the `wanted` nodes (full names) are written."""
     for tree in trees:
         for full, param in settings_of(tree):
             for node in _above(full, wanted):
-                if param.owner is None or names.is_global(scene.text(param.name_location or param.origin[-1])):
-                    yield _of_param(scene, param, full, node)
+                if param.owner is None or names.is_global(context.text(param.name_location or param.origin[-1])):
+                    yield _of_param(context, param, full, node)
         for place, full in remap_ends(tree):
             for node in _above(full, wanted):
-                yield NodeMention(place, _moved(_part(scene.text(place), full, node), place.span.start))
+                yield NodeMention(place, _moved(_part(context.text(place), full, node), place.span.start))
         for owner in tree.nodes:
-            yield from _in_annotation(scene, owner, wanted)
-            yield from _in_arguments(scene, owner, wanted)
+            yield from _in_annotation(context, owner, wanted)
+            yield from _in_arguments(context, owner, wanted)
             if owner.name in wanted:
-                yield from _in_parameter_files(scene, tree, owner, wanted)
+                yield from _in_parameter_files(context, tree, owner, wanted)
             if owner.container and owner.container_location is not None:
                 full, place = f"/{owner.container.lstrip('/')}", owner.container_location
                 if full in wanted:
-                    yield NodeMention(place, _moved(_part(scene.text(place), full, full), place.span.start))
+                    yield NodeMention(place, _moved(_part(context.text(place), full, full), place.span.start))
 
 
 def remap_ends(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
@@ -91,20 +91,22 @@ def _moved(span: Span | None, by: int) -> Span | None:
     return Span(span.start + by, span.end + by) if span is not None else None
 
 
-def _of_param(scene: Scene, param: Param, full: str, node: str) -> NodeMention:
+def _of_param(context: QueryContext, param: Param, full: str, node: str) -> NodeMention:
     place = param.name_location or param.origin[-1]
-    launch_file = scene.launch_file(place.file) if place.file == param.origin[-1].file else None
+    launch_file = context.launch_file(place.file) if place.file == param.origin[-1].file else None
     action = action_at(launch_file, place.span.start) if launch_file else None
     if action is not None and action.kind == "rosparam" and place.span.start < action.body.span.start:
         action, place = None, param.origin[-1]
     if action is not None and action.kind == "param":
-        return NodeMention(place, _moved(_part(scene.text(place), full, node), place.span.start))
-    return _of_key(scene, param, full, node, place, action)
+        return NodeMention(place, _moved(_part(context.text(place), full, node), place.span.start))
+    return _of_key(context, param, full, node, place, action)
 
 
-def _of_key(scene: Scene, param: Param, full: str, node: str, place: Location, body: Action | None) -> NodeMention:
+def _of_key(
+    context: QueryContext, param: Param, full: str, node: str, place: Location, body: Action | None
+) -> NodeMention:
     """The key of a YAML text that names the node, or the `ns` of the `<rosparam>` that loads it."""
-    document = scene.document(place.file)
+    document = context.document(place.file)
     text, start = (body.body.text, body.body.span.start) if body else (document.text if document else "", 0)
     try:
         keys = load_yaml(text).keys
@@ -116,15 +118,15 @@ def _of_key(scene: Scene, param: Param, full: str, node: str, place: Location, b
     for depth in range(1, len(path) + 1):
         above = f"{base}/{'/'.join(path[:depth])}"
         if above == node and (key := keys.get(path[:depth])) is not None:
-            written = scene.location(place.file, Span(start + key.start, start + key.end))
-            return NodeMention(written, _moved(_part(scene.text(written), above, node), written.span.start))
-    return _of_namespace(scene, param, base, node) or NodeMention(place, None)
+            written = context.location(place.file, Span(start + key.start, start + key.end))
+            return NodeMention(written, _moved(_part(context.text(written), above, node), written.span.start))
+    return _of_namespace(context, param, base, node) or NodeMention(place, None)
 
 
-def _of_namespace(scene: Scene, param: Param, base: str, node: str) -> NodeMention | None:
+def _of_namespace(context: QueryContext, param: Param, base: str, node: str) -> NodeMention | None:
     """The `ns` or `param` attribute of the `<rosparam>` that sets a parameter."""
     for tag in reversed(param.origin):
-        launch_file = scene.launch_file(tag.file) if tag.file in scene.current.files else None
+        launch_file = context.launch_file(tag.file) if tag.file in context.current.files else None
         action = action_at(launch_file, tag.span.start) if launch_file else None
         if action is None or action.kind != "rosparam":
             continue
@@ -134,26 +136,26 @@ def _of_namespace(scene: Scene, param: Param, base: str, node: str) -> NodeMenti
             return None
         below = f"/{leaf.text}" if ns is not None and leaf is not None else ""
         span = _part(value.text, base.removesuffix(below), node) if value.is_literal else None
-        return NodeMention(scene.location(tag.file, value.span), _moved(span, value.span.start))
+        return NodeMention(context.location(tag.file, value.span), _moved(span, value.span.start))
     return None
 
 
-def _in_annotation(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
+def _in_annotation(context: QueryContext, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
     for _, name, span in annotated_names(owner.action):
         if not names.is_private(name):
             full = names.resolve(name, owner.name)
             for node in _above(full, wanted):
                 found = _part(name, full, node)
-                yield NodeMention(scene.location(owner.location.file, span), _moved(found, span.start))
+                yield NodeMention(context.location(owner.location.file, span), _moved(found, span.start))
 
 
 def _in_parameter_files(
-    scene: Scene, tree: LaunchTree, owner: LaunchNode, wanted: frozenset[str]
+    context: QueryContext, tree: LaunchTree, owner: LaunchNode, wanted: frozenset[str]
 ) -> Iterator[NodeMention]:
     """The keys in ROS 2's parameter files that end in the node's name; not if they mean other nodes as well."""
     name = owner.name.rpartition("/")[2]
     for path in dict.fromkeys(source.path for source in owner.param_sources if source.path is not None):
-        document = scene.document(path)
+        document = context.document(path)
         for section in read_param_file(document.text).sections if document is not None else ():
             if not section.fits(owner.name) or section.pattern.rpartition("/")[2] != name:
                 continue
@@ -165,10 +167,10 @@ def _in_parameter_files(
             written = document.text[key.start : key.end] if document is not None else ""
             exact = written == name or written.endswith(f"/{name}")
             last = Span(key.end - len(name), key.end) if exact and not others else None
-            yield NodeMention(scene.location(path, key), last)
+            yield NodeMention(context.location(path, key), last)
 
 
-def _in_arguments(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
+def _in_arguments(context: QueryContext, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
     """The manager that a nodelet is loaded into."""
     value = owner.action.value("args")
     words = owner.args.split()
@@ -177,7 +179,7 @@ def _in_arguments(scene: Scene, owner: LaunchNode, wanted: frozenset[str]) -> It
     full = names.resolve(words[2], owner.name)
     if full not in wanted:
         return
-    place = scene.location(owner.location.file, value.span)
+    place = context.location(owner.location.file, value.span)
     written = list(_WORD.finditer(value.text))
     plain = value.is_literal and value.span.end - value.span.start == len(value.text) and len(written) > 2
     found = _part(words[2], full, full) if plain else None

@@ -14,8 +14,8 @@ from preflight_analysis.launch.read import is_yaml
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
 from preflight_analysis.queries.places import link, place
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import made_at
-from preflight_analysis.queries.scene import Scene
 from preflight_analysis.tracing.interface import NOT_RUN, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -105,19 +105,19 @@ def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -
     return text
 
 
-def from_param_file(scene: Scene, offset: int) -> Iterator[tuple[Location, Span]]:
+def from_param_file(context: QueryContext, offset: int) -> Iterator[tuple[Location, Span]]:
     """Where a key leads: from a parameter to where the nodes' sources declare it, from a node's name to its tag."""
-    found = _at(scene.analyses[0], scene.path, offset)
+    found = _at(context.analyses[0], context.path, offset)
     if found is None:
         return
     section, param, span = found
     seen: set[Location] = set()
-    for analysis in scene.analyses:
-        for reader in readers(analysis, scene.path):
+    for analysis in context.analyses:
+        for reader in readers(analysis, context.path):
             if not section.fits(reader.node.name):
                 continue
             use = reader.declared(param.name) if param is not None else None
-            target = reader.node.location if param is None else made_at(scene, use) if use is not None else None
+            target = reader.node.location if param is None else made_at(context, use) if use is not None else None
             if target is not None and target not in seen:
                 seen.add(target)
                 yield target, span

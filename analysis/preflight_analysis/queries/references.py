@@ -11,8 +11,8 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.node_names import mentions_of, tags_of
-from preflight_analysis.queries.scene import Scene
-from preflight_analysis.queries.subject import Kind, Subject, annotated, own_parameter, settings_of, subject_at
+from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.queries.symbol_at import Kind, NamedSymbol, annotated, own_parameter, settings_of, symbol_at
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
 from preflight_analysis.workspace import facts
 
@@ -25,127 +25,127 @@ class Reference:
     declares: bool
 
 
-def references(scene: Scene, offset: int) -> tuple[Reference, ...]:
+def references(context: QueryContext, offset: int) -> tuple[Reference, ...]:
     """All places in the workspace, and in the sources of its nodes as far as they are known, that name what is at
     `offset`: those of the file itself first, then by path."""
-    subject = subject_at(scene, offset)
-    if subject is None:
+    symbol = symbol_at(context, offset)
+    if symbol is None:
         return ()
     found: dict[Location, bool] = {}
-    for reference in _FINDERS[subject.kind](scene, subject):
+    for reference in _FINDERS[symbol.kind](context, symbol):
         found[reference.location] = found.get(reference.location, False) or reference.declares
-    places = sorted(found, key=lambda place: (place.file != scene.path, place.file, place.span))
+    places = sorted(found, key=lambda place: (place.file != context.path, place.file, place.span))
     return tuple(Reference(place, found[place]) for place in places)
 
 
-def _arguments(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for name in subject.names:
-        files = shared_arguments.sharing(scene.current, subject.files, name)
-        yield from _all(shared_arguments.declared_at(scene, files, name), declare=True)
-        yield from _all(shared_arguments.used_at(scene, files, name))
-        yield from _all(shared_arguments.given_at(scene, files, name))
+def _arguments(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for name in symbol.names:
+        files = shared_arguments.sharing(context.current, symbol.files, name)
+        yield from _all(shared_arguments.declared_at(context, files, name), declare=True)
+        yield from _all(shared_arguments.used_at(context, files, name))
+        yield from _all(shared_arguments.given_at(context, files, name))
 
 
-def _files(scene: Scene, subject: Subject) -> Iterator[Reference]:
+def _files(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     """Who includes the file."""
-    for path in subject.files:
-        launch_file = scene.launch_file(path)
+    for path in symbol.files:
+        launch_file = context.launch_file(path)
         head = launch_file.root.head_span if launch_file and launch_file.root else Span(0, 0)
-        yield Reference(scene.location(path, head), True)
-        yield from _all(inclusion.place for inclusion in scene.current.includers(path))
+        yield Reference(context.location(path, head), True)
+        yield from _all(inclusion.place for inclusion in context.current.includers(path))
 
 
-def _packages(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    packages = scene.workspace.environment.packages
-    for name in subject.names:
+def _packages(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    packages = context.workspace.environment.packages
+    for name in symbol.names:
         if (package := packages.get(name)) is not None:
             yield Reference(Location.of_file(package.manifest), True)
-        yield from _mentioned(scene, "package", name)
+        yield from _mentioned(context, "package", name)
 
 
-def _executables(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for name in subject.names:
-        for tree in scene.trees:
+def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for name in symbol.names:
+        for tree in context.trees:
             paths = (n.resolved.path for n in tree.nodes if f"{n.package}/{n.executable}" == name)
-            yield from _all((Location.of_file(p) for p in paths if p is not None and scene.document(p)), declare=True)
-        yield from _mentioned(scene, "executable", name)
+            yield from _all((Location.of_file(p) for p in paths if p is not None and context.document(p)), declare=True)
+        yield from _mentioned(context, "executable", name)
 
 
-def _components(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for name in subject.names:
-        yield from _all(component_at(scene, name), declare=True)
-        yield from _mentioned(scene, "component", name)
+def _components(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for name in symbol.names:
+        yield from _all(component_at(context, name), declare=True)
+        yield from _mentioned(context, "component", name)
 
 
-def component_at(scene: Scene, name: str) -> Iterator[Location]:
+def component_at(context: QueryContext, name: str) -> Iterator[Location]:
     """Where the class of a component, `package/class`, is defined."""
     package, _, cls = name.partition("/")
-    found = scene.workspace.component(package, cls)
+    found = context.workspace.component(package, cls)
     if found is not None:
-        yield scene.line(found.file, found.line)
+        yield context.line(found.file, found.line)
 
 
-def _nodes(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    tags = [n.location for _, n in scene.current.nodes() if n.name in subject.names]
-    yield from _all(tags_of(scene, dict.fromkeys((*tags, *_own_tags(scene, subject)))), declare=True)
-    for mention in mentions_of(scene, scene.trees, subject.names):
+def _nodes(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    tags = [n.location for _, n in context.current.nodes() if n.name in symbol.names]
+    yield from _all(tags_of(context, dict.fromkeys((*tags, *_own_tags(context, symbol)))), declare=True)
+    for mention in mentions_of(context, context.trees, symbol.names):
         if mention.span is not None:
-            yield Reference(scene.location(mention.value.file, mention.span), False)
+            yield Reference(context.location(mention.value.file, mention.span), False)
 
 
-def _own_tags(scene: Scene, subject: Subject) -> Iterator[Location]:
-    for tree in scene.trees:
-        yield from (node.location for node in tree.nodes if node.name in subject.names)
+def _own_tags(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
+    for tree in context.trees:
+        yield from (node.location for node in tree.nodes if node.name in symbol.names)
 
 
-def _parameters(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for analysis in scene.analyses:
+def _parameters(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for analysis in context.analyses:
         for name, param in settings_of(analysis.tree):
-            if name in subject.names:
+            if name in symbol.names:
                 yield Reference(param.name_location or param.origin[-1], True)
         for read in analysis.graph.param_reads if analysis.graph else ():
             name = own_parameter(read.node, read.use.name) if analysis.tree.generation == 2 else read.name
-            if name in subject.names and (place := made_at(scene, read.use)) is not None:
+            if name in symbol.names and (place := made_at(context, read.use)) is not None:
                 yield Reference(place, False)
-        yield from _annotations(scene, subject, analysis.tree.nodes, parameters=True)
+        yield from _annotations(context, symbol, analysis.tree.nodes, parameters=True)
 
 
-def _topics(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for analysis in scene.analyses:
+def _topics(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for analysis in context.analyses:
         for node in analysis.tree.nodes:
             for remap in node.remaps:
-                if names.resolve(remap.target, node.name) in subject.names:
+                if names.resolve(remap.target, node.name) in symbol.names:
                     yield from _all((remap.source_location, remap.target_location))
-                elif names.resolve(remap.source, node.name) in subject.names:
+                elif names.resolve(remap.source, node.name) in symbol.names:
                     yield Reference(remap.source_location, False)
-        yield from _annotations(scene, subject, analysis.tree.nodes, parameters=False)
-        for connection, declares in connections(analysis.graph, subject.names) if analysis.graph else ():
-            if (place := made_at(scene, connection.endpoint)) is not None:
+        yield from _annotations(context, symbol, analysis.tree.nodes, parameters=False)
+        for connection, declares in connections(analysis.graph, symbol.names) if analysis.graph else ():
+            if (place := made_at(context, connection.endpoint)) is not None:
                 yield Reference(place, declares)
 
 
 def _annotations(
-    scene: Scene, subject: Subject, nodes: Iterable[LaunchNode], *, parameters: bool
+    context: QueryContext, symbol: NamedSymbol, nodes: Iterable[LaunchNode], *, parameters: bool
 ) -> Iterator[Reference]:
     for node in nodes:
         for kind, span, full in annotated(node):
-            if full in subject.names and (kind == "param") == parameters:
-                yield Reference(scene.location(node.location.file, span), False)
+            if full in symbol.names and (kind == "param") == parameters:
+                yield Reference(context.location(node.location.file, span), False)
 
 
-def _variables(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for name in subject.names:
-        yield from _mentioned(scene, "env", name)
+def _variables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for name in symbol.names:
+        yield from _mentioned(context, "env", name)
 
 
-def _machines(scene: Scene, subject: Subject) -> Iterator[Reference]:
-    for name in subject.names:
-        declared = {tree.machines[name].origin[-1] for tree in scene.trees if name in tree.machines}
-        for path, mention in scene.current.mentions("machine", name):
-            yield Reference(scene.location(path, mention.span), scene.location(path, mention.action) in declared)
+def _machines(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
+    for name in symbol.names:
+        declared = {tree.machines[name].origin[-1] for tree in context.trees if name in tree.machines}
+        for path, mention in context.current.mentions("machine", name):
+            yield Reference(context.location(path, mention.span), context.location(path, mention.action) in declared)
 
 
-_FINDERS: Mapping[Kind, Callable[[Scene, Subject], Iterator[Reference]]] = {
+_FINDERS: Mapping[Kind, Callable[[QueryContext, NamedSymbol], Iterator[Reference]]] = {
     "arg": _arguments,
     "file": _files,
     "package": _packages,
@@ -168,16 +168,16 @@ def connections(graph: Graph, wanted: frozenset[str]) -> Iterator[tuple[Connecti
                 yield from ((end, False) for end in channel.wants)
 
 
-def made_at(scene: Scene, what: Endpoint | ParamUse) -> Location | None:
+def made_at(context: QueryContext, what: Endpoint | ParamUse) -> Location | None:
     """The line of the node's source that makes an endpoint or reads a parameter; None where it is not known."""
     if what.source_file is None or what.source_line is None or what.builtin:
         return None
-    return scene.line(what.source_file, what.source_line)
+    return context.line(what.source_file, what.source_line)
 
 
-def _mentioned(scene: Scene, kind: facts.Kind, name: str) -> Iterator[Reference]:
-    for path, mention in scene.current.mentions(kind, name):
-        yield Reference(scene.location(path, mention.span), False)
+def _mentioned(context: QueryContext, kind: facts.Kind, name: str) -> Iterator[Reference]:
+    for path, mention in context.current.mentions(kind, name):
+        yield Reference(context.location(path, mention.span), False)
 
 
 def _all(places: Iterable[Location], *, declare: bool = False) -> Iterator[Reference]:

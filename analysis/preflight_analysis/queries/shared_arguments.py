@@ -8,7 +8,7 @@ from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.launch.references import arg_references
 from preflight_analysis.launch.substitutions import parse_value
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.facts import may_be_true
 from preflight_analysis.workspace.index import Inclusion, WorkspaceIndex
 
@@ -61,49 +61,49 @@ def _has(index: WorkspaceIndex, path: str, name: str, seen: set[str]) -> bool:
     )
 
 
-def declared_at(scene: Scene, files: Iterable[str], name: str) -> Iterator[Location]:
+def declared_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator[Location]:
     """The names of its `<arg>` tags."""
     for path in files:
-        if (facts := scene.facts(path)) is not None:
-            yield from (scene.location(path, m.span) for m in facts.named("arg-declaration", name))
+        if (facts := context.facts(path)) is not None:
+            yield from (context.location(path, m.span) for m in facts.named("arg-declaration", name))
 
 
-def used_at(scene: Scene, files: Iterable[str], name: str) -> Iterator[Location]:
+def used_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator[Location]:
     """Each use in `$(arg)` and `$(eval)`, in the YAML of `<rosparam subst_value="true">` too."""
     for path in files:
-        if (facts := scene.facts(path)) is not None:
-            yield from (scene.location(path, m.span) for m in facts.named("arg-use", name))
-            for yaml in _substituted_files(scene, path):
-                yield from (scene.location(yaml, span) for used, span in _uses_in(scene, yaml) if used == name)
+        if (facts := context.facts(path)) is not None:
+            yield from (context.location(path, m.span) for m in facts.named("arg-use", name))
+            for yaml in _substituted_files(context, path):
+                yield from (context.location(yaml, span) for used, span in _uses_in(context, yaml) if used == name)
 
 
-def given_at(scene: Scene, files: Iterable[str], name: str) -> Iterator[Location]:
+def given_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator[Location]:
     """The `<arg>` tags that give it, in the files that include these."""
     seen: set[Location] = set()
     for path in files:
-        for inclusion in scene.current.includers(path):
-            facts = scene.facts(inclusion.includer)
+        for inclusion in context.current.includers(path):
+            facts = context.facts(inclusion.includer)
             if facts is not None and inclusion.tag not in seen:
                 seen.add(inclusion.tag)
                 given = (m for m in facts.named("arg-passed", name) if m.action == inclusion.tag.span)
-                yield from (scene.location(inclusion.includer, m.span) for m in given)
+                yield from (context.location(inclusion.includer, m.span) for m in given)
 
 
-def _substituted_files(scene: Scene, path: str) -> Iterator[str]:
+def _substituted_files(context: QueryContext, path: str) -> Iterator[str]:
     """The YAML files whose substitutions are resolved with the arguments of a launch file."""
-    launch_file = scene.launch_file(path)
+    launch_file = context.launch_file(path)
     loads: set[Span] = set()
     for action in launch_file.root.walk() if launch_file and launch_file.root else ():
         file, substituted = action.value("file"), action.value("subst_value")
         if action.kind == "rosparam" and file is not None and substituted is not None and may_be_true(substituted):
             loads.add(file.span)
-    uses = (u for tree in scene.trees for u in tree.uses if loads and u.kind == "file" and u.target is not None)
+    uses = (u for tree in context.trees for u in tree.uses if loads and u.kind == "file" and u.target is not None)
     found = (u.target.file for u in uses if u.target and u.location.file == path and u.location.span in loads)
     yield from dict.fromkeys(found)
 
 
-def _uses_in(scene: Scene, path: str) -> Iterator[tuple[str, Span]]:
-    document = scene.document(path)
+def _uses_in(context: QueryContext, path: str) -> Iterator[tuple[str, Span]]:
+    document = context.document(path)
     if document is not None:
         value = parse_value(SpannedText(document.text, Span(0, len(document.text))))
         if value.problem is None:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.documents.span import Location
 from preflight_analysis.queries.calls import Call, Item, incoming, items_at, outgoing
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 
 from preflight_server.lsp.convert import Converter
-from preflight_server.lsp.scenes import converter_for, scene_of, scene_of_workspace
+from preflight_server.lsp.query_contexts import converter_for, query_context, workspace_query_context
 from preflight_server.lsp.text_store import to_path
 
 if TYPE_CHECKING:
@@ -31,17 +31,17 @@ def _item(converter: Converter, item: Item) -> types.CallHierarchyItem:
 
 
 async def _calls(
-    ls: PreflightServer, uri: str, query: Callable[[Scene], Sequence[Call]]
+    ls: PreflightServer, uri: str, query: Callable[[QueryContext], Sequence[Call]]
 ) -> list[tuple[types.CallHierarchyItem, list[types.Range]]] | None:
     path, session = to_path(uri), ls.session_of(uri)
     if session is None or path is None:
         return None
-    scene = await scene_of_workspace(session, path)
+    context = await workspace_query_context(session, path)
 
     def work() -> list[tuple[types.CallHierarchyItem, list[types.Range]]]:
-        found = query(scene)
+        found = query(context)
         heads = (Location.of_file(call.item.path) for call in found)
-        converter = converter_for(ls, scene, (*heads, *(place for call in found for place in call.places)))
+        converter = converter_for(ls, context, (*heads, *(place for call in found for place in call.places)))
         return [(_item(converter, call.item), [converter.range(place) for place in call.places]) for call in found]
 
     return await session.in_pool(work)
@@ -57,11 +57,11 @@ def register(server: PreflightServer) -> None:
         view = await ls.view_of(params.text_document.uri)
         if view is None:
             return None
-        offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(view)
+        offset, context = view.converter.positions(view.path).offset(params.position), await query_context(view)
 
         def work() -> list[types.CallHierarchyItem]:
-            found = items_at(scene, offset)
-            converter = converter_for(ls, scene, (Location.of_file(item.path) for item in found))
+            found = items_at(context, offset)
+            converter = converter_for(ls, context, (Location.of_file(item.path) for item in found))
             return [_item(converter, item) for item in found]
 
         return await view.session.in_pool(work)

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
 from preflight_analysis.queries.lenses import Lenses, lenses
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 
 from preflight_server.lsp.markup import counted
+from preflight_server.lsp.query_contexts import converter_for, query_context
 from preflight_server.lsp.refresher import Refresher
-from preflight_server.lsp.scenes import converter_for, scene_of
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -24,13 +24,13 @@ SHOW_REFERENCES = "rosPreflight.showReferences"
 SELECT_ROOT = "rosPreflight.selectRoot"
 
 
-def _titles(found: Lenses, scene: Scene) -> tuple[str, str, str]:
+def _titles(found: Lenses, context: QueryContext) -> tuple[str, str, str]:
     nodes = counted(found.nodes, "node")
     if found.own != found.nodes:
         nodes = f"{found.own} of {nodes}"
     given = " ".join(f"{name}:={value}" for name, value in found.root.args)
-    path = "this file" if found.root.path == scene.path else scene.shown(found.root.path)
-    if found.root.path != scene.path and os.path.dirname(path) == os.path.dirname(scene.shown(scene.path)):
+    path = "this file" if found.root.path == context.path else context.shown(found.root.path)
+    if found.root.path != context.path and os.path.dirname(path) == os.path.dirname(context.shown(context.path)):
         path = os.path.basename(path)
     return counted(len(found.includers), "includer"), nodes, f"launched by {' '.join(filter(None, (path, given)))}"
 
@@ -45,16 +45,16 @@ def register(server: PreflightServer) -> None:
         view = await server.view_of(uri, python=True)
         if view is None:
             return None
-        scene = await scene_of(view)
+        context = await query_context(view)
 
         def work() -> list[types.CodeLens] | None:
-            found = lenses(scene)
+            found = lenses(context)
             if found is None:
                 return None
-            converter = converter_for(server, scene, found.includers)
+            converter = converter_for(server, context, found.includers)
             range_ = view.converter.positions(view.path).range(found.head)
             places = [converter.location(place) for place in found.includers]
-            includers, nodes, root = _titles(found, scene)
+            includers, nodes, root = _titles(found, context)
             return [
                 types.CodeLens(range_, command(includers, SHOW_REFERENCES, uri, range_.start, places)),
                 types.CodeLens(range_, command(nodes, "")),

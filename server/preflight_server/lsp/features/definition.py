@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.queries.definition import definition as query
 
-from preflight_server.lsp.scenes import converter_for, scene_of
+from preflight_server.lsp.query_contexts import converter_for, query_context
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -24,13 +24,13 @@ def register(server: PreflightServer) -> None:
         if view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)
-        scene = await scene_of(view)
+        context = await query_context(view)
         document = ls.client_capabilities.text_document
         links = document is not None and document.definition is not None and document.definition.link_support
 
         def work() -> list[types.LocationLink] | list[types.Location]:
-            found = query(scene, offset, view.findings)
-            converter = converter_for(ls, scene, [place for t in found for place in (t.location, t.source)])
+            found = query(context, offset, view.findings)
+            converter = converter_for(ls, context, [place for t in found for place in (t.location, t.source)])
             if links:
                 return [converter.link(t.location, t.source) for t in found]
             return [converter.location(t.location) for t in found]

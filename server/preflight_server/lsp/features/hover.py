@@ -8,7 +8,7 @@ from lsprotocol import types
 from preflight_analysis.queries.hover import hover as query
 
 from preflight_server.lsp.markup import markup
-from preflight_server.lsp.scenes import scene_of
+from preflight_server.lsp.query_contexts import query_context
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -29,7 +29,7 @@ def register(server: PreflightServer) -> None:
             return None
         positions = view.converter.positions(view.path)
         offset = positions.offset(params.position)
-        scene = await scene_of(view)
+        context = await query_context(view)
         unseen = max(0, len(view.session.roots_of(view.path)) - len(view.analyses))
-        found = await view.session.in_pool(lambda: query(scene.analyses, view.path, offset, unseen))
+        found = await view.session.in_pool(lambda: query(context.analyses, view.path, offset, unseen))
         return types.Hover(_content(ls, found.markdown), positions.range(found.span)) if found else None

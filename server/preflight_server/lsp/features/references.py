@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.queries.references import references as query
 
-from preflight_server.lsp.scenes import converter_for, scene_of
+from preflight_server.lsp.query_contexts import converter_for, query_context
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -22,11 +22,11 @@ def register(server: PreflightServer) -> None:
         if view is None:
             return None
         offset = view.converter.positions(view.path).offset(params.position)
-        scene = await scene_of(view)
+        context = await query_context(view)
 
         def work() -> list[types.Location]:
-            found = [r.location for r in query(scene, offset) if params.context.include_declaration or not r.declares]
-            converter = converter_for(ls, scene, found)
+            found = [r.location for r in query(context, offset) if params.context.include_declaration or not r.declares]
+            converter = converter_for(ls, context, found)
             return [converter.location(place) for place in found]
 
         return await view.session.in_pool(work)

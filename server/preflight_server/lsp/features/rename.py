@@ -6,11 +6,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
-from preflight_analysis.queries.scene import Scene
 
 from preflight_server.lsp.protocol import RefusedError
-from preflight_server.lsp.scenes import converter_for, scene_of
+from preflight_server.lsp.query_contexts import converter_for, query_context
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -37,8 +37,8 @@ def register(server: PreflightServer) -> None:
         if view is None:
             return None
         positions = view.converter.positions(view.path)
-        offset, scene = positions.offset(params.position), await scene_of(view)
-        found = await view.session.in_pool(lambda: _answered(lambda: prepare(scene, offset)))
+        offset, context = positions.offset(params.position), await query_context(view)
+        found = await view.session.in_pool(lambda: _answered(lambda: prepare(context, offset)))
         return types.PrepareRenamePlaceholder(positions.range(found.span), found.name) if found else None
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
@@ -46,20 +46,20 @@ def register(server: PreflightServer) -> None:
         view = await ls.view_of(params.text_document.uri, python=True)
         if view is None:
             return None
-        offset, scene = view.converter.positions(view.path).offset(params.position), await scene_of(view)
+        offset, context = view.converter.positions(view.path).offset(params.position), await query_context(view)
 
         def work() -> types.WorkspaceEdit:
-            edits = rename(scene, offset, params.new_name)
-            if any(_typed_on(ls, scene, path) for path in {edit.location.file for edit in edits}):
+            edits = rename(context, offset, params.new_name)
+            if any(_typed_on(ls, context, path) for path in {edit.location.file for edit in edits}):
                 raise RefusedError("The text changed meanwhile", types.LSPErrorCodes.ContentModified)
-            converter = converter_for(ls, scene, (edit.location for edit in edits))
+            converter = converter_for(ls, context, (edit.location for edit in edits))
             return converter.workspace_edit(edits, versioned=_versioned(ls.client_capabilities))
 
         return await view.session.in_pool(lambda: _answered(work))
 
 
-def _typed_on(ls: PreflightServer, scene: Scene, path: str) -> bool:
-    opened, known = ls.texts.by_path(path), scene.document(path)
+def _typed_on(ls: PreflightServer, context: QueryContext, path: str) -> bool:
+    opened, known = ls.texts.by_path(path), context.document(path)
     return opened is not None and (known is None or known.text != opened.text)
 
 

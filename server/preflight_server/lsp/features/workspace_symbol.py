@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.queries.workspace_symbols import workspace_symbols as query
 
-from preflight_server.lsp.scenes import converter_for, scene_of_workspace
+from preflight_server.lsp.query_contexts import converter_for, workspace_query_context
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -35,11 +35,11 @@ def register(server: PreflightServer) -> None:
         return first
 
     async def of_folder(ls: PreflightServer, session: Session, query_: str) -> list[types.SymbolInformation]:
-        scene = await scene_of_workspace(session)
+        context = await workspace_query_context(session)
 
         def work() -> list[types.SymbolInformation]:
-            found = query(scene.current, scene.analyses, session.folder, query_)
-            converter = converter_for(ls, scene, (symbol.location for symbol in found))
+            found = query(context.current, context.analyses, session.folder, query_)
+            converter = converter_for(ls, context, (symbol.location for symbol in found))
             return [
                 types.SymbolInformation(
                     converter.location(symbol.location),

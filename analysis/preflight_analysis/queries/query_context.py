@@ -1,4 +1,4 @@
-"""What the questions are asked of that look across files."""
+"""What a query that looks across files has to go by: a launch file with the analyses of the roots that reach it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 
 @dataclass(frozen=True)
-class Scene:
+class QueryContext:
     """A launch file with all that is known around it. `analyses` are of roots that reach it, the one that it is shown
     in first; `index` may be older than they are. Make a new one for each question."""
 

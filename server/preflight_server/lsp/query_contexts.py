@@ -1,4 +1,4 @@
-"""The scene that queries across files are asked of, and the conversion of the places that they answer with."""
+"""The context of queries that look across files, and the conversion of the places that they answer with."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.session import Session, View
@@ -15,22 +15,23 @@ if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
 
-async def scene_of(view: View) -> Scene:
-    """The scene of an open launch file. What was not analysed since the last edit is left out: its places are gone."""
+async def query_context(view: View) -> QueryContext:
+    """The context of an open launch file. What was not analysed since the last edit is left out: its places are
+    gone."""
     session, workspace = view.session, await view.session.workspace()
     others = await session.in_pool(lambda: [a for a in view.analyses[1:] if workspace.is_current(a.tree)])
-    return Scene(view.path, (view.analysis, *others), view.index, workspace)
+    return QueryContext(view.path, (view.analysis, *others), view.index, workspace)
 
 
-async def scene_of_workspace(session: Session, path: str = "") -> Scene:
-    """The scene of any launch file of a folder, open or not, or of none: with the analyses of all that is open."""
+async def workspace_query_context(session: Session, path: str = "") -> QueryContext:
+    """The context of any launch file of a folder, open or not, or of none: with the analyses of all that is open."""
     await session.settled()
     workspace, analyses = await session.workspace(), session.roots()
     current = await session.in_pool(lambda: tuple(a for a in analyses if workspace.is_current(a.tree)))
-    return Scene(path, current, session.indexing.index, workspace)
+    return QueryContext(path, current, session.indexing.index, workspace)
 
 
-def converter_for(ls: PreflightServer, scene: Scene, places: Iterable[Location]) -> Converter:
+def converter_for(ls: PreflightServer, context: QueryContext, places: Iterable[Location]) -> Converter:
     """Conversion by the very texts that the places were found in. Reads files: use it off the event loop."""
-    documents = {path: scene.document(path) for path in {place.file for place in places}}
+    documents = {path: context.document(path) for path in {place.file for place in places}}
     return Converter(ls.texts, {path: document for path, document in documents.items() if document is not None})

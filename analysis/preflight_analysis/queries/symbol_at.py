@@ -11,15 +11,15 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, Remap
 from preflight_analysis.graph.annotations import annotated_names
 from preflight_analysis.queries.places import action_at
-from preflight_analysis.queries.scene import Scene
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.facts import Mention
 
 Kind = Literal["arg", "file", "package", "executable", "component", "node", "param", "topic", "env", "machine"]
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
-    """What is spoken of at `span` of the scene's file.
+class NamedSymbol:
+    """What is spoken of at `span` of the context's file.
 
     `names` are full names for `node`, `param` and `topic` (which stands for services and actions too): several where
     the file is included more than once. `files` are those whose argument it is, or the files themselves.
@@ -31,42 +31,44 @@ class Subject:
     files: tuple[str, ...] = ()
 
 
-def subject_at(scene: Scene, offset: int) -> Subject | None:
+def symbol_at(context: QueryContext, offset: int) -> NamedSymbol | None:
     """What is named at `offset`; None where nothing is. Goes by syntax first, so that it works under a condition that
     is false and in a file that no launcher would take. What a run of a Python launch file told, and a parameter file,
     go by what came of them."""
-    facts = scene.facts(scene.path)
+    facts = context.facts(context.path)
     here = [m for m in facts.mentions if m.span.contains(offset)] if facts is not None else []
     if here:
-        return _of_mention(scene, min(here, key=lambda m: m.span.end - m.span.start))
-    made = _of_key(scene, offset) or _of_remap(scene, offset)
-    return made or _of_annotation(scene, offset) or _of_launch_tag(scene, offset)
+        return _of_mention(context, min(here, key=lambda m: m.span.end - m.span.start))
+    made = _of_key(context, offset) or _of_remap(context, offset)
+    return made or _of_annotation(context, offset) or _of_launch_tag(context, offset)
 
 
-def _of_mention(scene: Scene, mention: Mention) -> Subject:
-    place, tag = scene.location(scene.path, mention.span), scene.location(scene.path, mention.action)
+def _of_mention(context: QueryContext, mention: Mention) -> NamedSymbol:
+    place, tag = context.location(context.path, mention.span), context.location(context.path, mention.action)
     literally = frozenset({mention.name})
     match mention.kind:
         case "arg-declaration" | "arg-use":
-            return Subject("arg", literally, mention.span, (scene.path,))
+            return NamedSymbol("arg", literally, mention.span, (context.path,))
         case "arg-passed":
-            return Subject("arg", literally, mention.span, scene.targets(tag))
+            return NamedSymbol("arg", literally, mention.span, context.targets(tag))
         case "include":
-            return Subject("file", literally, mention.span, scene.targets(tag))
+            return NamedSymbol("file", literally, mention.span, context.targets(tag))
         case "node":
-            return Subject(
-                "node", frozenset(n.name for t in scene.trees for n in t.nodes if n.location == tag), place.span
+            return NamedSymbol(
+                "node", frozenset(n.name for t in context.trees for n in t.nodes if n.location == tag), place.span
             )
         case "param":
-            full = frozenset(n for t in scene.trees for n, p in settings_of(t) if p.name_location == place)
-            return Subject("param", full or _global(mention.name), place.span)
+            full = frozenset(n for t in context.trees for n, p in settings_of(t) if p.name_location == place)
+            return NamedSymbol("param", full or _global(mention.name), place.span)
         case "remap-from" | "remap-to":
             full = frozenset(
-                names.resolve(remap.target, node.name) for tree in scene.trees for node, remap in remaps_at(tree, place)
+                names.resolve(remap.target, node.name)
+                for tree in context.trees
+                for node, remap in remaps_at(tree, place)
             )
-            return Subject("topic", full or _global(mention.name), place.span)
+            return NamedSymbol("topic", full or _global(mention.name), place.span)
         case kind:
-            return Subject(kind, literally, mention.span)
+            return NamedSymbol(kind, literally, mention.span)
 
 
 def _global(name: str) -> frozenset[str]:
@@ -74,50 +76,50 @@ def _global(name: str) -> frozenset[str]:
     return frozenset({names.canonicalize(name)}) if names.is_global(name) and "$" not in name else frozenset()
 
 
-def _of_key(scene: Scene, offset: int) -> Subject | None:
+def _of_key(context: QueryContext, offset: int) -> NamedSymbol | None:
     """A key in YAML, or in the dictionary of a Python launch file."""
     found: dict[Span, set[str]] = {}
-    for tree in scene.trees:
+    for tree in context.trees:
         for name, param in settings_of(tree):
             place = param.name_location
-            if place is not None and place.file == scene.path and place.span.contains(offset):
+            if place is not None and place.file == context.path and place.span.contains(offset):
                 found.setdefault(place.span, set()).add(name)
     span = min(found, key=lambda each: each.end - each.start, default=None)
-    return Subject("param", frozenset(found[span]), span) if span is not None else None
+    return NamedSymbol("param", frozenset(found[span]), span) if span is not None else None
 
 
-def _of_remap(scene: Scene, offset: int) -> Subject | None:
+def _of_remap(context: QueryContext, offset: int) -> NamedSymbol | None:
     """One of the names of a remap in a Python launch file."""
-    for tree in scene.trees:
+    for tree in context.trees:
         for node in tree.nodes:
             for remap in node.remaps:
                 for place in (remap.source_location, remap.target_location):
-                    if place.file == scene.path and place.span.contains(offset):
+                    if place.file == context.path and place.span.contains(offset):
                         made = remaps_at(tree, place)
                         full = frozenset(names.resolve(each.target, owner.name) for owner, each in made)
-                        return Subject("topic", full, place.span)
+                        return NamedSymbol("topic", full, place.span)
     return None
 
 
-def _of_annotation(scene: Scene, offset: int) -> Subject | None:
-    launch_file = scene.launch_file(scene.path)
+def _of_annotation(context: QueryContext, offset: int) -> NamedSymbol | None:
+    launch_file = context.launch_file(context.path)
     action = action_at(launch_file, offset) if launch_file else None
-    for tree in scene.trees:
+    for tree in context.trees:
         for node in tree.nodes:
-            if action is None or node.location.file != scene.path or not node.action.span.contains(offset):
+            if action is None or node.location.file != context.path or not node.action.span.contains(offset):
                 continue
             for kind, span, full in annotated(node):
                 if span.contains(offset):
-                    return Subject("param" if kind == "param" else "topic", frozenset({full}), span)
+                    return NamedSymbol("param" if kind == "param" else "topic", frozenset({full}), span)
     return None
 
 
-def _of_launch_tag(scene: Scene, offset: int) -> Subject | None:
-    launch_file = scene.launch_file(scene.path)
+def _of_launch_tag(context: QueryContext, offset: int) -> NamedSymbol | None:
+    launch_file = context.launch_file(context.path)
     root = launch_file.root if launch_file else None
     if root is None or not root.head_span.contains(offset):
         return None
-    return Subject("file", frozenset({scene.path}), root.head_span, (scene.path,))
+    return NamedSymbol("file", frozenset({context.path}), root.head_span, (context.path,))
 
 
 def settings_of(tree: LaunchTree) -> Iterator[tuple[str, Param]]:
