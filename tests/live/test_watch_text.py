@@ -15,11 +15,11 @@ def test_what_is_missing_and_has_not_lasted_yet_is_not_said_to_be_as_expected(
 ) -> None:
     text = _Text()
     missing = Comparison((), {"/a": "missing"}, {}, {}, {})
-    text.tell(State(missing))
+    text.write(State(missing))
     assert capsys.readouterr().out == ""
-    text.tell(State(replace(missing, issues=(Issue("missing", "node", "/a"),))))
+    text.write(State(replace(missing, issues=(Issue("missing", "node", "/a"),))))
     assert "1 difference, 0 nodes as expected" in capsys.readouterr().out
-    text.tell(State(replace(missing, nodes={"/a": "present"})))
+    text.write(State(replace(missing, nodes={"/a": "present"})))
     assert "no differences, 1 node as expected" in capsys.readouterr().out
 
 
@@ -31,5 +31,5 @@ def test_a_node_that_turns_up_is_news(capsys: pytest.CaptureFixture[str]) -> Non
         ({"/a": "present", "/b": "present"}, "no differences, 2 nodes as expected\n"),
         ({"/a": "present", "/b": "present"}, ""),
     ):
-        text.tell(State(Comparison((), states, {}, {}, {})))  # type: ignore[arg-type]
+        text.write(State(Comparison((), states, {}, {}, {})))  # type: ignore[arg-type]
         assert capsys.readouterr().out[len("00:00:00 ") :] == said

@@ -183,7 +183,12 @@ def test_a_trace_with_overridden_qos_is_kept_until_the_remap_changes(kilted: Rcl
 
 def test_a_node_that_asks_who_is_there_is_not_fully_known(harness: RclHarness) -> None:
     relay = harness.trace("node=own relay=in")
-    assert (relay.outcome.status, relay.looks, relay.complete, relay.seen_through) == ("spinning", True, False, False)
+    assert (relay.outcome.status, relay.looks, relay.complete, relay.likely_complete) == (
+        "spinning",
+        True,
+        False,
+        False,
+    )
     plain = harness.trace("node=own pub=out")
     assert (plain.looks, plain.complete) == (False, True)
 

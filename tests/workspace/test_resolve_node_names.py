@@ -107,7 +107,7 @@ SEVERAL = {
 def test_one_name(tmp_path: Path, case: str) -> None:
     found = analysis(tmp_path, ONE[case])
     (node,) = found.tree.nodes
-    assert (node.name, node.told, node.name_inferred) == ("/pump", True, True)
+    assert (node.name, node.name_from_code, node.name_inferred) == ("/pump", True, True)
     assert [(p.name, p.value) for p in node.params] == [("rate", 2.0)]
     assert not told(found)
     assert told(analysis(tmp_path, ONE[case], params="pumpe")) == [("PRM011", "info", "possible")] * 2
@@ -116,7 +116,7 @@ def test_one_name(tmp_path: Path, case: str) -> None:
 @pytest.mark.parametrize("case", SEVERAL)
 def test_a_name_that_nobody_knows(tmp_path: Path, case: str) -> None:
     found = analysis(tmp_path, SEVERAL[case])
-    assert not any(node.told for node in found.tree.nodes)
+    assert not any(node.name_from_code for node in found.tree.nodes)
     assert not told(found)
 
 

@@ -287,7 +287,7 @@ class _Scanner:
         attributes: list[Attribute] = []
         at = name.end()
         last_start, last_end = name.span()
-        told = False  # whether the last piece has a problem of its own
+        reported = False  # whether the last piece has a problem of its own
         while True:
             gap = at
             at = _skip(_SPACE, text, at)
@@ -296,11 +296,11 @@ class _Scanner:
                 self._opened(name[0], Span(*name.span()), attributes, at + 1, empty=False)
                 return at + 1
             if char == "<" and (comment := self._comment_in_tag(at)) > 0:
-                at, told = comment, True
+                at, reported = comment, True
                 last_end = at
                 continue
             if char in ("", "<"):
-                if not told:
+                if not reported:
                     self._problem(f"the tag <{name[0]}> has no '>'", last_start, last_end)
                 self._opened(name[0], Span(*name.span()), attributes, last_end, empty=False, broken=True)
                 return at
@@ -321,15 +321,15 @@ class _Scanner:
             count = len(self.problems)
             last_start = at
             if attribute_name:
-                if gap == at and not told:
+                if gap == at and not reported:
                     self._problem(f"a blank is missing before '{attribute_name[0]}'", *attribute_name.span())
                 attribute = self._broken_attribute(attribute_name)
                 attributes.append(attribute)
                 at = attribute.span.end
-                told = len(self.problems) > count
+                reported = len(self.problems) > count
             else:
                 at = self._stray(at, name[0])
-                told = True
+                reported = True
             last_end = at
 
     def _comment_in_tag(self, at: int) -> int:
@@ -699,23 +699,23 @@ class _Scanner:
         Its children from the first that is not indented deeper are its siblings, as whoever wrote them sees it.
         """
         siblings: deque[Node] = deque()
-        told = False
+        reported = False
         while len(self.stack) > keep:
             opened = self.stack.pop()
             self.open_tags[opened.tag] -= 1
             self.children = self.stack[-1].children if self.stack else self.top
             cut = self._first_sibling(opened)
-            if not opened.broken and not told:
+            if not opened.broken and not reported:
                 if len(self.stack) > keep and self._is_end_tag(opened, self.stack[-1]):
                     self._problem(f"'/' is missing: </{opened.tag}> is expected", *_ends(opened.tag_span))
-                    told = True
+                    reported = True
                 elif lost := self._lost_end(opened, cut):
                     cut = lost[0]
                     self._problem(f"'<' is missing before '/{opened.tag}>'", *lost[1])
                 else:
                     self._problem(f"<{opened.tag}> is not closed", *_ends(opened.tag_span))
             else:
-                told = False
+                reported = False
             if cut < len(opened.children):
                 siblings.extendleft(reversed(opened.children[cut:]))
                 del opened.children[cut:]

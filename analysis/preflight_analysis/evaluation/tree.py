@@ -129,7 +129,7 @@ class LaunchNode(NamedTuple):
     unknowns: tuple[Unknown, ...] = ()
     """Values of this node that could not be known: it is then not run, and findings about it are less sure."""
     named: bool = True
-    told: bool = False
+    name_from_code: bool = False
     """ROS 2: whether the launch file gives it no name, and a run or the source told the one that its own code does."""
     name_inferred: bool = False
     """Whether no run has told it, only the source."""

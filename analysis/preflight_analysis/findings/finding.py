@@ -65,7 +65,7 @@ class Finding:
     fixes: tuple[Fix, ...] = ()
     roots: tuple[str, ...] = field(default=())
     stops_launch: bool = False
-    met: int = field(default=0, compare=False)
+    launch_order: int = field(default=0, compare=False)
     """Of one that stops the launcher: its place in the order in which the launcher would meet them."""
     ends: tuple[End, ...] = field(default=(), compare=False)
     """Of one about connections: the ends that it speaks of, for a picture of the graph."""

@@ -97,6 +97,6 @@ class Graph:
         return self.tree.complete and not self.incomplete
 
     @cached_property
-    def seen_through(self) -> bool:
+    def likely_complete(self) -> bool:
         """Whether no node is likely to have ends that are not known: absence is not sure, but to be reckoned with."""
-        return self.tree.complete and all(interface.seen_through for interface in self.interfaces)
+        return self.tree.complete and all(interface.likely_complete for interface in self.interfaces)

@@ -60,11 +60,11 @@ def compare(seen: Sequence[tuple[LaunchNode, Interface]]) -> Outdated | None:
     missing: tuple[Endpoint | ParamUse, ...] = ()
     # What is malformed may be meant for what seems to be missing.
     if not problems and all(interface.source == "trace" and interface.complete for _, interface in seen):
-        told = [_told(interface.endpoints, interface.params, node) for node, interface in seen]
+        reported = [_reported(interface.endpoints, interface.params, node) for node, interface in seen]
         unmade = tuple(
             item
             for item in items
-            if not any(_key(item.what, node) in t for (node, _), t in zip(seen, told, strict=True))
+            if not any(_key(item.what, node) in t for (node, _), t in zip(seen, reported, strict=True))
         )
         missing = tuple(_missing(groups, seen))
     if not (conflicts or unmade or missing):
@@ -100,7 +100,7 @@ def _key(what: Endpoint | ParamUse, node: LaunchNode) -> _Key:
     return what.role if isinstance(what, Endpoint) else "param", names.resolve(what.name, node.name)
 
 
-def _told(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: LaunchNode) -> set[_Key]:
+def _reported(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: LaunchNode) -> set[_Key]:
     """All that is said by these, an action both as such and by its topics."""
     endpoints = tuple(endpoints)
     actions = actions_of(endpoints)
@@ -130,13 +130,13 @@ def _missing(
     endpoints = [what for what in said if isinstance(what, Endpoint)]
     params = [what for what in said if isinstance(what, ParamUse)]
     with_params = any(group.name == "params" for group in groups)
-    told = _told(endpoints, params, seen[0][0])
+    reported = _reported(endpoints, params, seen[0][0])
     others = [{written(what) for what in worth_writing(interface)} for _, interface in seen[1:]]
     node, interface = seen[0]
     by_topics = {
         (a.endpoint.role, a.endpoint.name)
         for a in actions_of(interface.endpoints)
-        if all(_key(part, node) in told for part in a.parts)
+        if all(_key(part, node) in reported for part in a.parts)
     }
     given: set[_Key] = set()
     for what in worth_writing(interface):
@@ -145,7 +145,7 @@ def _missing(
         key = _key(what, node)
         if isinstance(what, Endpoint) and (what.role, what.name) in by_topics:
             continue
-        if key not in told and key not in given and all(written(what) in other for other in others):
+        if key not in reported and key not in given and all(written(what) in other for other in others):
             given.add(key)
             yield what
 

@@ -85,11 +85,11 @@ class _Reader:
         given = _arguments(parent.call, None).get("parameters") if parent is not None and parent.part is None else None
         if parent is None or given is None:
             return {}
-        told = [record for record in records if _KEYWORDS.get(record["k"]) == "parameters"]
+        parameters = [record for record in records if _KEYWORDS.get(record["k"]) == "parameters"]
         items = self._source.resolved(given)
-        if not isinstance(items, (ast.List, ast.Tuple)) or len(items.elts) != len(told):
+        if not isinstance(items, (ast.List, ast.Tuple)) or len(items.elts) != len(parameters):
             return {}
-        return {id(r): _Parent(parent.call, item) for r, item in zip(told, items.elts, strict=True)}
+        return {id(r): _Parent(parent.call, item) for r, item in zip(parameters, items.elts, strict=True)}
 
     def _action(self, record: dict[str, Any], around: Span, parent: _Parent | None, depth: int) -> Action:
         kind, source = record["k"], self._source
@@ -183,8 +183,8 @@ class _Reader:
         whole = parent.part or _arguments(parent.call, None).get(_KEYWORDS.get(kind, kind))
         if whole is None:
             return None
-        told = record.get("a")
-        attributes = told if isinstance(told, dict) else {}
+        given = record.get("a")
+        attributes = given if isinstance(given, dict) else {}
         key = _plain(attributes.get("name", attributes.get("from", attributes.get("value"))))
         if id(whole) not in self._keys:
             known: dict[str, tuple[ast.expr, ast.expr | None]] = {}

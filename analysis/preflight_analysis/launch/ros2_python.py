@@ -152,10 +152,10 @@ class _Reader:
         given = {k.arg: k.value for k in call.keywords if k.arg is not None}
         for name, node in zip(_FIRST.get(kind, ()), call.args, strict=False):
             given.setdefault(name, node)
-        told = {ours: self._value(given[theirs]) for theirs, ours in names.items() if theirs in given}
+        attributes = {ours: self._value(given[theirs]) for theirs, ours in names.items() if theirs in given}
         if "condition" in given:
             # Taken for unknown: whether it is executed is not for us to say.
-            told["if"] = [_unknown()]
+            attributes["if"] = [_unknown()]
         children: list[dict[str, Any]] = []
         if kind == "arg" and "choices" in given and id(call) in self._sure:
             children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
@@ -164,7 +164,7 @@ class _Reader:
         if kind == "include" and "launch_arguments" in given:
             children = self._passed(given["launch_arguments"])
         place = [call.lineno, call.col_offset]
-        return {"k": kind, "n": last_name(call.func), "p": place, "a": told, "c": children}
+        return {"k": kind, "n": last_name(call.func), "p": place, "a": attributes, "c": children}
 
     def _passed(self, node: ast.expr) -> list[dict[str, Any]]:
         """`{...}.items()`, or a list of pairs."""

@@ -45,7 +45,7 @@ def _node(
     documents: Mapping[str, Document],
 ) -> ExpectedNode:
     # The name of an executable is not that of the node, unless a run told it.
-    certain = "$(" not in node.name and (node.named or (node.told and not node.name_inferred))
+    certain = "$(" not in node.name and (node.named or (node.name_from_code and not node.name_inferred))
     loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if generation == 1 else None
     manager = names.resolve(loaded.manager, node.name) if loaded is not None and loaded.manager is not None else None
     ended = interface.outcome.status == "exited" and not interface.outcome.exit_code

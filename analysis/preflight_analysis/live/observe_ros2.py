@@ -98,19 +98,19 @@ class Ros2Observer:
         while line := process.stdout.readline(_MAX_LINE):
             if len(line) == _MAX_LINE and not line.endswith("\n"):
                 process.kill()
-                self._tell(None, f"{self.place} shows more names than can be looked at")
+                self._report(None, f"{self.place} shows more names than can be looked at")
                 break
             try:
-                self._tell(said(line, self.place), None)
+                self._report(said(line, self.place), None)
             except CannotObserveError as error:
-                self._tell(None, str(error))
+                self._report(None, str(error))
             except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
                 continue  # a library that prints
         code = process.wait()
         if self._error is None:
-            self._tell(None, f"the process that asks rclpy ended with {code}")
+            self._report(None, f"the process that asks rclpy ended with {code}")
 
-    def _tell(self, observation: Observation | None, error: str | None) -> None:
+    def _report(self, observation: Observation | None, error: str | None) -> None:
         with self._news:
             self._latest, self._error = observation, error
             self._news.notify_all()
@@ -119,17 +119,17 @@ class Ros2Observer:
 def said(line: str, place: str) -> Observation:
     """What a line of the helper says of the system. Raises `CannotObserveError` where it cannot be seen, any of
     `ValueError`, `TypeError`, `KeyError`, `AttributeError` and `RecursionError` if the line is none of the helper's."""
-    told: Mapping[str, Any] = json.loads(line)
-    if error := told.get("error"):
+    observed: Mapping[str, Any] = json.loads(line)
+    if error := observed.get("error"):
         raise CannotObserveError(f"rclpy does not work: {error}")
-    counts = Counter(str(name) for name in told["nodes"])
-    check_number(place, counts, told["ends"])
+    counts = Counter(str(name) for name in observed["nodes"])
+    check_number(place, counts, observed["ends"])
     ends = [
         LiveEnd(cast(Role, role), str(node), str(name), str(kind), dict(qos))
-        for role, node, name, kind, qos in told["ends"]
+        for role, node, name, kind, qos in observed["ends"]
         if role in _ROLES
     ]
-    lifecycle = {str(name): str(state) for name, state in told["lifecycle"].items()}
+    lifecycle = {str(name): str(state) for name, state in observed["lifecycle"].items()}
     nodes = {name: LiveNode(name, count=count, lifecycle=lifecycle.get(name)) for name, count in counts.items()}
     return with_shown_names(Observation(2, nodes, tuple(ends)))
 

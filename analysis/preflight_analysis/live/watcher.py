@@ -89,7 +89,7 @@ class Watcher:
         self._since: dict[Issue, float] = {}
         self._nodes: set[str] = set()
         self._grown = 0.0
-        self._told: Event | None = None
+        self._reported: Event | None = None
         self._run: str | None = None
         self._was_there = False
 
@@ -102,12 +102,12 @@ class Watcher:
             return self._new(Waiting(str(error), error.final))
         events: list[Event] = []
         # roslaunch gives the run its id a moment after the master has started; one that ends may lack it again.
-        lost, known = isinstance(self._told, Waiting), live.run is not None
+        lost, known = isinstance(self._reported, Waiting), live.run is not None
         other = live.run != self._run if known else lost
         restarted = self._run is not None and other
         if not self._was_there or lost or restarted:
             events.append(Attached(self._observer.place, restarted))
-            self._told = None
+            self._reported = None
             self._nodes.clear()
         self._was_there = True
         if known or restarted:
@@ -133,9 +133,9 @@ class Watcher:
         return now - (max(since, self._grown) if issue.kind == "missing" else since) >= self._settle
 
     def _new(self, event: Event) -> list[Event]:
-        if event == self._told:
+        if event == self._reported:
             return []
-        self._told = event
+        self._reported = event
         return [event]
 
 

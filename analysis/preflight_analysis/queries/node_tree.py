@@ -102,8 +102,8 @@ class _Marks:
         starts = self._starts.get(path, [])
         first, last = bisect_left(starts, span.start), bisect_left(starts, span.end)
         severities = [f.severity for f in self._found[path][first:last]] if first < last else []
-        told = [severity for severity in severities if severity != "hint"]
-        return max(told, key=SEVERITIES.index, default=None), len(told)
+        reported = [severity for severity in severities if severity != "hint"]
+        return max(reported, key=SEVERITIES.index, default=None), len(reported)
 
 
 def _start(finding: Finding) -> int:

@@ -55,7 +55,7 @@ def _idle(graph: Graph) -> Iterator[IdleRemap]:
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
         if not node.remaps:
             continue
-        used = _used(node, interface) if _tells_names(node, interface) else None
+        used = _used(node, interface) if _reports_names(node, interface) else None
         for remap in node.remaps:
             place = remap.origin[-1]
             if place in in_use:
@@ -78,7 +78,7 @@ def _idle(graph: Graph) -> Iterator[IdleRemap]:
         yield IdleRemap(each.remap, tuple(each.nodes), meant, partner)
 
 
-def _tells_names(node: LaunchNode, interface: Interface) -> bool:
+def _reports_names(node: LaunchNode, interface: Interface) -> bool:
     """Whether a run showed all names that the node uses. One that made nothing of its own is a wrapper or a loader of
     something else, whose names nobody saw."""
     if interface.source != "trace" or not interface.complete or node.unknowns:

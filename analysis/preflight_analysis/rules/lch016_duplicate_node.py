@@ -36,14 +36,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
     """Nodes of ROS 2 whose own code gives them the name that another one has."""
     nodes = context.graph.tree.nodes if context.graph is not None else ()
-    if not any(node.told for node in nodes):
+    if not any(node.name_from_code for node in nodes):
         return
     first: dict[str, LaunchNode] = {}
-    for node in sorted(nodes, key=lambda node: node.told):
-        if not (node.named or node.told) or node.unknowns:
+    for node in sorted(nodes, key=lambda node: node.name_from_code):
+        if not (node.named or node.name_from_code) or node.unknowns:
             continue
         other = first.setdefault(node.name, node)
-        if node.told and other is not node:
+        if node.name_from_code and other is not node:
             yield rule.finding(
                 f"there is another node with the name '{node.name}': {_why(node)}",
                 context.location(node.location.file, node.action.kind_span),

@@ -45,9 +45,9 @@ def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
     for include in context.tree.includes:
         included = context.launch_files.get(include.path or "")
         root = included.root if included is not None else None
-        told = root.value("deprecated") if root is not None else None
-        if included is not None and told is not None and told.text:
-            message = f"'{shown(included.path, context)}' is deprecated: {told.text}"
+        deprecated = root.value("deprecated") if root is not None else None
+        if included is not None and deprecated is not None and deprecated.text:
+            message = f"'{shown(included.path, context)}' is deprecated: {deprecated.text}"
             place = (*include.origin[:-1], include.file_location)
             yield rule.finding(message, include.file_location, severity="warning", related=include_chain(place))
 

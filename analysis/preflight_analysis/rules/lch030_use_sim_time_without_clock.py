@@ -28,12 +28,16 @@ _SIMULATORS = (
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     param = context.tree.params.get("/use_sim_time")
-    if graph is None or param is None or not graph.seen_through or not graph.tree.nodes:
+    if graph is None or param is None or not graph.likely_complete or not graph.tree.nodes:
         return
     if param.value is not True and param.value != 1:
         return
     clock = graph.topics.get("/clock")
-    if (clock is not None and clock.offers) or graph.is_external("/clock") or any(map(tells_time, graph.tree.nodes)):
+    if (
+        (clock is not None and clock.offers)
+        or graph.is_external("/clock")
+        or any(map(publishes_clock, graph.tree.nodes))
+    ):
         return
     yield rule.finding(
         "/use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
@@ -44,7 +48,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     )
 
 
-def tells_time(node: LaunchNode) -> bool:
+def publishes_clock(node: LaunchNode) -> bool:
     """Whether the node is a simulator or plays a bag with its time: neither does so before it runs for a while."""
     name = f"{node.package}/{node.executable}".lower()
     return any(word in name for word in _SIMULATORS) or "--clock" in node.args.split()

@@ -73,7 +73,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if not waiting or not listed or _others_may_act(context):
         return
     # A launch of such a node alone is for somebody who activates it by hand.
-    alone = len(waiting) < len(nodes) and context.graph is not None and context.graph.seen_through
+    alone = len(waiting) < len(nodes) and context.graph is not None and context.graph.likely_complete
     for node in waiting:
         who = f"the lifecycle managers have {quoted(list(managed)[:3])}" if managed else "there is no lifecycle manager"
         yield rule.finding(
@@ -116,7 +116,7 @@ def _without_lifecycle(context: Context) -> set[str]:
 def _has_no_lifecycle(interface: Interface) -> bool:
     types = {end.type for end in interface.endpoints}
     # The source does not show what the base class of a lifecycle node offers.
-    seen = interface.seen_through and interface.source == "trace"
+    seen = interface.likely_complete and interface.source == "trace"
     return bool(seen and types and _CHANGE not in types) or _LOAD in types
 
 

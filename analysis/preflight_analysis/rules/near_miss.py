@@ -286,7 +286,7 @@ def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
     ends = (near.wanting.endpoint, near.offering.endpoint)
     speculative = any(end.uncertain for end in ends)
     sure = graph.complete and near.same_type and not speculative
-    alike = near.likeness == "typo" or (near.offering_dangles and graph.seen_through and not _of_another_node(near))
+    alike = near.likeness == "typo" or (near.offering_dangles and graph.likely_complete and not _of_another_node(near))
     evidence = near.same_type and alike
     severity: Severity = "info" if any(end.assumed or end.on_demand for end in ends) else "warning"
     return severity if evidence else "hint", "likely" if sure else "possible"

@@ -87,7 +87,7 @@ def _with_lost(param: Param) -> tuple[Param, tuple[Param, ...]] | None:
 def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     """What files say is there to be overridden by later sources, and what is for every node by what is for one. Told is
     a value in the node's own tag or call that does not count, and what loses against this usual order."""
-    told: set[tuple[Location, Location]] = set()
+    reported: set[tuple[Location, Location]] = set()
     nodes = context.tree.nodes
     each_lost = context.kept.each(_lost_values, nodes)
     for node, lost_values in compress(zip(nodes, each_lost, strict=True), each_lost):
@@ -96,9 +96,9 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
             counts, lost = by_place[_place(param)], by_place[_place(old)]
             why = _why_lost(lost, counts, own=_is_own(lost, counts, node, context))
             at = lost.place, counts.place
-            if why is None or at in told:
+            if why is None or at in reported:
                 continue
-            told.add(at)
+            reported.add(at)
             yield rule.finding(
                 f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {why}, "
                 f"to {_shown(param.value)}",

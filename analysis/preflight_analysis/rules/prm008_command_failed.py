@@ -42,12 +42,12 @@ def _message(problem: Problem) -> str:
         return f"the command cannot be split into words: {problem.data['message']}"
     lines = [line.strip() for line in problem.data["stderr"] if line.strip()]
     if any(_TRACEBACK.match(line) for line in lines):
-        told = lines[-1:]
+        reported = lines[-1:]
     else:
         # xacro says what is wrong and where, and may go on with advice.
         start = next((n for n, line in enumerate(lines) if _ERROR.search(line)), max(0, len(lines) - _STDERR_LINES))
-        told = lines[start : start + _STDERR_LINES]
-    return "; ".join([f"the command failed: {problem.data['reason']}", *told])
+        reported = lines[start : start + _STDERR_LINES]
+    return "; ".join([f"the command failed: {problem.data['reason']}", *reported])
 
 
 def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: bool) -> Finding:

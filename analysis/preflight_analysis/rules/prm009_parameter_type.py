@@ -25,14 +25,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     params = graph.tree.params
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     for read in filter(None, context.kept.each(_with_default, graph.param_reads)):
         param = params.get(read.name)
-        if param is None or type(param.value) is type(read.use.default) or (read.name, read.node.name) in told:
+        if param is None or type(param.value) is type(read.use.default) or (read.name, read.node.name) in reported:
             continue
         difference = _difference(param.value, read.use.default)
         if difference is not None:
-            told.add((read.name, read.node.name))
+            reported.add((read.name, read.node.name))
             yield _finding(rule, param, read, *difference)
 
 

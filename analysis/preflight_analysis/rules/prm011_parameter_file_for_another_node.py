@@ -80,7 +80,7 @@ def _without_own(file: ParamFile, nodes: Iterable[tuple[LaunchNode, Location]]) 
     """The nodes that the file names nowhere. One that the launch file does not name may have any name in the file."""
     for node, location in nodes:
         reaching = file.reaching(node.name, composable=node.container is not None)
-        if (node.named or node.told) and all(_is_for_all(section) for section in reaching):
+        if (node.named or node.name_from_code) and all(_is_for_all(section) for section in reaching):
             yield _Given(node, location, bool(reaching))
 
 

@@ -9,7 +9,7 @@ from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import tells_params
+from preflight_analysis.rules.unread_params import reports_params
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _OF_ALL_NODES = frozenset({"use_sim_time", "start_type_description_service"})
@@ -49,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _declared(interface: Interface) -> dict[str, ParamUse] | None:
     """The parameters that the node declares, None where it takes any or nothing of it is known."""
     uses = interface.params
-    if (not uses and not tells_params(interface)) or any(use.access == "list" for use in uses):
+    if (not uses and not reports_params(interface)) or any(use.access == "list" for use in uses):
         return None
     if interface.source == "none":
         return None

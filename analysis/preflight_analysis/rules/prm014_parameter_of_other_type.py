@@ -27,7 +27,7 @@ _ENDS = "the node stops when it declares it (InvalidParameterTypeException)"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    told: set[tuple[object, ...]] = set()
+    reported: set[tuple[object, ...]] = set()
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
         if not node.params:
             continue
@@ -44,9 +44,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             message = _wrong(param, passed, wanted, node)
             if message is None and use.refused is not None:
                 message = f"{node.name} stops when it declares '{param.name}': {use.refused}"
-            if message is None or (place, wanted) in told:
+            if message is None or (place, wanted) in reported:
                 continue  # what is written once for several nodes is wrong for each
-            told.add((place, wanted))
+            reported.add((place, wanted))
             yield rule.finding(
                 message,
                 place,

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.lch030_use_sim_time_without_clock import tells_time
+from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
 from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
@@ -24,8 +24,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if not on:
         return
     clock = graph.topics.get("/clock")
-    told = (clock is not None and bool(clock.offers)) or graph.is_external("/clock") or any(map(tells_time, nodes))
-    if not told:
+    has_clock = (
+        (clock is not None and bool(clock.offers)) or graph.is_external("/clock") or any(map(publishes_clock, nodes))
+    )
+    if not has_clock:
         node, param = on[0]
         yield rule.finding(
             "use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
@@ -39,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     off = [
         node for node in nodes if id(node) not in simulated and _has_times(node) and not _publishes_clock(node, context)
     ]
-    if told and off and len(off) <= len(on):
+    if has_clock and off and len(off) <= len(on):
         shown = ", ".join(node.name for node in off[:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
         yield rule.finding(
             f"use_sim_time is true for {_counted(len(on))} of this launch and not for {shown}: their times do not "
@@ -67,7 +69,7 @@ def _counted(number: int) -> str:
 
 def _publishes_clock(node: LaunchNode, context: Context) -> bool:
     clock = context.graph.topics.get("/clock") if context.graph is not None else None
-    return tells_time(node) or (clock is not None and any(offer.node is node for offer in clock.offers))
+    return publishes_clock(node) or (clock is not None and any(offer.node is node for offer in clock.offers))
 
 
 RULE = Rule(

@@ -16,16 +16,16 @@ _SHOWN = 5
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    told: set[Location] = set()
+    reported: set[Location] = set()
     for (path, substituted), given in _files(context).items():
         document = context.documents.get(path)
         if not isinstance(document, Document):
             continue
         for what, span in read_param_file(document.text).refused:
             at = context.location(path, span)
-            if at in told or (substituted and "$(" in document.text[span.start : span.end]):
+            if at in reported or (substituted and "$(" in document.text[span.start : span.end]):
                 continue  # what a substitution comes to may be fine
-            told.add(at)
+            reported.add(at)
             who = "the node does not start" if len(given) == 1 else f"none of the {len(given)} nodes that get it starts"
             more = f" (and {len(given) - _SHOWN} more nodes)" if len(given) > _SHOWN else ""
             yield rule.finding(
@@ -52,15 +52,15 @@ def _files(context: Context) -> dict[tuple[str, bool], list[tuple[LaunchNode, Pa
 
 def _values(rule: Rule, context: Context) -> Iterator[Finding]:
     """Lists in the launch file: launch writes a parameter file of them, without quotes where Python needs none."""
-    told: set[Location] = set()
+    reported: set[Location] = set()
     for node in context.tree.nodes:
         for source in node.param_sources if node.container is None else ():
             for param in source.params if source.path is None else ():
                 refused = refused_items(as_passed(param.value)) if isinstance(param.value, list) else None
                 place = name_place(param)
-                if refused is None or place in told:
+                if refused is None or place in reported:
                     continue
-                told.add(place)
+                reported.add(place)
                 yield rule.finding(
                     f"'{param.name}' arrives as {refused}, as launch hands it over without quotes: {node.name} does "
                     "not start; write it, in quotes, into a parameter file",

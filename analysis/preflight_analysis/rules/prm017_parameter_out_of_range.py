@@ -20,7 +20,7 @@ _CLOSE = 1e-6
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    told: set[tuple[object, ...]] = set()
+    reported: set[tuple[object, ...]] = set()
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ():
         if not node.params:
             continue
@@ -29,9 +29,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             use = declared.get(param.name)
             why = _wrong(param, use, node) if use is not None else None
             at = name_place(param), why
-            if use is None or why is None or at in told:
+            if use is None or why is None or at in reported:
                 continue
-            told.add(at)
+            reported.add(at)
             yield rule.finding(
                 f"{why} (InvalidParameterValueException)",
                 name_place(param),

@@ -87,7 +87,7 @@ def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iter
             met.setdefault(problem.location, deque()).append(number)
     for finding in findings:
         numbers = met.get(finding.location) if finding.stops_launch else None
-        yield replace(finding, met=numbers.popleft()) if numbers else finding
+        yield replace(finding, launch_order=numbers.popleft()) if numbers else finding
 
 
 def unique(findings: Iterable[Finding]) -> list[Finding]:
@@ -111,12 +111,12 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
     ranks = {chain: max(SEVERITIES.index(f.severity) for f in said.values()) for chain, said in contexts.items()}
     lead = max(ranks, key=ranks.__getitem__)
     first, *more = contexts.pop(lead).values()
-    told = {first.message, *(finding.message for finding in more)}
+    reported = {first.message, *(finding.message for finding in more)}
     others: list[Related] = []
     for chain, said in contexts.items():
         where = chain[0] if chain else place
-        others += [Related(f"in another context: {message}", where) for message in said if message not in told]
-        told.update(said)
+        others += [Related(f"in another context: {message}", where) for message in said if message not in reported]
+        reported.update(said)
     yield replace(first, related=(*first.related, *others[:_MOST_CONTEXTS]))
     yield from more
 

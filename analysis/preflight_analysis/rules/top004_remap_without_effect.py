@@ -20,11 +20,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         remap = idle.remap
         node = idle.nodes[0].name if len(idle.nodes) == 1 else f"none of the {len(idle.nodes)} nodes that it reaches"
         verb = "does not use" if len(idle.nodes) == 1 else "uses"
-        told = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
+        message = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
         meant = idle.meant
         if meant is None:
             yield rule.finding(
-                f"{told} before its event loop",
+                f"{message} before its event loop",
                 remap.source_location,
                 severity="hint",
                 confidence="possible",
@@ -39,7 +39,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         else:
             evidence += " and to which nobody else is connected?"
         yield rule.finding(
-            f"{told}; {evidence}",
+            f"{message}; {evidence}",
             remap.source_location,
             confidence="likely" if idle.partner is not None and not meant.endpoint.uncertain else "possible",
             related=(

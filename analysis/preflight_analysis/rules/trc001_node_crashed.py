@@ -24,8 +24,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
         lacking = next(filter(None, (lost.why(r) for r in context.graph.param_reads if r.node is node)), None)
         # Of a parameter that is missing another rule says more, as a warning.
-        told = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
-        told = told or any(_is_told(context.graph, node, use) for use in interface.params)
+        reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
+        reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
         ours = (
             lacking is not None
             or outcome.lacks is not None
@@ -35,7 +35,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else ""),
             node_location(node),
-            severity="info" if ours or told else None,
+            severity="info" if ours or reported else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
         )
@@ -74,7 +74,7 @@ class _LostParams:
         return None
 
 
-def _is_told(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
+def _is_reported(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
     """Whether a node of ROS 2 ended for the parameter and another rule tells it: not where no value of the launch is at
     fault."""
     if use.refused is None or use.mandatory:

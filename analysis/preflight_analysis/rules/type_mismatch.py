@@ -28,14 +28,14 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
         for end in channel.offers:
             offerings.setdefault((end.endpoint.type, end.endpoint.md5, end.action is None), end)
         for wanting in channel.wants:
-            told: set[tuple[str | None, str]] = set()
+            reported: set[tuple[str | None, str]] = set()
             for offering in offerings.values():
                 if wanting.action is not None and offering.action is not None:
                     continue  # said once of the action, not of each of its topics
                 difference = _difference(wanting, offering)
-                if difference is None or (offering.endpoint.type, difference) in told:
+                if difference is None or (offering.endpoint.type, difference) in reported:
                     continue
-                told.add((offering.endpoint.type, difference))
+                reported.add((offering.endpoint.type, difference))
                 site, other = (wanting, offering)
                 if wanting.remap is None and offering.remap is not None:
                     site, other = offering, wanting

@@ -35,12 +35,12 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     Ask through `context.once`.
     """
     graph = context.graph
-    if graph is None or not any(tells_params(interface) for interface in graph.interfaces):
+    if graph is None or not any(reports_params(interface) for interface in graph.interfaces):
         return ()
     return tuple(_unread(context, graph))
 
 
-def tells_params(interface: Interface) -> bool:
+def reports_params(interface: Interface) -> bool:
     """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
     return interface.complete and (not interface.declared or bool(interface.params))
 
@@ -103,16 +103,16 @@ def _unread(context: Context, graph: Graph) -> Iterator[Unread]:
             yield from (Unread(p, holder, _meant_of_holder(p, holder, reads, by_leaf)) for p in unread)
     if reads.listed:
         return
-    told: set[str] = set()
+    reported: set[str] = set()
     for param, read in _sought(orphans, reads.sought):
-        told.add(param.name)
+        reported.add(param.name)
         yield Unread(param, None, read)
-    for param, read in _misplaced([param for param in orphans if param.name not in told], reads):
-        told.add(param.name)
+    for param, read in _misplaced([param for param in orphans if param.name not in reported], reads):
+        reported.add(param.name)
         yield Unread(param, None, read)
     if graph.tree.complete and not reads.opaque:
         for param in orphans:
-            found = _shifted_reads(param, by_leaf) if param.name not in told else ()
+            found = _shifted_reads(param, by_leaf) if param.name not in reported else ()
             if found:
                 yield Unread(param, None, found[0], len(found) == 1)
 
@@ -122,7 +122,7 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
     searched: set[str] = set()
     asked: dict[str, ParamRead] = {}
     sought: dict[str, ParamRead] = {}
-    opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not tells_params(i)}
+    opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not reports_params(i)}
     filled = _above(f"{namespace}/" for namespace in namespaces)
     made: set[str] = set()
     listed = False

@@ -59,20 +59,20 @@ def to_text(found: Difference, before: str, after: str, *, colour: bool = False)
     """Lines with a sign in front: what came (+), went (-) and changed (~). `before` and `after` name the sides."""
 
     def line(kind: str, text: str, indent: str = "") -> str:
-        told = f"{indent}{_SIGNS[kind]} {printable(text)}"
-        return f"{_COLOURS[kind]}{told}\x1b[0m" if colour else told
+        formatted = f"{indent}{_SIGNS[kind]} {printable(text)}"
+        return f"{_COLOURS[kind]}{formatted}\x1b[0m" if colour else formatted
 
     lines = [f"before: {before}", f"after:  {after}", ""]
     for node, changes in itertools.groupby(found.changes, key=lambda change: change.node):
         of_node = list(changes)
         whole = of_node[0]
         if node is None:
-            lines += [line(change.kind, _told(change)) for change in of_node]
+            lines += [line(change.kind, _describe(change)) for change in of_node]
         elif whole.what == "node":
             lines.append(line(whole.kind, f"node {node}  {_about(whole.before or whole.after)}"))
         else:
             lines.append(line("changed", f"node {node}"))
-            lines += [line(change.kind, _told(change), "  ") for change in of_node]
+            lines += [line(change.kind, _describe(change), "  ") for change in of_node]
     if found.links:
         lines += ["", "connections"]
         lines += [
@@ -129,7 +129,7 @@ def _side(snapshot: Snapshot) -> dict[str, Any]:
     return {"launch": snapshot.launch, "generation": snapshot.generation, "args": dict(snapshot.args)}
 
 
-def _told(change: Change) -> str:
+def _describe(change: Change) -> str:
     words = " ".join(word for word in (_VERBS.get(change.what, change.what), change.name) if word)
     if change.what in GROUPS.values():
         if change.kind == "changed":

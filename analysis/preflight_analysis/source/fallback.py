@@ -96,16 +96,16 @@ def _lacks(interface: Interface) -> bool:
 def _placeless(tree: LaunchTree, interface: Interface) -> bool:
     """Whether all is known of what a node does, but nothing of where in its source: rcl is not told that."""
     seen = interface.endpoints + interface.params
-    told = any(each.source_file is not None for each in seen)
-    return tree.generation == 2 and interface.source == "trace" and bool(seen) and not told
+    has_places = any(each.source_file is not None for each in seen)
+    return tree.generation == 2 and interface.source == "trace" and bool(seen) and not has_places
 
 
 def _may_declare_later(tree: LaunchTree, node: LaunchNode, interface: Interface) -> bool:
     """Whether a node of ROS 2 is given a parameter that its run did not declare: a callback may do so that the run did
     not wait for, of a timer for instance."""
     declared = {use.name.removeprefix("~") for use in interface.params}
-    told = tree.generation == 2 and interface.source == "trace" and bool(declared)
-    return told and any(param.name not in declared for param in node.params)
+    declares = tree.generation == 2 and interface.source == "trace" and bool(declared)
+    return declares and any(param.name not in declared for param in node.params)
 
 
 def _with_later(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
@@ -165,4 +165,4 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
 
 
 def _is_more(whole: Interface, interface: Interface) -> bool:
-    return not interface.seen_through or (whole.endpoints, whole.params) != (interface.endpoints, interface.params)
+    return not interface.likely_complete or (whole.endpoints, whole.params) != (interface.endpoints, interface.params)

@@ -242,17 +242,17 @@ def _read(raw: run.RawRun) -> _Ended:
     ended = _Ended()
     pieces: list[bytes] = []
     for record in raw.records:
-        own, told = record.get("own"), record.get("node")
+        own, node_record = record.get("own"), record.get("node")
         if isinstance(own, dict) and own.get("ev") == "output" and isinstance(own.get("data"), str):
             pieces.append(base64.b64decode(own["data"]))
         elif isinstance(own, dict) and own.get("ev") == "end":
             ended.status, ended.why = str(own.get("status")), str(own.get("why"))
             code: Any = own.get("code")
             ended.code = code if isinstance(code, int) else None
-        elif isinstance(told, dict) and told.get("ev") == "files":
-            ended.files.update(dict.fromkeys(paths(told.get("paths"))))
-        elif isinstance(told, dict) and told.get("ev") == "wrote":
-            ended.wrote.update(dict.fromkeys(paths([told.get("path")])))
+        elif isinstance(node_record, dict) and node_record.get("ev") == "files":
+            ended.files.update(dict.fromkeys(paths(node_record.get("paths"))))
+        elif isinstance(node_record, dict) and node_record.get("ev") == "wrote":
+            ended.wrote.update(dict.fromkeys(paths([node_record.get("path")])))
     ended.output = run.moved_back(b"".join(pieces), raw.moved)
     return ended
 

@@ -63,7 +63,7 @@ class Copies:
                     (made / name / "__pycache__").mkdir(parents=True, exist_ok=True)
                     shutil.copy(path, made / name)
                 raw = run.compile_agents(interpreter, visible, _within(made))
-                kept = sum(_keep(told.get("own"), made) for told in raw.records)
+                kept = sum(_keep(record.get("own"), made) for record in raw.records)
                 if kept != len(_sources()):
                     raise ValueError(raw.stderr.decode(errors="replace")[-500:] or "not all of it was compiled")
                 with contextlib.suppress(OSError):  # another process was first
@@ -85,16 +85,16 @@ def copies() -> Copies:
     return Copies()
 
 
-def _keep(told: object, made: Path) -> bool:
+def _keep(record: object, made: Path) -> bool:
     """Write one compiled module into a copy. Raises `ValueError` if it is none of ours."""
-    if not isinstance(told, Mapping) or told.get("ev") != "compiled":
+    if not isinstance(record, Mapping) or record.get("ev") != "compiled":
         return False
-    path: Any = told.get("path")
+    path: Any = record.get("path")
     folder, _, name = str(path).rpartition("/__pycache__/")
     source = name.partition(".")[0] + ".py"
     if folder not in FOLDERS or "/" in name or not name.endswith(".pyc") or not (made / folder / source).is_file():
         raise ValueError(f"{str(path)[:100]!r} is none of our modules")
-    (made / folder / "__pycache__" / name).write_bytes(base64.b64decode(str(told.get("data")), validate=True))
+    (made / folder / "__pycache__" / name).write_bytes(base64.b64decode(str(record.get("data")), validate=True))
     return True
 
 

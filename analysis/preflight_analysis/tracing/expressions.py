@@ -14,15 +14,15 @@ from preflight_analysis.tracing import ros2_recipe
 
 _EVALUATE = """
 import importlib, json, math, sys
-told = json.loads(sys.argv[1])
+request = json.loads(sys.argv[1])
 try:
     names = {}
-    for module in map(importlib.import_module, told["modules"]) if told["imports"] else [math]:
+    for module in map(importlib.import_module, request["modules"]) if request["imports"] else [math]:
         if module is math:
             names.update(vars(math))
-        if told["imports"]:
+        if request["imports"]:
             names[module.__name__] = module
-    answer = {"text": str(eval(told["expression"], {}, names))}
+    answer = {"text": str(eval(request["expression"], {}, names))}
 except BaseException as error:
     # What the machine or the sandbox lacks is no mistake of the expression.
     elsewhere = isinstance(error, (OSError, ImportError, MemoryError))

@@ -240,7 +240,7 @@ class Interface:
         return self.declared or spins
 
     @property
-    def seen_through(self) -> bool:
+    def likely_complete(self) -> bool:
         """Whether nothing speaks for more ends than are known: it is complete, came to its event loop with the help of
         made-up answers, or ended by itself without an error; and it did not ask who else is there."""
         outcome = self.outcome

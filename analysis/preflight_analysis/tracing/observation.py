@@ -56,11 +56,11 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     """Read a run. Never raises, whatever the records are."""
     found = Gathered(dropped=raw.dropped)
     for record in raw.records:
-        own, told = record.get("own"), record.get("node")
+        own, node_record = record.get("own"), record.get("node")
         if isinstance(own, dict):
             taken = take_supervisor_record(own, found)
-        elif isinstance(told, dict):
-            taken = take_node_record(told, found)
+        elif isinstance(node_record, dict):
+            taken = take_node_record(node_record, found)
         else:
             taken = False
         found.dropped += not taken
@@ -96,8 +96,8 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     asked = set(found.asked)
     if any(node.full for node in nodes):
         asked.add("name")  # which the other nodes' names may be made of, and which of them is the launch file's
-    told = sum(not endpoint.builtin for endpoint, _ in found.endpoints.values())
-    unexplained = sum(not endpoint.builtin for endpoint in endpoints) > told or any(
+    reported = sum(not endpoint.builtin for endpoint, _ in found.endpoints.values())
+    unexplained = sum(not endpoint.builtin for endpoint in endpoints) > reported or any(
         not d.given and d.access != "search" and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
     )
     watched = found.woven and (recipe.python or recipe.preload is not None)
@@ -241,10 +241,10 @@ def _without_given(
     """Parameters that a client library told as it declared them: a value that the launch file gives hides the default.
     Of a node of which none was told rcl knows nothing of them, and it may take any."""
     given = request.given_to
-    told = tuple(replace(p, default=None, has_default=False) if p.name[1:] in given(p.node) else p for p in params)
+    reported = tuple(replace(p, default=None, has_default=False) if p.name[1:] in given(p.node) else p for p in params)
     owners = {use.node for use in params}
     full = dict.fromkeys(node.full or None for node in nodes if not node.hidden) or {None: None}
-    return told + tuple(ParamUse("/", "list", node=name) for name in full if name not in owners)
+    return reported + tuple(ParamUse("/", "list", node=name) for name in full if name not in owners)
 
 
 def _not_seen(outcome: Outcome) -> str | None:

@@ -134,7 +134,7 @@ def _signal(number: int) -> str:
 def _signal_reason(number: int, tail: tuple[str, ...]) -> str:
     if number == signal.SIGXCPU:
         return f"it used more than {RLIMITS['CPU']} s of processor time"
-    return f"it was killed by {_signal(number)}" + _told_by(tail)
+    return f"it was killed by {_signal(number)}" + _reported_by(tail)
 
 
 def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
@@ -142,9 +142,9 @@ def _crash_reason(code: int, tail: tuple[str, ...]) -> str:
     if unknown is not None:
         said = f"the executable cannot be started: there is no '{unknown[1]}' on the PATH, which its first line names"
         return said + (_WINDOWS if unknown[2] else "")
-    return f"it ended with exit code {code}" + _told_by(tail)
+    return f"it ended with exit code {code}" + _reported_by(tail)
 
 
-def _told_by(tail: tuple[str, ...]) -> str:
+def _reported_by(tail: tuple[str, ...]) -> str:
     line = telling_line(tail)
     return f": {line[:REASON_COLUMNS]}" if line else ""

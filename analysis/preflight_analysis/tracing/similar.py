@@ -29,7 +29,7 @@ _Key = tuple[int, str, str, "str | None"]
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
+class _Memo:
     """What was told of one node, and all that it rests on."""
 
     traces: tuple[Kept, ...]
@@ -50,7 +50,7 @@ class SimilarTraces:
         self._folders = frozenset((*environment.workspace_folders, *environment.named_folders))
         self._lock = threading.Lock()
         self._remembered: dict[_Key, tuple[object, tuple[Kept, ...]]] = {}
-        self._told: dict[tuple[int, str, str, str, str], _Told] = {}
+        self._memos: dict[tuple[int, str, str, str, str], _Memo] = {}
 
     def looking(self, params: Mapping[str, Any], generation: int) -> Callable[[LaunchNode], Interface | None]:
         """What the executable of a node did in the most similar run; None where none is known. `params` is the
@@ -93,13 +93,13 @@ class SimilarTraces:
     ) -> Interface | None:
         path = node.resolved.path or ""
         key = (request.generation, node.name, node.package, f"{request.executable}:{request.entry_point}", node.args)
-        told = self._told.get(key)
-        if told is not None and told.traces is traces and told.build == build and told.strange == told.given - said:
-            return told.found
+        memo = self._memos.get(key)
+        if memo is not None and memo.traces is traces and memo.build == build and memo.strange == memo.given - said:
+            return memo.found
         candidates = [
             kept
             for kept in traces
-            if _tells(kept.interface)
+            if _reports(kept.interface)
             and self._folders.issuperset(kept.workspaces)
             and (not path or kept.executable == path or kept.build == build)
         ]
@@ -112,9 +112,9 @@ class SimilarTraces:
             as_of = replace(_as_of(best, request, given - said), elsewhere=elsewhere)
             found = as_of if as_of.endpoints or as_of.params else None
         with self._lock:
-            self._told[key] = _Told(traces, build, given, given - said, found)
-            if len(self._told) > _MAX_REMEMBERED:
-                del self._told[next(iter(self._told))]
+            self._memos[key] = _Memo(traces, build, given, given - said, found)
+            if len(self._memos) > _MAX_REMEMBERED:
+                del self._memos[next(iter(self._memos))]
         return found
 
     def _traces(self, key: _Key) -> tuple[Kept, ...]:
@@ -128,7 +128,7 @@ class SimilarTraces:
         return known[1]
 
 
-def _tells(interface: Interface) -> bool:
+def _reports(interface: Interface) -> bool:
     """Whether a run came to an end of its own and shows anything but what every node has: one that printed its usage
     does not."""
     own = any(not endpoint.builtin for endpoint in interface.endpoints) or any(not p.builtin for p in interface.params)

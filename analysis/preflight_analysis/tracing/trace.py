@@ -158,7 +158,7 @@ class Tracer:
                 f"it ended before it was up; the middleware may need what the sandbox by {status.backend} refuses"
             )
         if status.narrow and observed.interface.outcome.status == "crashed":
-            observed = replace(observed, lasting=False, interface=_perhaps_refused(observed.interface, status))
+            observed = replace(observed, lasting=False, interface=_mark_speculative(observed.interface, status))
         if self.cache is not None and observed.lasting and identity(request.executable) == before:
             self.cache.store(
                 recipe,
@@ -212,7 +212,7 @@ def _is_refused(found: Interface) -> bool:
     return found.outcome.status == "crashed" and all(each.builtin for each in found.endpoints)
 
 
-def _perhaps_refused(found: Interface, status: sandbox.SandboxStatus) -> Interface:
+def _mark_speculative(found: Interface, status: sandbox.SandboxStatus) -> Interface:
     said = f"it may have ended for what the sandbox by {status.backend} refuses; bubblewrap would refuse less"
     return replace(found, notes=(*found.notes, said))
 

@@ -156,9 +156,9 @@ class _Builder:
                     continue
                 at = len(channels)
                 made = [self._edge(kind, end, index[id(end.node)], at) for end in ends]
-                told = tuple(dict.fromkeys(i for edge in made for i in edge.findings))
+                finding_ids = tuple(dict.fromkeys(i for edge in made for i in edge.findings))
                 builtin = all(edge.builtin for edge in made)
-                channels.append(ViewChannel(kind, channel.name, channel.types, builtin, channel.external, told))
+                channels.append(ViewChannel(kind, channel.name, channel.types, builtin, channel.external, finding_ids))
                 edges += made
         return GraphView(
             graph.tree.file,

@@ -22,7 +22,7 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
     code points. A float that JSON has no number for is a string.
     """
     deferred = [_node(node, tree, documents) for node in tree.nodes if node.deferred]
-    errors = sorted((f for f in findings if f.stops_launch), key=lambda finding: finding.met)
+    errors = sorted((f for f in findings if f.stops_launch), key=lambda finding: finding.launch_order)
     return {
         "schema": SCHEMA,
         **({"deferred": deferred} if tree.generation == 2 else {}),

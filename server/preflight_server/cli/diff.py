@@ -12,8 +12,8 @@ from preflight_analysis.snapshot.difference import difference
 
 from preflight_server.cli import options
 from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.operand import operands, snapshot_of_operand
 from preflight_server.cli.output import colours, print_json, print_text
-from preflight_server.cli.side import sides, snapshot_of_side
 
 DESCRIPTION = """Compares the nodes, connections, types, QoS and parameters of two launch configurations. Each side is
 a launch file followed by its own arguments, a file that `snapshot` wrote, or one of either in a git revision, as
@@ -34,13 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what came, went or changed."""
-    both = sides(args.launch_args)
+    both = operands(args.launch_args)
     if len(both) != 2:
         raise CannotDoError(f"two sides are compared, and {len(both)} given: {', '.join(s.title for s in both)}")
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _leave)
     with ExitStack() as cleanup:
-        before, after = (snapshot_of_side(side, args, cleanup) for side in both)
+        before, after = (snapshot_of_operand(operand, args, cleanup) for operand in both)
     found = difference(before, after)
     if args.format == "json":
         print_json(report.to_json(found))

@@ -11,9 +11,9 @@ from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
 from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.operand import from_launch
 from preflight_server.cli.output import dumps_json, print_text, say
 from preflight_server.cli.project import exit_code, say_errors
-from preflight_server.cli.side import from_launch
 
 DESCRIPTION = """Writes what a launch file starts, and who talks to whom then, to a file that reads well in a review and
 is the same on each machine; `diff` compares with it. The nodes are run in a sandbox to see what they do: calling this

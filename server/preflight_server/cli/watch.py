@@ -102,7 +102,7 @@ def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> 
                 if args.format == "json":
                     print_json(event_json(event), indent=None)
                 else:
-                    text.tell(event)
+                    text.write(event)
                 sys.stdout.flush()
                 if isinstance(event, Waiting) and event.final:
                     say(f"ros-preflight: {event.reason}")
@@ -117,24 +117,24 @@ class _Text:
     """The events for people: each difference when it comes and when it goes, and how many nodes are as expected."""
 
     shown: dict[Issue, None] = field(default_factory=dict)
-    told: str | None = None
+    last_summary: str | None = None
 
-    def tell(self, event: Event) -> None:
+    def write(self, event: Event) -> None:
         """Print what is new."""
         stamp = time.strftime("%H:%M:%S")
         if isinstance(event, Waiting):
             print_text(f"{stamp} waiting: {event.reason}\n")
         elif isinstance(event, Attached):
-            self.shown, self.told = {}, None
+            self.shown, self.last_summary = {}, None
             print_text(f"{stamp} {'attached to a new run of' if event.again else 'attached to'} {event.place}\n")
         else:
             found = event.comparison
-            if self.told is None and found.same and found.nodes and "present" not in found.nodes.values():
+            if self.last_summary is None and found.same and found.nodes and "present" not in found.nodes.values():
                 return  # what is not there has not lasted yet: this would be no news, and not true for long
             issues = dict.fromkeys(found.issues)
             lines = [f"{stamp} - {line(issue, os.getcwd())}\n" for issue in self.shown if issue not in issues]
             lines += [f"{stamp} + {line(issue, os.getcwd())}\n" for issue in issues if issue not in self.shown]
-            if summary(found) != self.told or lines:
+            if summary(found) != self.last_summary or lines:
                 lines.append(f"{stamp} {summary(found)}\n")
-            self.shown, self.told = issues, summary(found)
+            self.shown, self.last_summary = issues, summary(found)
             print_text("".join(lines))

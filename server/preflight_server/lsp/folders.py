@@ -135,10 +135,10 @@ class Folders:
             self._server.live.stop("the workspace is not trusted any more")
         self.each(lambda session: session.set_trusted(trusted))
 
-    def each(self, tell: Callable[[Session], object]) -> None:
+    def each(self, call: Callable[[Session], object]) -> None:
         """Pass something on to every session."""
         for session in self:
-            tell(session)
+            call(session)
 
 
 def _holds(folder: str, path: str) -> bool:

@@ -106,23 +106,23 @@ class LiveWatch:
                 return
             with contextlib.suppress(RuntimeError):  # the event loop is closed
                 for event in events:
-                    loop.call_soon_threadsafe(self._tell, watch, event)
+                    loop.call_soon_threadsafe(self._report, watch, event)
             watch.stopped.wait(POLL_SECONDS)
 
-    def _tell(self, watch: _Watch, event: Event) -> None:
+    def _report(self, watch: _Watch, event: Event) -> None:
         if watch is not self._watch:
             return
         if isinstance(event, Waiting) and event.final:
             self.stop(event.reason)
             return
-        told = event_json(event)
-        for issue in told.get("issues", ()):
+        record = event_json(event)
+        for issue in record.get("issues", ()):
             issue["location"], issue["source"] = _location(issue.pop("place")), _location(issue["source"])
-        self._notify(watch, told)
+        self._notify(watch, record)
 
-    def _notify(self, watch: _Watch, told: dict[str, Any]) -> None:
+    def _notify(self, watch: _Watch, record: dict[str, Any]) -> None:
         root = {"uri": to_uri(watch.analysis.root), "args": dict(watch.analysis.args)}
-        self._server.protocol.notify(LIVE, {**told, "root": root})
+        self._server.protocol.notify(LIVE, {**record, "root": root})
 
 
 def _location(place: dict[str, Any] | None) -> dict[str, Any] | None:

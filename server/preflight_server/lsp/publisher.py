@@ -25,7 +25,7 @@ _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
+class _Published:
     uri: str
     version: int | None
     diagnostics: Sequence[types.Diagnostic]
@@ -39,7 +39,7 @@ class Publisher:
         self._found: dict[Session, Mapping[str, list[types.Diagnostic]]] = {}
         """By folder."""
         self._current: dict[str, list[types.Diagnostic]] = {}
-        self._published: dict[str, _Told] = {}
+        self._published: dict[str, _Published] = {}
         self._pulled: dict[str, list[types.Diagnostic]] = {}
 
     @property
@@ -51,12 +51,12 @@ class Publisher:
         """`found` are those of all files that have any in that folder, or that must be told that they have none.
         `edited` is the file whose edit led to them: its editor asks for them by itself."""
         self._found[session] = found
-        self._tell(edited)
+        self._publish_changed(edited)
 
     def forget(self, session: Session) -> None:
         """A folder was closed."""
         if self._found.pop(session, None) is not None:
-            self._tell(None)
+            self._publish_changed(None)
 
     def _merged(self) -> dict[str, list[types.Diagnostic]]:
         """What is told of each file: what its own folder says of it, else what the others do."""
@@ -70,7 +70,7 @@ class Publisher:
             merged.update({path: list(found[path]) for path in own})
         return merged
 
-    def _tell(self, edited: str | None) -> None:
+    def _publish_changed(self, edited: str | None) -> None:
         diagnostics = self._current = self._merged()
         stale = False
         for path in dict.fromkeys((*diagnostics, *self._published)):
@@ -101,18 +101,18 @@ class Publisher:
             _log.info("the client did not refresh: %s", error)
 
     def _publish(self, path: str, uri: str, version: int | None, found: list[types.Diagnostic], must: bool) -> None:
-        told, new = self._published.get(path), _Told(uri, version, found)
-        if told == new or (told is None and not found and not must):
+        last, new = self._published.get(path), _Published(uri, version, found)
+        if last == new or (last is None and not found and not must):
             return
-        if told is not None and told.uri != uri and told.diagnostics:
-            self._send(_Told(told.uri, None, []))
+        if last is not None and last.uri != uri and last.diagnostics:
+            self._send(_Published(last.uri, None, []))
         if found or must:
             self._published[path] = new
         else:
             self._published.pop(path, None)
         self._send(new)
 
-    def _send(self, told: _Told) -> None:
+    def _send(self, last: _Published) -> None:
         self._server.text_document_publish_diagnostics(
-            types.PublishDiagnosticsParams(told.uri, told.diagnostics, told.version)
+            types.PublishDiagnosticsParams(last.uri, last.diagnostics, last.version)
         )

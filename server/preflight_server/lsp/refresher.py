@@ -17,7 +17,7 @@ _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
+class _Answered:
     document: OpenDocument
     answer: object
     ask: Callable[[], Awaitable[object]]
@@ -33,18 +33,18 @@ class Refresher:
         self._server = server
         self._refresh = refresh
         self._supported = supported
-        self._told: dict[str, _Told] = {}
+        self._answered: dict[str, _Answered] = {}
         self._task: asyncio.Task[None] | None = None
         self._again = False
         server.after_analysis.append(self._look)
 
-    def told(self, document: OpenDocument, answer: object, ask: Callable[[], Awaitable[object]]) -> None:
+    def answered(self, document: OpenDocument, answer: object, ask: Callable[[], Awaitable[object]]) -> None:
         """What the client was told of a document, and how to ask for it again; `ask` gives None where it cannot."""
-        self._told[document.uri] = _Told(document, answer, ask)
+        self._answered[document.uri] = _Answered(document, answer, ask)
 
     def _look(self) -> None:
         self._again = True
-        if self._told and (self._task is None or self._task.done()) and self._supported():
+        if self._answered and (self._task is None or self._task.done()) and self._supported():
             self._task = self._server.spawn(self._compare())
 
     async def _compare(self) -> None:
@@ -52,13 +52,13 @@ class Refresher:
             for session in self._server.sessions:
                 await session.quiet()
             self._again = False
-            for uri, told in tuple(self._told.items()):
-                if self._server.texts.get(uri) is not told.document:
-                    del self._told[uri]  # closed, or edited: then the client asks by itself
+            for uri, last in tuple(self._answered.items()):
+                if self._server.texts.get(uri) is not last.document:
+                    del self._answered[uri]  # closed, or edited: then the client asks by itself
                     continue
-                now = await told.ask()
-                if now is not None and now != told.answer and self._told.get(uri) is told:
-                    self._told.clear()
+                now = await last.ask()
+                if now is not None and now != last.answer and self._answered.get(uri) is last:
+                    self._answered.clear()
                     await self._ask()
                     break
 

@@ -115,10 +115,12 @@ def with_known(
     return workspace.with_interfaces(static, interfaces, why_not_run, previous)
 
 
-def tell(loop: asyncio.AbstractEventLoop, told: Callable[[int, Interface], None], index: int, what: Interface) -> None:
-    """Call `told` on the loop; on a loop that has ended in the meantime nobody waits for it."""
+def report(
+    loop: asyncio.AbstractEventLoop, callback: Callable[[int, Interface], None], index: int, what: Interface
+) -> None:
+    """Call `callback` on the loop; on a loop that has ended in the meantime nobody waits for it."""
     with contextlib.suppress(RuntimeError):
-        loop.call_soon_threadsafe(told, index, what)
+        loop.call_soon_threadsafe(callback, index, what)
 
 
 class Runs:
@@ -329,7 +331,7 @@ class Runs:
                 lambda job, _cancel: job.run(tracer),
                 jobs,
                 alike=lambda job: likeness(job.request),
-                on_done=lambda index, interface: tell(loop, one_done, index, interface),
+                on_done=lambda index, interface: report(loop, one_done, index, interface),
                 cancel=batch.cancelled,
             )
 

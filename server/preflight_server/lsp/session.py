@@ -521,8 +521,8 @@ class Session:
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
         self._server.publisher.update(self, {**clean, **round_.diagnostics}, self._edited)
-        for told in self._server.after_analysis:
-            told()
+        for callback in self._server.after_analysis:
+            callback()
 
     @property
     def _shows_related(self) -> bool:

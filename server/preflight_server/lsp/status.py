@@ -29,20 +29,20 @@ class Status:
         self.wanted = False
         self._server = server
         self._work: dict[str, tuple[State, int, int]] = {}
-        self._told: dict[str, Any] | None = None
+        self._sent: dict[str, Any] | None = None
         server.after_analysis.append(self._analysed)
 
     def working(self, token: str, state: State, done: int, total: int) -> None:
         """A piece of work began or went on; `total` is 0 while that is not known."""
         self._work[token] = (state, done, total)
-        self.tell()
+        self.send()
 
     def ended(self, token: str) -> None:
         """A piece of work is over."""
         if self._work.pop(token, None) is not None:
-            self.tell()
+            self.send()
 
-    def tell(self) -> None:
+    def send(self) -> None:
         """Send what there is to say if it is news."""
         if not self.wanted or not self._server.sessions:
             return
@@ -52,8 +52,8 @@ class Status:
         stopped = ({"kind": each.not_run_since, "message": each.why_not_run} for each in runs if each.not_run_since)
         not_run = next(stopped, None)
         now = {"state": state, "done": done, "total": total, "notRun": not_run, "broken": self._broken()}
-        if now != self._told:
-            self._told = now
+        if now != self._sent:
+            self._sent = now
             self._server.protocol.notify(STATUS, now)
 
     def _broken(self) -> list[str]:
@@ -63,5 +63,5 @@ class Status:
 
     def _analysed(self) -> None:
         if self.wanted:
-            self.tell()
+            self.send()
             self._server.protocol.notify(ANALYSED, {})

@@ -29,8 +29,8 @@ class Outcome:
 
 def request(expression: str, modules: Iterable[str], distro: str | None) -> str:
     """The name of a run."""
-    told = {"expression": expression, "modules": list(modules), "imports": distro not in WITHOUT_MODULES}
-    return MARK + json.dumps(told, sort_keys=True)
+    request = {"expression": expression, "modules": list(modules), "imports": distro not in WITHOUT_MODULES}
+    return MARK + json.dumps(request, sort_keys=True)
 
 
 def parse_request(line: str) -> dict[str, Any] | None:
@@ -44,9 +44,9 @@ def parse_request(line: str) -> dict[str, Any] | None:
 def read_answer(output: str) -> Outcome:
     """What a run printed, last: the expression may print as well."""
     try:
-        told = json.loads(output.rpartition("\n")[2])
-        if isinstance(told.get("text"), str):
-            return Outcome(told["text"])
-        return Outcome(None, str(told["error"]), told.get("sure") is True)
+        reply = json.loads(output.rpartition("\n")[2])
+        if isinstance(reply.get("text"), str):
+            return Outcome(reply["text"])
+        return Outcome(None, str(reply["error"]), reply.get("sure") is True)
     except (ValueError, RecursionError, KeyError, AttributeError):
         return Outcome(None, "its run gave no answer that can be read", sure=False)

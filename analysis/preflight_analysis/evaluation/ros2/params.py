@@ -221,7 +221,7 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
             file = read_param_file(document.text)
             to.add(_of_file(file, document.text, source.path, document.lines, source.origin, to))
     return node._replace(
-        name=name, told=True, name_inferred=inferred, params=to.effective(), param_sources=tuple(to.found)
+        name=name, name_from_code=True, name_inferred=inferred, params=to.effective(), param_sources=tuple(to.found)
     )
 
 

@@ -55,7 +55,7 @@ class Answer:
     variables: Mapping[str, str] | None = None
 
 
-class _Told(NamedTuple):
+class _Reply(NamedTuple):
     """What an answer says, and its text."""
 
     values: Mapping[str, Any]
@@ -64,14 +64,14 @@ class _Told(NamedTuple):
 
 def request(run: PythonRun) -> str:
     """The name of a run."""
-    told = {"file": run.file, "text": run.text, "env": dict(run.variables), "calls": list(run.calls)}
+    request = {"file": run.file, "text": run.text, "env": dict(run.variables), "calls": list(run.calls)}
     if run.files:
-        told["files"] = dict(run.files)
+        request["files"] = dict(run.files)
     if run.given:
-        told["given"] = dict(run.given)
+        request["given"] = dict(run.given)
     if run.packages:
-        told["packages"] = dict(run.packages)
-    return MARK + json.dumps(told, sort_keys=True)
+        request["packages"] = dict(run.packages)
+    return MARK + json.dumps(request, sort_keys=True)
 
 
 def parse_request(line: str) -> dict[str, Any] | None:
@@ -92,25 +92,25 @@ def recorded(
     run = replace(run, packages=state.environment.meant)
     place = Place(launch_file.path, document.lines, chain, run)
     unknowns, problems = len(state.unknowns), len(state.problems)
-    told = None
+    reply = None
     if document.problems:
         at = launch_file.document.location(document.problems[0].span)
         state.note_unknown(launch_file.path, "it cannot be run as it is", at)
     else:
-        told = _ask(state, place, run, place.origin(whole), sure=True)
-    if told is None and (last := _last_good(state, run)) is not None:
-        run, told, edited = last
+        reply = _ask(state, place, run, place.origin(whole), sure=True)
+    if reply is None and (last := _last_good(state, run)) is not None:
+        run, reply, edited = last
         wrong = (*(p.span for p in document.problems), *(p.location.span for p in state.problems[problems:]))
         state.edited[run.file] = Edited(edited, frozenset(wrong))
         del state.unknowns[unknowns:]
-    if told is None or launch_file.root is None:
+    if reply is None or launch_file.root is None:
         return launch_file, None
-    children = _actions(told.output, run.source, whole)
-    context.environment.update(_texts(told.values.get("env")) or {})
+    children = _actions(reply.output, run.source, whole)
+    context.environment.update(_texts(reply.values.get("env")) or {})
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
-def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Told, Span] | None:
+def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Span] | None:
     """The last run of the launch file (or of the same calls in it) that went well, what it told, and what of the text
     is another one since. It counts until there is one of the text as it is: half typed it cannot be run, and a run
     takes its time."""
@@ -121,7 +121,7 @@ def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Told, Span
         return None
     changed = change(then["text"], run.text)
     earlier = replace(run, text=then["text"], source=_source(then["text"], changed), replaced=True)
-    return earlier, _Told(_read(result.output), result.output), changed.after
+    return earlier, _Reply(_read(result.output), result.output), changed.after
 
 
 def _series(file: str, variables: Mapping[str, str], calls: Iterable[Mapping[str, Any]]) -> str:
@@ -134,8 +134,8 @@ def good_series(line: str, result: CommandResult) -> str | None:
     run = parse_request(line)
     if run is None or result.status != "done":
         return None
-    told = _read(result.output)
-    good = isinstance(told, dict) and not isinstance(told.get("error"), dict)
+    reply = _read(result.output)
+    good = isinstance(reply, dict) and not isinstance(reply.get("error"), dict)
     return _series(run["file"], run["env"], run["calls"]) if good else None
 
 
@@ -160,20 +160,20 @@ def called(
     files = {path: document.text for path, document in state.made.items() if path in given}
     run = replace(place.run, calls=(*place.run.calls, call), files={**place.run.files, **files})
     unknowns, problems = len(state.unknowns), len(state.problems)
-    told = _ask(state, place, run, place.origin(at), sure=complete)
-    if told is None and not run.replaced and (last := _last_good(state, run)) is not None:
-        run, told, edited = last
+    reply = _ask(state, place, run, place.origin(at), sure=complete)
+    if reply is None and not run.replaced and (last := _last_good(state, run)) is not None:
+        run, reply, edited = last
         state.edited.setdefault(run.file, Edited(edited, frozenset(p.location.span for p in state.problems[problems:])))
         del state.unknowns[unknowns:]
-    if told is None:
+    if reply is None:
         return None
     if what == "perform":
-        text = told.values.get("text")
+        text = reply.values.get("text")
         return Answer(place, text=text) if isinstance(text, str) else None
-    changed, removed = _texts(told.values.get("set")), told.values.get("unset")
+    changed, removed = _texts(reply.values.get("set")), reply.values.get("unset")
     gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
-    actions = _actions(told.output, run.source, at)
-    return Answer(replace(place, run=run), actions, None, changed, gone, _texts(told.values.get("env")))
+    actions = _actions(reply.output, run.source, at)
+    return Answer(replace(place, run=run), actions, None, changed, gone, _texts(reply.values.get("env")))
 
 
 @memoize_by_file
@@ -216,7 +216,7 @@ def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
     return found, complete
 
 
-def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure: bool) -> _Told | None:
+def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure: bool) -> _Reply | None:
     """The answer to a run, None if there is none or it has failed. `sure`: all that the run was given is known, so
     that its failure is one of the file."""
     line = request(run)
@@ -235,19 +235,19 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         state.problem("python-exception", origin, error="", message=result.reason, frames=())
         state.note_unknown(what, result.reason, origin[-1])
         return None
-    told = _read(result.output)
-    if not isinstance(told, dict):
+    reply = _read(result.output)
+    if not isinstance(reply, dict):
         state.note_unknown(what, "its run gave no answer that can be read", origin[-1])
         return None
-    for path, text in (_texts(told.get("files")) or {}).items():
+    for path, text in (_texts(reply.get("files")) or {}).items():
         if os.path.lexists(path):
             continue  # a file of the host's is what it is, whatever the run says
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
-    error = told.get("error")
+    error = reply.get("error")
     if isinstance(error, dict):
         _raised(state, place, run, error, origin, sure=sure)
         return None
-    return _Told(told, result.output)
+    return _Reply(reply, result.output)
 
 
 @lru_cache(maxsize=64)
@@ -334,7 +334,7 @@ def _asserted(state: Collector, run: PythonRun, file: str, line: int) -> str:
     return ""
 
 
-def _texts(told: object) -> dict[str, str] | None:
-    if not isinstance(told, dict):
+def _texts(value: object) -> dict[str, str] | None:
+    if not isinstance(value, dict):
         return None
-    return {k: v for k, v in told.items() if isinstance(k, str) and isinstance(v, str)}
+    return {k: v for k, v in value.items() if isinstance(k, str) and isinstance(v, str)}

@@ -11,7 +11,7 @@ from typing import Any, Callable
 FOLDERS = ("lib/preflight_agents", "lib/preflight_agents/fake_launch", "lib/aspectlib", "site")
 
 
-def tell(root: str, temporary: str, emit: Callable[[dict[str, Any]], Any]) -> None:
+def report(root: str, temporary: str, emit: Callable[[dict[str, Any]], Any]) -> None:
     """`emit` each module below `root` as `{"ev": "compiled", "path": ..., "data": base64}`. `temporary` is a folder to
     write to."""
     made = os.path.join(temporary, "made.pyc")

@@ -59,13 +59,13 @@ _polls: dict[Any, int] = {}
 _told_states: set[str] = set()
 
 
-def _quiet(tell: Callable[..., None]) -> Callable[..., None]:
+def _quiet(report: Callable[..., None]) -> Callable[..., None]:
     """What we do beside the node must not fail it."""
 
-    @functools.wraps(tell)
+    @functools.wraps(report)
     def safe(*args: Any, **kwargs: Any) -> None:
         try:
-            tell(*args, **kwargs)
+            report(*args, **kwargs)
         except Exception as error:
             channel.send("weave-failed", message=repr(error))
 
@@ -165,7 +165,7 @@ def _qos(profile: Any) -> dict[str, Any]:
 
 
 @_quiet
-def _tell_endpoint(node: Any, role: str, name: Any, described: Any, profile: Any = None) -> None:
+def _report_endpoint(node: Any, role: str, name: Any, described: Any, profile: Any = None) -> None:
     file, line, internal = _caller()
     channel.send(
         "endpoint",
@@ -190,7 +190,7 @@ def _creates(role: str, type_name: str, name: str, profiled: bool) -> Callable[.
             result = original(*args, **kwargs)
             arguments = _bound(original, args, kwargs)
             profile = getattr(result, "qos_profile", None) if profiled else None
-            _tell_endpoint(arguments["self"], role, arguments.get(name), arguments.get(type_name), profile)
+            _report_endpoint(arguments["self"], role, arguments.get(name), arguments.get(type_name), profile)
             return result
 
         return made
@@ -206,7 +206,7 @@ def _action(role: str) -> Callable[..., Any]:
             original(*args, **kwargs)
             arguments = _bound(original, args, kwargs)
             name = arguments.get("action_name")
-            _tell_endpoint(arguments.get("node"), role, name, arguments.get("action_type"))
+            _report_endpoint(arguments.get("node"), role, name, arguments.get("action_type"))
             if role == "action_client":
                 arguments["self"]._preflight_name = name
 
@@ -265,18 +265,21 @@ def _described(given: Any, descriptor: Any, *, of_any_type: bool) -> dict[str, A
         return {"dynamic": True, "read_only": bool(getattr(descriptor, "read_only", False))}
     kinds = sys.modules["rclpy.parameter"].Parameter.Type  # of those that rclpy.node imports
     kind = given if isinstance(given, kinds) else kinds.from_parameter_value(given)
-    told = {"type": kind.name.lower().replace("_", " "), "read_only": bool(getattr(descriptor, "read_only", False))}
+    constraints = {
+        "type": kind.name.lower().replace("_", " "),
+        "read_only": bool(getattr(descriptor, "read_only", False)),
+    }
     # rclpy looks at the range of the parameter's own type alone.
     ranges = getattr(
-        descriptor, {"integer": "integer_range", "double": "floating_point_range"}.get(told["type"], ""), ()
+        descriptor, {"integer": "integer_range", "double": "floating_point_range"}.get(constraints["type"], ""), ()
     )
     for each in list(ranges)[:1]:
-        told["range"] = [each.from_value, each.to_value, each.step]
-    return told
+        constraints["range"] = [each.from_value, each.to_value, each.step]
+    return constraints
 
 
 @_quiet
-def _tell_params(arguments: dict[str, Any]) -> None:
+def _report_params(arguments: dict[str, Any]) -> None:
     file, line, internal = _caller()
     of_any_type = _from_overrides.get(id(arguments.get("self"))) is not None
     namespace = arguments.get("namespace")
@@ -306,7 +309,7 @@ def _declares(original: Callable[..., Any]) -> Callable[..., Any]:
         arguments = _bound(original, args, kwargs)
         if "parameters" in arguments:
             arguments["parameters"] = list(arguments["parameters"])
-        _tell_params(arguments)
+        _report_params(arguments)
         return original(**arguments)
 
     return declared
@@ -316,7 +319,7 @@ def _constructed(original: Callable[..., Any]) -> Callable[..., Any]:
     """A node is made: it may take parameters that it does not declare."""
 
     @_quiet
-    def tell(node: Any, arguments: dict[str, Any]) -> None:
+    def report(node: Any, arguments: dict[str, Any]) -> None:
         _nodes.append(node)
         name = str(node.get_name())
         channel.send(
@@ -341,7 +344,7 @@ def _constructed(original: Callable[..., Any]) -> Callable[..., Any]:
         begin(args, kwargs)
         original(*args, **kwargs)
         arguments = _bound(original, args, kwargs)
-        tell(arguments["self"], arguments)
+        report(arguments["self"], arguments)
 
     return made
 
@@ -376,7 +379,7 @@ def _spins(flush: Callable[[], None]) -> Callable[..., Any]:
     """The main thread enters its event loop."""
 
     @_quiet
-    def tell() -> None:
+    def report() -> None:
         _activate()
         if _in_main_thread():
             flush()
@@ -384,7 +387,7 @@ def _spins(flush: Callable[[], None]) -> Callable[..., Any]:
 
     def advice(original: Callable[..., Any]) -> Callable[..., Any]:
         def spin(*args: Any, **kwargs: Any) -> Any:
-            tell()
+            report()
             return original(*args, **kwargs)
 
         return spin
@@ -396,7 +399,7 @@ def _turns_once(flush: Callable[[], None]) -> Callable[..., Any]:
     """A call that stands in a loop of the main thread."""
 
     @_quiet
-    def tell() -> None:
+    def report() -> None:
         frame: Optional[FrameType] = sys._getframe(3)  # who calls `turn`
         while frame is not None and _top(frame) in ("preflight_agents", "functools"):
             frame = frame.f_back
@@ -413,7 +416,7 @@ def _turns_once(flush: Callable[[], None]) -> Callable[..., Any]:
 
     def advice(original: Callable[..., Any]) -> Callable[..., Any]:
         def turn(*args: Any, **kwargs: Any) -> Any:
-            tell()
+            report()
             return original(*args, **kwargs)
 
         return turn
@@ -452,7 +455,7 @@ def _ends(original: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @_quiet
-def _tell_wait(state: str, kind: str, name: str, flush: Callable[[], None]) -> None:
+def _report_wait(state: str, kind: str, name: str, flush: Callable[[], None]) -> None:
     file, line, _ = _caller()
     channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=_in_main_thread())
     if state == "wait":
@@ -469,7 +472,7 @@ def _waits(
             arguments = _bound(original, args, kwargs)
             client, seconds = arguments["self"], arguments.get("timeout_sec")
             name = name_of(client)
-            _tell_wait("wait", kind, name, flush)
+            _report_wait("wait", kind, name, flush)
             try:
                 limit = mock_replies.grace() if seconds is None else min(float(seconds), mock_replies.grace())
                 end = time.monotonic() + limit
@@ -480,7 +483,7 @@ def _waits(
                     mock_replies.made_up(kind, name)
                 return True
             finally:
-                _tell_wait("resume", kind, name, flush)
+                _report_wait("resume", kind, name, flush)
 
         return wait
 
@@ -555,7 +558,7 @@ def _first_message(flush: Callable[[], None]) -> Callable[..., Any]:
             arguments = _bound(original, args, kwargs)
             seconds = arguments.get("time_to_wait", -1)
             name = str(arguments["topic"])
-            _tell_wait("wait", "message", name, flush)
+            _report_wait("wait", "message", name, flush)
             try:
                 limit = mock_replies.grace()
                 arguments["time_to_wait"] = min(seconds, limit) if seconds >= 0 else limit
@@ -565,7 +568,7 @@ def _first_message(flush: Callable[[], None]) -> Callable[..., Any]:
                 mock_replies.made_up("message", name)
                 return True, arguments["msg_type"]()
             finally:
-                _tell_wait("resume", "message", name, flush)
+                _report_wait("resume", "message", name, flush)
 
         return wait
 

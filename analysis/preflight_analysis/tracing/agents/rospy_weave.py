@@ -39,7 +39,7 @@ _BUILTINS = frozenset(("/rosout", "~get_loggers", "~set_logger_level", "/clock")
 _MAX_DEFAULT = 4_000
 _MAX_SITES = 2_000
 
-_told: set[tuple[Any, ...]] = set()
+_reported: set[tuple[Any, ...]] = set()
 
 
 def _top(frame: FrameType) -> str:
@@ -64,22 +64,22 @@ def in_main_thread() -> bool:
     return threading.current_thread() is threading.main_thread()
 
 
-def _quiet(tell: Callable[..., None]) -> Callable[..., None]:
+def _quiet(report: Callable[..., None]) -> Callable[..., None]:
     """An advice that fails must not fail the node."""
 
-    @functools.wraps(tell)
+    @functools.wraps(report)
     def safe(*args: Any, **kwargs: Any) -> None:
         try:
-            tell(*args, **kwargs)
+            report(*args, **kwargs)
         except Exception as error:
             channel.send("weave-failed", message=repr(error))
 
     return safe
 
 
-def _before(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
-    """Aspect: `tell(bound arguments)` before the call."""
-    tell = _quiet(tell)
+def _before(report: Callable[..., None]) -> Callable[[Advised], Advised]:
+    """Aspect: `report(bound arguments)` before the call."""
+    report = _quiet(report)
 
     def aspect(cutpoint: Advised) -> Advised:
         signature = inspect.signature(cutpoint)
@@ -89,7 +89,7 @@ def _before(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
                 arguments = signature.bind(*args, **kwargs).arguments
             except TypeError:
                 return cutpoint(*args, **kwargs)
-            tell(arguments)
+            report(arguments)
             return cutpoint(*args, **kwargs)
 
         return advised
@@ -97,16 +97,16 @@ def _before(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
     return aspect
 
 
-def _after(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
-    """Aspect: `tell(bound arguments)` after the call returned."""
-    tell = _quiet(tell)
+def _after(report: Callable[..., None]) -> Callable[[Advised], Advised]:
+    """Aspect: `report(bound arguments)` after the call returned."""
+    report = _quiet(report)
 
     def aspect(cutpoint: Advised) -> Advised:
         signature = inspect.signature(cutpoint)
 
         def advised(*args: Any, **kwargs: Any) -> Any:
             result = cutpoint(*args, **kwargs)
-            tell(signature.bind(*args, **kwargs).arguments)
+            report(signature.bind(*args, **kwargs).arguments)
             return result
 
         return advised
@@ -115,7 +115,7 @@ def _after(tell: Callable[..., None]) -> Callable[[Advised], Advised]:
 
 
 def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
-    def tell(arguments: dict[str, Any]) -> None:
+    def report(arguments: dict[str, Any]) -> None:
         made, given = arguments["self"], str(arguments["name"])
         described = arguments.get("data_class", arguments.get("service_class"))
         file, line, internal = caller()
@@ -145,7 +145,7 @@ def _endpoint(role: str, watch: polling.Watch) -> Callable[[Advised], Advised]:
         if role == "subscriber" and not internal:
             watch.subscribed(made)
 
-    return _after(tell)
+    return _after(report)
 
 
 def _default(value: object) -> object:
@@ -194,13 +194,13 @@ def _polled(
 def _parameter(
     access: str, unspecified: object, resolve: Callable[[str], str], watch: polling.Watch
 ) -> Callable[[Advised], Advised]:
-    def tell(arguments: dict[str, Any]) -> None:
+    def report(arguments: dict[str, Any]) -> None:
         file, line, internal = caller()
         name = str(arguments.get("param_name", "/"))
         site = (access, name, file, line)
-        if site in _told or len(_told) > _MAX_SITES:
+        if site in _reported or len(_reported) > _MAX_SITES:
             return
-        _told.add(site)
+        _reported.add(site)
         watch.something_new()
         default = arguments.get("default", unspecified)
         channel.send(
@@ -215,19 +215,19 @@ def _parameter(
             builtin=internal,
         )
 
-    return _before(tell)
+    return _before(report)
 
 
 def _asked(*what: str) -> Callable[[Advised], Advised]:
     """The node looks at its own name, namespace or remaps: what it does may depend on them."""
 
-    def tell(_arguments: dict[str, Any]) -> None:
-        if what not in _told and not caller()[2]:
-            _told.add(what)
+    def report(_arguments: dict[str, Any]) -> None:
+        if what not in _reported and not caller()[2]:
+            _reported.add(what)
             for one in what:
                 channel.send("asked", what=one)
 
-    return _before(tell)
+    return _before(report)
 
 
 def _other_threads() -> int:
@@ -253,13 +253,13 @@ def _ends(_arguments: dict[str, Any]) -> None:
 def _spin(flush: Callable[[], None], watch: polling.Watch) -> Callable[[Advised], Advised]:
     """The main thread enters its event loop."""
 
-    def tell(_arguments: dict[str, Any]) -> None:
+    def report(_arguments: dict[str, Any]) -> None:
         if in_main_thread():
             watch.over()
             flush()
             channel.send("state", state="spin", threads=_other_threads())
 
-    return _before(tell)
+    return _before(report)
 
 
 def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Callable[[Advised], Advised]:
@@ -268,7 +268,7 @@ def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Calla
     A single `rospy.sleep` may be a pause before more endpoints are made.
     """
 
-    def tell(arguments: dict[str, Any]) -> None:
+    def report(arguments: dict[str, Any]) -> None:
         if "looped" in polling.told_states or not in_main_thread() or watch.waiting():
             return
         file, line, internal = caller()
@@ -289,7 +289,7 @@ def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Calla
             flush()
             channel.send("state", state=state, threads=_other_threads(), starving=starving)
 
-    return _before(tell)
+    return _before(report)
 
 
 def _wait(
@@ -303,7 +303,7 @@ def _wait(
     """The node blocks until somebody else is there; if nobody comes, `answer(bound arguments)` is returned."""
 
     @_quiet
-    def tell(state: str, name: str) -> None:
+    def report(state: str, name: str) -> None:
         file, line, _ = caller()
         channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=in_main_thread())
         if in_main_thread():
@@ -320,7 +320,7 @@ def _wait(
                 name = str(bound.arguments[argument])
             except TypeError:
                 return cutpoint(*args, **kwargs)
-            tell("wait", name)
+            report("wait", name)
             try:
                 by_itself, result = mock_replies.limited(
                     cutpoint, bound, rospy.ROSInterruptException, rospy.ROSException
@@ -330,7 +330,7 @@ def _wait(
                 mock_replies.made_up(kind, name)
                 return answer(bound.arguments)
             finally:
-                tell("resume", name)
+                report("resume", name)
 
         return advised
 
@@ -338,22 +338,22 @@ def _wait(
 
 
 def _initialised(watch: polling.Watch) -> Callable[[dict[str, Any]], None]:
-    def tell(_arguments: dict[str, Any]) -> None:
+    def report(_arguments: dict[str, Any]) -> None:
         channel.send("state", state="init")
         if in_main_thread():
             watch.start()
 
-    return tell
+    return report
 
 
 def _publishes(watch: polling.Watch) -> Callable[[Advised], Advised]:
     """The main thread publishes."""
 
-    def tell(_arguments: dict[str, Any]) -> None:
+    def report(_arguments: dict[str, Any]) -> None:
         if in_main_thread() and not caller()[2]:
             watch.published()
 
-    return _before(tell)
+    return _before(report)
 
 
 def _call(refused: Any) -> Callable[[Advised], Advised]:

@@ -47,7 +47,7 @@ class Run:
             job["most_processes"], job["most_memory"], job["alone"], job["written"], job["most_disk"]
         )
         self.lock = threading.Lock()
-        self.told: set[str] = set()
+        self.sent: set[str] = set()
         self.count = 0
         self.dropped = 0
         self.started = self.active = time.monotonic()
@@ -81,9 +81,9 @@ class Run:
         """One line to the host; repetitions are left out. Whether it was new."""
         line = json.dumps(record, sort_keys=True)
         with self.lock:
-            if line in self.told or self.count >= MAX_EVENTS:
+            if line in self.sent or self.count >= MAX_EVENTS:
                 return False
-            self.told.add(line)
+            self.sent.add(line)
             self.count += 1
             sys.stdout.write(line + "\n")
             sys.stdout.flush()

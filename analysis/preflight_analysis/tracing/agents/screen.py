@@ -27,12 +27,12 @@ def start(program: str, limit: Callable[[], None]) -> tuple[int, Optional[str]]:
         finally:
             os._exit(127)
     os.close(write)
-    told = b""
-    while not told.endswith(b"\n") and select.select([read], [], [], _PATIENCE)[0]:
+    output = b""
+    while not output.endswith(b"\n") and select.select([read], [], [], _PATIENCE)[0]:
         data = os.read(read, 64)
         if not data:
             break
-        told += data
+        output += data
     os.close(read)
-    number = told.decode(errors="replace").strip()
+    number = output.decode(errors="replace").strip()
     return pid, f":{number}" if number.isdigit() else None

@@ -65,7 +65,7 @@ def _main(job: dict[str, Any]) -> None:
     if "compile" in job:
         from . import compiling  # noqa: PLC0415
 
-        compiling.tell(job["root"], job["temporary"], Run(job).emit)
+        compiling.report(job["root"], job["temporary"], Run(job).emit)
         return
     for folder in job["folders"]:
         os.makedirs(folder, exist_ok=True)

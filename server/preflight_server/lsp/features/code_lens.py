@@ -75,5 +75,5 @@ def register(server: PreflightServer) -> None:
         found = await answer(uri)
         document = ls.texts.get(uri)
         if document is not None:
-            refresher.told(document, found, lambda: answer(uri))
+            refresher.answered(document, found, lambda: answer(uri))
         return found

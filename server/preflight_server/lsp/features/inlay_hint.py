@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
+class _Hints:
     """What a client was told of a part of a document."""
 
     document: OpenDocument
@@ -29,14 +29,14 @@ class _Told:
     hints: tuple[Hint, ...]
 
 
-async def _hints(ls: PreflightServer, uri: str, within: Span | types.Range) -> tuple[_Told, Positions] | None:
+async def _hints(ls: PreflightServer, uri: str, within: Span | types.Range) -> tuple[_Hints, Positions] | None:
     view = await ls.view_of(uri, python=True)
     if view is None:
         return None
     span = within if isinstance(within, Span) else view.converter.span(view.path, within)
     shown = view.session.settings.inlay_hints
     found = await view.session.in_pool(lambda: query(view.analyses, view.path, span)) if shown else ()
-    return _Told(view.document, span, found), view.converter.positions(view.path)
+    return _Hints(view.document, span, found), view.converter.positions(view.path)
 
 
 def _converted(hints: Iterable[Hint], positions: Positions) -> list[types.InlayHint]:
@@ -66,12 +66,12 @@ def register(server: PreflightServer) -> None:
         found = await _hints(ls, params.text_document.uri, params.range)
         if found is None:
             return None
-        told, positions = found
-        uri, within = params.text_document.uri, told.within
+        hints, positions = found
+        uri, within = params.text_document.uri, hints.within
 
         async def again() -> object:
             now = await _hints(ls, uri, within)
             return now[0].hints if now else None
 
-        refresher.told(told.document, told.hints, again)
-        return _converted(told.hints, positions)
+        refresher.answered(hints.document, hints.hints, again)
+        return _converted(hints.hints, positions)

@@ -54,7 +54,7 @@ def register(server: PreflightServer) -> None:
     @server.feature(types.INITIALIZED)
     async def initialized(ls: PreflightServer, params: types.InitializedParams) -> None:
         ls.spawn(_register(ls))
-        ls.status.tell()
+        ls.status.send()
         if len(ls.sessions) > 1:
             ls.spawn(own_settings(ls))
         for session in ls.sessions:

@@ -58,7 +58,7 @@ def register(server: PreflightServer) -> None:
         if names is not None and not names.intersection(node.name for node in view.analysis.tree.nodes):
             return {"nodes": [], "message": "no node is started here"}
         nodes = view.session.runs.again(view.analysis, names)
-        ls.status.tell()
+        ls.status.send()
         return {"nodes": nodes, "message": view.session.runs.why_not_run}
 
     @server.feature(CLEAR_CACHE)

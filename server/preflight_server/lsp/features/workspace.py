@@ -99,7 +99,7 @@ def register(server: PreflightServer) -> None:
         added = [path for folder in params.event.added if (path := to_path(folder.uri)) is not None]
         removed = [path for folder in params.event.removed if (path := to_path(folder.uri)) is not None]
         made = ls.folders.change(added, removed)
-        ls.status.tell()
+        ls.status.send()
         ls.spawn(own_settings(ls))
         for session in made:
             await session.workspace()

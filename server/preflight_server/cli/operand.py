@@ -27,8 +27,8 @@ from preflight_server.cli.project import analyse, run_nodes
 
 
 @dataclass(frozen=True, slots=True)
-class Side:
-    """One side of a comparison as given on the command line."""
+class Operand:
+    """One operand of a comparison as given on the command line."""
 
     file: str
     args: tuple[str, ...] = ()
@@ -39,40 +39,40 @@ class Side:
         return " ".join((self.file, *self.args))
 
 
-def sides(words: list[str]) -> list[Side]:
+def operands(words: list[str]) -> list[Operand]:
     """Files, each followed by the `name:=value` words of its own."""
-    found: list[Side] = []
+    found: list[Operand] = []
     for word in words:
         if not options.is_assignment(word):
-            found.append(Side(word))
+            found.append(Operand(word))
         elif not found:
             raise CannotDoError(f"{word} stands before the launch file that it is an argument of")
         else:
-            found[-1] = Side(found[-1].file, (*found[-1].args, word))
+            found[-1] = Operand(found[-1].file, (*found[-1].args, word))
     return found
 
 
-def snapshot_of_side(side: Side, args: argparse.Namespace, cleanup: ExitStack) -> Snapshot:
+def snapshot_of_operand(operand: Operand, args: argparse.Namespace, cleanup: ExitStack) -> Snapshot:
     """What stands in a snapshot, or what a launch file comes to. Folders that are made for it go with `cleanup`.
 
     Raises `CannotDoError`.
     """
-    path = os.path.abspath(side.file)
-    values = options.launch_args(list(side.args), path)
+    path = os.path.abspath(operand.file)
+    values = options.launch_args(list(operand.args), path)
     if os.path.isdir(path):
-        raise CannotDoError(f"{side.file} is a folder; name a launch file or a snapshot")
+        raise CannotDoError(f"{operand.file} is a folder; name a launch file or a snapshot")
     if not os.path.exists(path):
-        if ":" not in side.file:
-            raise CannotDoError(f"{side.file} does not exist")
-        return _at_revision(side, values, args, cleanup)
+        if ":" not in operand.file:
+            raise CannotDoError(f"{operand.file} does not exist")
+        return _at_revision(operand, values, args, cleanup)
     text = read_text(path)
     if isinstance(text, Unreadable):
-        raise CannotDoError(f"{side.file} {text.reason}")
+        raise CannotDoError(f"{operand.file} {text.reason}")
     if not is_snapshot(text.text):
         return from_launch(path, values, args)[1]
     if values:
-        raise CannotDoError(f"{side.file} is a snapshot, which takes no arguments")
-    return _read(side, text.text)
+        raise CannotDoError(f"{operand.file} is a snapshot, which takes no arguments")
+    return _read(operand, text.text)
 
 
 def from_launch(path: str, values: dict[str, str], args: argparse.Namespace) -> tuple[Analysis, Snapshot]:
@@ -85,16 +85,16 @@ def from_launch(path: str, values: dict[str, str], args: argparse.Namespace) -> 
     return analysis, snapshot_of(analysis, analysis.graph)
 
 
-def _read(side: Side, text: str) -> Snapshot:
+def _read(operand: Operand, text: str) -> Snapshot:
     try:
         return from_yaml(text)
     except NotASnapshotError as error:
-        raise CannotDoError(f"{side.file} {error}") from None
+        raise CannotDoError(f"{operand.file} {error}") from None
 
 
-def _at_revision(side: Side, values: dict[str, str], args: argparse.Namespace, cleanup: ExitStack) -> Snapshot:
+def _at_revision(operand: Operand, values: dict[str, str], args: argparse.Namespace, cleanup: ExitStack) -> Snapshot:
     try:
-        revision = find_revision(side.file, os.getcwd())
+        revision = find_revision(operand.file, os.getcwd())
         folder = os.path.realpath(
             cleanup.enter_context(
                 tempfile.TemporaryDirectory(prefix="ros-preflight-revision-", ignore_cleanup_errors=True)
@@ -102,13 +102,13 @@ def _at_revision(side: Side, values: dict[str, str], args: argparse.Namespace, c
         )
         write_revision(revision, folder)
     except NoRevisionError as error:
-        raise CannotDoError(f"{side.file}: {error}") from None
+        raise CannotDoError(f"{operand.file}: {error}") from None
     except OSError as error:
-        raise CannotDoError(f"{side.file} cannot be checked out: {error.strerror}") from None
+        raise CannotDoError(f"{operand.file} cannot be checked out: {error.strerror}") from None
     path = os.path.join(folder, revision.file)
     text = read_text(path)
     if not isinstance(text, Unreadable) and is_snapshot(text.text):
-        return _read(side, text.text)
+        return _read(operand, text.text)
     # The file may not be there any more.
     workspace = workspace_of(os.path.join(revision.repository, revision.file))
     now = detect(workspace, package_path=options.package_path(args))
