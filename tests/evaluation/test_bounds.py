@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.evaluation.problems import IncludeCycle, NestedTooDeeply, ValueTooLong
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -22,7 +23,7 @@ def nested(levels: int, inside: str) -> str:
 def test_groups_and_includes_nested_too_deeply(tmp_path: Path) -> None:
     files = {f"f{n}.launch": nested(60, f'<include file="$(dirname)/f{n + 1}.launch"/>') for n in range(10)}
     tree = tree_of(tmp_path, {"root.launch": '<launch><include file="$(dirname)/f0.launch"/></launch>', **files})
-    assert [p.kind for p in tree.problems] == ["nested-too-deeply"]
+    assert [type(p.kind) for p in tree.problems] == [NestedTooDeeply]
     assert tree.unknowns
 
 
@@ -34,7 +35,7 @@ def test_reasonable_nesting_is_fine(tmp_path: Path) -> None:
 def test_an_include_that_multiplies_itself(tmp_path: Path) -> None:
     twice = '<include file="$(dirname)/root.launch"><arg name="n" value="$(arg n)x"/></include>' * 2
     tree = tree_of(tmp_path, {"root.launch": f'<launch><arg name="n" default=""/>{twice}</launch>'})
-    assert [p.kind for p in tree.problems] == ["nested-too-deeply"]
+    assert [type(p.kind) for p in tree.problems] == [NestedTooDeeply]
 
 
 def test_a_file_that_includes_itself_until_it_has_counted_down(tmp_path: Path) -> None:
@@ -56,7 +57,7 @@ def test_a_circle_ends_at_its_first_turn(tmp_path: Path) -> None:
             "a.launch": '<launch><include file="$(dirname)/root.launch"/></launch>',
         },
     )
-    assert [p.kind for p in tree.problems] == ["include-cycle"]
+    assert [type(p.kind) for p in tree.problems] == [IncludeCycle]
     assert len(tree.includes) <= 3
 
 
@@ -78,5 +79,5 @@ def test_values_that_hold_others_twice(tmp_path: Path) -> None:
     for name, text in files.items():
         (tmp_path / name).write_text(text)
         analysis = Workspace(environment, Sources(), str(tmp_path)).static(str(tmp_path / name))
-        assert {p.kind for p in analysis.tree.problems} == {"value-too-long"}
+        assert {type(p.kind) for p in analysis.tree.problems} == {ValueTooLong}
         assert {f.rule for f in analysis.findings} >= {"LCH018"}

@@ -10,6 +10,7 @@ from typing import Any
 from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.queries.query_context import QueryContext
@@ -81,7 +82,9 @@ def started(tree: LaunchTree, renamed: Mapping[str, str]) -> dict[str, Any]:
             for node in tree.nodes
         ],
         "params": sorted((new(name), repr(param.value)) for name, param in tree.params.items()),
-        "problems": sorted((p.kind, os.path.basename(p.location.file)) for p in tree.problems if p.fatal),
+        "problems": sorted(
+            (type(p.kind).__name__, os.path.basename(p.location.file)) for p in tree.problems if p.fatal
+        ),
         "includes": [include.path for include in tree.includes],
     }
 
@@ -110,7 +113,7 @@ def test_nodes(tmp_path: Path) -> None:
             own = [n for n in before.nodes if n.location.file == path and n.action.span.contains(span.start)]
             if not own or any(not names.is_legal(node.name) for node in own):
                 continue
-            if any(problem.kind == "duplicate-node" for problem in before.problems):
+            if any(isinstance(problem.kind, DuplicateNode) for problem in before.problems):
                 continue  # the rename mends it
             new = {node.name: names.parent(node.name) + NEW for node in own}
             now = after(workspace, root, edits)

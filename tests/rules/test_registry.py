@@ -2,6 +2,7 @@
 
 import logging
 import re
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
@@ -9,8 +10,8 @@ from pathlib import Path
 
 import preflight_analysis.rules as package
 import pytest
-from preflight_analysis.evaluation.problems import KINDS
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules import reference
 from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
 from preflight_analysis.rules.rule import Context, Rule
@@ -27,8 +28,14 @@ BROKEN = """
 
 def test_every_kind_of_problem_has_exactly_one_rule() -> None:
     owners = Counter(kind for rule in all_rules() for kind in rule.problems)
-    assert {kind: owners[kind] for kind in KINDS} == dict.fromkeys(KINDS, 1)
-    assert set(owners) <= set(KINDS)
+    assert owners == dict.fromkeys(_kinds(ProblemKind), 1)
+
+
+def _kinds(form: type[ProblemKind]) -> Iterator[type[ProblemKind]]:
+    """Those that are nobody's form. What a dataclass with slots is made from stays in memory beside it for a while."""
+    for kind in form.__subclasses__():
+        if getattr(sys.modules[kind.__module__], kind.__name__) is kind:
+            yield from _kinds(kind) if kind.__subclasses__() else (kind,)
 
 
 def test_rules_are_sorted_and_named_as_their_files() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from preflight_analysis.launch.problems import BadValue
 from support.python_launch_harness import PythonHarness
 
 pytestmark = pytest.mark.ros
@@ -125,4 +126,6 @@ def test_loops_of_xml(tmp_path: Path) -> None:
     harness = PythonHarness(tmp_path)
     analysis = harness.launch(harness.write("launch/a.launch.xml", text))
     assert [node.name for node in analysis.tree.nodes] == ["/n10", "/a_1", "/b_0"]
-    assert [problem.data["expected"] for problem in analysis.tree.problems] == ["an integer"]
+    (problem,) = analysis.tree.problems
+    assert isinstance(problem.kind, BadValue)
+    assert problem.kind.expected == "an integer"

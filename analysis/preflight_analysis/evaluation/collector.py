@@ -10,6 +10,7 @@ from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.problems import Problem, ValueTooLong, of_name
 from preflight_analysis.evaluation.tree import (
     Arg,
     Command,
@@ -17,11 +18,11 @@ from preflight_analysis.evaluation.tree import (
     Include,
     LaunchNode,
     NotTaken,
-    Problem,
     Unknown,
     Use,
 )
 from preflight_analysis.launch.model import NODE_KINDS, Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.problems import ProblemKind
 
 MAX_TEXT = 8_000_000
 """Characters of one value that substitutions make. A robot description has a hundredth; values that hold others twice,
@@ -56,7 +57,7 @@ class Collector:
         self.args: dict[str, Arg] = {}
         self.commands: list[Command] = []
         self.uses: list[Use] = []
-        self.problems: list[Problem] = []
+        self.problems: list[Problem[ProblemKind]] = []
         self.unknowns: list[Unknown] = []
         self.not_taken: list[NotTaken] = []
         self.visited: list[str] = []
@@ -67,7 +68,7 @@ class Collector:
         self._room = [MAX_TEXTS]
         self._digests: dict[str, str] = {}
         self._anonymous: dict[str, int] = {}
-        self._reported: set[tuple[str, Origin, str]] = set()
+        self._reported: set[tuple[type[ProblemKind], Origin, object]] = set()
 
     def digest(self, path: str) -> str:
         """Names the content of a file, which is looked up once."""
@@ -76,12 +77,14 @@ class Collector:
             found = self._digests[path] = self.files.digest(path)
         return found
 
-    def problem(self, kind: str, origin: Origin, *, fatal: bool = True, **data: Any) -> None:
+    def problem(self, kind: ProblemKind | str, origin: Origin, *, fatal: bool | None = None, **data: Any) -> None:
         """Note a problem; the same one at the same place once."""
-        self._add(Problem(kind, origin, data, fatal))
+        if isinstance(kind, str):
+            kind = of_name(kind, data)
+        self._add(Problem(kind, origin, kind.usually_fatal if fatal is None else fatal))
 
-    def _add(self, problem: Problem) -> None:
-        key = (problem.kind, problem.origin, str(problem.data.get("name")))
+    def _add(self, problem: Problem[ProblemKind]) -> None:
+        key = (type(problem.kind), problem.origin, problem.kind.subject)
         if key not in self._reported:
             self._reported.add(key)
             self.problems.append(problem)
@@ -91,7 +94,7 @@ class Collector:
         if length <= MAX_TEXT and length <= self._room[0]:
             self._room[0] -= length
             return True
-        self.problem("value-too-long", origin, fatal=False, limit=MAX_TEXT)
+        self.problem(ValueTooLong(f"{MAX_TEXT} characters"), origin)
         return False
 
     def note_not_taken(self, action: Action, condition: ActionAttribute, value: str, origin: Origin) -> None:

@@ -1,66 +1,416 @@
-"""The kinds of `Problem` that reading and evaluating can meet, with the data each carries.
-
-Each kind belongs to exactly one rule (a test holds us to that); a rule may own several kinds. `fatal` says whether
-roslaunch itself stops there.
-"""
+"""What can go wrong when a launch file is read and evaluated: one class for each kind of problem."""
 
 from __future__ import annotations
 
-KINDS: dict[str, str] = {
-    # reading files
-    "file-unreadable": "path, reason: the root file cannot be read (missing, no permission, a folder). fatal",
-    "file-not-text": "path, reason: binary, not UTF-8, or larger than the limit; not analysed. fatal",
-    "xml-malformed": "message: not well-formed XML, at the place of the cause. fatal",
-    "yaml-malformed": "message: not YAML, at the place where it stops to be. fatal",
-    "xml-entity": "name: an entity that a DOCTYPE defines; never expanded here, so values with it are unknown",
-    "python-malformed": "message: not Python, at the place where it stops to be. fatal",
-    "python-exception": "error (its class), message, frames (Locations, outermost first): a Python launch file raised. "
-    "fatal",
-    "python-import": "module, message: a Python launch file imports what is not there",
-    "launch-file-not-run": "name, reason: a Python launch file, or a function or substitution of it",
-    "root-not-launch": "tag (None in an empty file): the document element is not <launch>. fatal",
-    # the language
-    "unknown-element": "tag, parent, allowed (list): roslaunch prints a warning and skips it",
-    "unknown-attribute": "name, tag, allowed (list): roslaunch reports it and goes on",
-    "missing-attribute": "tag, names (list; one of them is needed). fatal",
-    "attributes-exclude": "tag, names (list of those given). fatal",
-    "bad-value": "tag, attribute, value, expected (a phrase), choices (list, may be empty). fatal",
-    "invalid-name": "what (node, arg, ...), name, reason. fatal",
-    "substitution-as-text": "text, meant (how it is written): looks like a substitution and is text to roslaunch",
-    "stray-text": "text (its first line), tag: text between tags, which roslaunch does not look at",
-    "ignored-child": "tag, parent: <include> takes only arg and env; roslaunch drops the rest with a warning",
-    # substitutions
-    "bad-substitution": "text, message. fatal",
-    "eval-error": "expression, message: $(eval) fails. fatal",
-    "eval-not-allowed": "expression, message: outside of what is evaluated without running code",
-    "env-unset": "name: $(env name) of a variable that is not set. fatal",
-    "package-not-found": "name: $(find name). fatal",
-    # arguments
-    "arg-undeclared": "name, declared (list), in ROS 2 not_followed (Location or None: what may have set it): $(arg "
-    "name) of an argument that is not declared before. fatal if nothing may have set it",
-    "arg-required": "name, file (the included), passed (list): an include without a value for a required arg. fatal",
-    "root-arg-required": "name: the root file needs name:=value on the command line. fatal",
-    "root-arg-undeclared": "name, declared (list): name:=value of the command line, which nothing asks for",
-    "include-arg-undeclared": "name, file (the included), declared (list): roslaunch stops with 'unused args'. fatal",
-    "arg-not-a-choice": "name, value, choices (list), declared (Location): ROS 2. fatal",
-    "arg-redeclared": "name, first (Location), passed: declared twice in a file, or passed twice in an include. fatal",
-    "arg-override": "name: an include passes a value for an arg that the file fixes with value=. fatal",
-    "include-arg-no-value": "name: <arg> in an <include> without value. fatal",
-    # includes and files
-    "include-not-found": "path. fatal",
-    "include-unreadable": "path, reason (binary, too large, no permission, a folder, malformed root). fatal",
-    "include-cycle": "path, chain (list of paths). fatal",
-    "value-too-long": "limit: a value that substitutions make has more characters than are kept here",
-    "nested-too-deeply": "limit (a phrase): groups and includes go deeper, or are more, than is evaluated here",
-    "param-file-not-found": "path, tag, attribute: textfile, binfile or rosparam file. fatal",
-    "param-file-unreadable": "path, tag, attribute, reason. fatal",
-    "bad-yaml": "message, path (None when inline). fatal",
-    "command-malformed": "command, message: it cannot be split into words. fatal",
-    "command-failed": "command, reason, stderr (list of lines): it was run and had no success. fatal",
-    "command-missing": "command, reason: its program is not there. fatal",
-    "command-not-run": "command, reason",
-    "yaml-key-twice": "name, second (Location): a key stands twice in one dictionary, the later one counts",
-    # nodes
-    "duplicate-node": "name, first (Location). fatal in ROS 1",
-    "machine-undefined": "name, declared (list). fatal",
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, Generic, TypeVar
+
+from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.launch.problems import (
+    BadSubstitution,
+    BadValue,
+    ConflictingAttributes,
+    MissingAttribute,
+    OfName,
+    ProblemKind,
+    UnknownAttribute,
+    UnknownElement,
+)
+
+K_co = TypeVar("K_co", bound=ProblemKind, covariant=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Problem(Generic[K_co]):
+    """Something the evaluation met. `fatal` problems are what would stop the launcher; `origin` ends at the place to
+    underline."""
+
+    kind: K_co
+    origin: Origin
+    fatal: bool
+
+    @property
+    def location(self) -> Location:
+        """The place to underline."""
+        return self.origin[-1]
+
+
+# Forms that several kinds have
+
+
+@dataclass(frozen=True, slots=True)
+class _Message(ProblemKind):
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class UnreadablePath(ProblemKind):
+    """A form: a file that cannot be read."""
+
+    path: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Expression(ProblemKind):
+    expression: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class _OfNames(OfName):
+    declared: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Limit(ProblemKind):
+    limit: str
+    """How many of what: a phrase."""
+
+
+# Files
+
+
+class UnreadableFile(UnreadablePath):
+    """The root file cannot be read: it is missing, a folder, or not permitted to be."""
+
+    __slots__ = ()
+
+
+class NotTextFile(UnreadablePath):
+    """The root file is binary, not in UTF-8, or larger than the limit."""
+
+    __slots__ = ()
+
+
+class MalformedXml(_Message):
+    """The text is not well-formed XML, at the place of the cause."""
+
+    __slots__ = ()
+
+
+class MalformedYaml(_Message):
+    """The text is not YAML, at the place where it stops to be."""
+
+    __slots__ = ()
+
+
+class MalformedPython(_Message):
+    """The text is not Python, at the place where it stops to be."""
+
+    __slots__ = ()
+
+
+class UnexpandedEntity(OfName):
+    """An entity that a DOCTYPE defines: never expanded here, so values with it are unknown."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
+@dataclass(frozen=True, slots=True)
+class NoLaunchElement(ProblemKind):
+    """The document element is not `<launch>` but `tag`, None in an empty file; `launch` is a second one."""
+
+    tag: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class PythonException(ProblemKind):
+    """A Python launch file raised `error` (the name of the class), or its run failed where that is empty. `frames` go
+    from the outermost inwards."""
+
+    error: str
+    message: str
+    frames: tuple[Location, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class PythonImportFailed(ProblemKind):
+    """A Python launch file imports what is not there."""
+
+    usually_fatal = False
+
+    module: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchFileNotRun(OfName):
+    """A Python launch file, or a function or substitution of it, was not run."""
+
+    usually_fatal = False
+
+    reason: str
+
+
+# Substitutions
+
+
+class EvalFailed(_Expression):
+    """`$(eval)` raises."""
+
+    __slots__ = ()
+
+
+class EvalNotAllowed(_Expression):
+    """`$(eval)` of what is not evaluated without running code."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
+class UnsetVariable(OfName):
+    """`$(env)` of an environment variable that is not set."""
+
+    __slots__ = ()
+
+
+class PackageNotFound(OfName):
+    """`$(find)` of a package that is not there."""
+
+    __slots__ = ()
+
+
+class ValueTooLong(_Limit):
+    """A value that substitutions make has more than `limit`, and is not kept."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
+# Arguments
+
+
+@dataclass(frozen=True, slots=True)
+class UndeclaredArgument(_OfNames):
+    """`$(arg)` of what is not declared before. `not_followed` is what could not be evaluated and may have set it: in
+    ROS 2, where it is fatal if there is nothing of that kind."""
+
+    not_followed: Location | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MissingArgument(OfName):
+    """An include of `file` has no value for an argument that is required there; it has those of `passed`."""
+
+    file: str
+    passed: tuple[str, ...]
+
+
+class ArgumentNeeded(OfName):
+    """The root file needs `name:=value` on the command line."""
+
+    __slots__ = ()
+
+
+class UnknownLaunchArgument(_OfNames):
+    """`name:=value` on the command line, which nothing asks for."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownIncludeArgument(_OfNames):
+    """An include passes what `file` does not declare. roslaunch stops with 'unused args', launch takes it."""
+
+    file: str
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentNotAChoice(OfName):
+    """The value of an argument is none of its choices. `declared` is where it has them."""
+
+    value: str
+    choices: tuple[str, ...]
+    declared: Location
+
+
+@dataclass(frozen=True, slots=True)
+class RedeclaredArgument(OfName):
+    """An argument is declared twice in a file or, where it is `passed`, passed twice in an include."""
+
+    first: Location
+    passed: bool
+
+
+class FixedArgument(OfName):
+    """An include passes a value for an argument that the file fixes with `value=`."""
+
+    __slots__ = ()
+
+
+class IncludeArgumentWithoutValue(OfName):
+    """An `<arg>` in an `<include>` without a value."""
+
+    __slots__ = ()
+
+
+# Includes and what parameters are read from
+
+
+class IncludeNotFound(UnreadablePath):
+    """An included file is not there."""
+
+    __slots__ = ()
+
+
+class UnreadableInclude(UnreadablePath):
+    """An included file is binary, too large, a folder, not permitted to be read, or no launch file."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class IncludeCycle(ProblemKind):
+    """A file includes itself, by way of the files of `chain`."""
+
+    path: str
+    chain: tuple[str, ...]
+
+
+class NestedTooDeeply(_Limit):
+    """Groups and includes go deeper, or are more, than `limit`, and are not evaluated beyond."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
+class ParameterFileNotFound(UnreadablePath):
+    """A `textfile`, `binfile` or parameter file is not there."""
+
+    __slots__ = ()
+
+
+class UnreadableParameterFile(UnreadablePath):
+    """A `textfile`, `binfile` or parameter file is there and cannot be read."""
+
+    __slots__ = ()
+
+
+class BadYaml(_Message):
+    """What should be parameters is no YAML, or YAML of something else."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class YamlKeyTwice(OfName):
+    """A key stands twice in one dictionary. `second` is the later one, which counts."""
+
+    usually_fatal = False
+
+    second: Location
+
+
+@dataclass(frozen=True, slots=True)
+class MalformedCommand(ProblemKind):
+    """A command line that cannot be split into words."""
+
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class CommandFailed(ProblemKind):
+    """A command was run and had no success. `stderr` has its last lines."""
+
+    reason: str
+    stderr: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CommandMissing(ProblemKind):
+    """The program of a command line is not there."""
+
+    command: str
+
+
+@dataclass(frozen=True, slots=True)
+class CommandNotRun(ProblemKind):
+    """A command that was not run."""
+
+    usually_fatal = False
+
+    reason: str
+
+
+# Nodes and machines
+
+
+@dataclass(frozen=True, slots=True)
+class InvalidName(OfName):
+    """A name that ROS does not allow, `what` it is of: a node, an argument, ..."""
+
+    what: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class DuplicateNode(OfName):
+    """A second node of one name. `first` is the other, None where that is roslaunch's own. Fatal in ROS 1."""
+
+    first: Location | None
+
+
+class UndefinedMachine(_OfNames):
+    """A node on a machine that is not declared."""
+
+    __slots__ = ()
+
+
+# TODO: makers that still give a name and a dictionary
+_OF_NAME: dict[str, type[ProblemKind]] = {
+    "file-unreadable": UnreadableFile,
+    "file-not-text": NotTextFile,
+    "xml-malformed": MalformedXml,
+    "yaml-malformed": MalformedYaml,
+    "xml-entity": UnexpandedEntity,
+    "python-malformed": MalformedPython,
+    "python-exception": PythonException,
+    "python-import": PythonImportFailed,
+    "launch-file-not-run": LaunchFileNotRun,
+    "root-not-launch": NoLaunchElement,
+    "unknown-element": UnknownElement,
+    "unknown-attribute": UnknownAttribute,
+    "missing-attribute": MissingAttribute,
+    "attributes-exclude": ConflictingAttributes,
+    "bad-value": BadValue,
+    "invalid-name": InvalidName,
+    "bad-substitution": BadSubstitution,
+    "eval-error": EvalFailed,
+    "eval-not-allowed": EvalNotAllowed,
+    "env-unset": UnsetVariable,
+    "package-not-found": PackageNotFound,
+    "arg-undeclared": UndeclaredArgument,
+    "arg-required": MissingArgument,
+    "root-arg-required": ArgumentNeeded,
+    "root-arg-undeclared": UnknownLaunchArgument,
+    "include-arg-undeclared": UnknownIncludeArgument,
+    "arg-not-a-choice": ArgumentNotAChoice,
+    "arg-redeclared": RedeclaredArgument,
+    "arg-override": FixedArgument,
+    "include-arg-no-value": IncludeArgumentWithoutValue,
+    "include-not-found": IncludeNotFound,
+    "include-unreadable": UnreadableInclude,
+    "include-cycle": IncludeCycle,
+    "nested-too-deeply": NestedTooDeeply,
+    "param-file-not-found": ParameterFileNotFound,
+    "param-file-unreadable": UnreadableParameterFile,
+    "bad-yaml": BadYaml,
+    "command-malformed": MalformedCommand,
+    "command-failed": CommandFailed,
+    "command-missing": CommandMissing,
+    "command-not-run": CommandNotRun,
+    "yaml-key-twice": YamlKeyTwice,
+    "duplicate-node": DuplicateNode,
+    "machine-undefined": UndefinedMachine,
 }
+
+
+def of_name(name: str, data: Mapping[str, Any]) -> ProblemKind:
+    """A problem by its name."""
+    kind = _OF_NAME[name]
+    given = {each.name: data[each.name] for each in fields(kind) if each.name in data}  # type: ignore[arg-type]
+    return kind(**{key: tuple(value) if isinstance(value, list) else value for key, value in given.items()})

@@ -10,7 +10,9 @@ from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.launch.model import Action, ActionAttribute
+from preflight_analysis.launch.problems import ProblemKind
 
 ParamValue = Any
 """bool, int, float, str, bytes (binfile), list, dict, None or `CommandValue`: what the parameter server would hold."""
@@ -206,24 +208,6 @@ class NotTaken(NamedTuple):
     origin: Origin
 
 
-@dataclass(frozen=True, slots=True)
-class Problem:
-    """Something the evaluation met. `kind` is what a rule looks for, `data` what it writes its message from.
-
-    `fatal` problems are what would stop the launcher; `origin` ends at the place to underline.
-    """
-
-    kind: str
-    origin: Origin
-    data: Mapping[str, Any]
-    fatal: bool
-
-    @property
-    def location(self) -> Location:
-        """The place to underline."""
-        return self.origin[-1]
-
-
 DEFAULT_MACHINE_TIMEOUT = 10.0
 """In seconds, for the process on another machine to register."""
 
@@ -278,7 +262,7 @@ class LaunchTree:
     includes: tuple[Include, ...]
     machines: Mapping[str, Machine]
     uses: tuple[Use, ...]
-    problems: tuple[Problem, ...]
+    problems: tuple[Problem[ProblemKind], ...]
     unknowns: tuple[Unknown, ...]
     files: tuple[str, ...]
     """The root and every included file that was evaluated, in order of first appearance."""
@@ -295,6 +279,6 @@ class LaunchTree:
         """Whether all that the launcher would start is here: no error cut something off and nothing is unknown."""
         return not self.unknowns and not any(p.fatal and not self._is_stood_in_for(p) for p in self.problems)
 
-    def _is_stood_in_for(self, problem: Problem) -> bool:
+    def _is_stood_in_for(self, problem: Problem[ProblemKind]) -> bool:
         edited = self.edited.get(problem.location.file)
         return edited is not None and problem.location.span in edited.wrong

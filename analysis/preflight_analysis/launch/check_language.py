@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.launch.problems import (
+    IgnoredChild,
+    LanguageProblem,
+    StrayText,
+    SubstitutionAsText,
+    UnknownAttribute,
+    UnknownElement,
+)
 from preflight_analysis.launch.schema_ros1 import ANNOTATIONS, TAGS
 from preflight_analysis.launch.substitutions import COMMANDS_ROS1
 from preflight_analysis.launch.xml_actions import MAX_DEPTH
@@ -27,15 +33,6 @@ _MEANT = re.compile(
     rf"|\((?P<open>{_COMMANDS}\b(?: +[\w.-]*)?)(?=[^)]*\Z))"
 )
 """`${arg x}` and `$[arg x]`, `$arg(x)`, and `$(arg x` without an end."""
-
-
-@dataclass(frozen=True, slots=True)
-class LanguageProblem:
-    """As `evaluation.tree.Problem`, for what does not depend on any context."""
-
-    kind: str
-    span: Span
-    data: Mapping[str, Any]
 
 
 def check_language(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
@@ -67,7 +64,7 @@ def _stray_texts(element: Element | None, depth: int = 0) -> Iterator[LanguagePr
             start = child.content.text.index(text)
             line = text.split("\n", 1)[0].rstrip()
             span = child.content.slice_span(start, start + len(line))
-            yield LanguageProblem("stray-text", span, {"text": line, "tag": element.tag})
+            yield LanguageProblem(StrayText(line, element.tag), span)
 
 
 def _taken_as_text(value: Value) -> Iterator[LanguageProblem]:
@@ -79,7 +76,7 @@ def _taken_as_text(value: Value) -> Iterator[LanguageProblem]:
                 start = part.span.start
                 span = Span(start + found.start(), start + found.end()) if exact else part.span
                 inner = (found["braces"] or found["open"] or found["word"].replace("(", " ", 1)).strip()
-                yield LanguageProblem("substitution-as-text", span, {"text": found[0], "meant": f"$({inner})"})
+                yield LanguageProblem(SubstitutionAsText(found[0], f"$({inner})"), span)
 
 
 def _check(action: Action) -> Iterator[LanguageProblem]:
@@ -88,8 +85,8 @@ def _check(action: Action) -> Iterator[LanguageProblem]:
     for attribute in action.attributes:
         # What is refused is reported when the tag is evaluated, where it stops the launch.
         if attribute.name not in (*tag.attributes, *tag.refused):
-            data = {"name": attribute.name, "tag": kind, "allowed": list(tag.attributes)}
-            yield LanguageProblem("unknown-attribute", attribute.name_span, data)
+            unknown = UnknownAttribute(attribute.name, kind, tuple(tag.attributes))
+            yield LanguageProblem(unknown, attribute.name_span)
         if "$" in attribute.value.text:
             yield from _taken_as_text(attribute.value)
     annotations = ANNOTATIONS if kind in ("node", "test") else ()
@@ -100,7 +97,6 @@ def _check(action: Action) -> Iterator[LanguageProblem]:
         if name in tag.children:
             yield from _check(child)
         elif kind == "include" and name in TAGS:
-            yield LanguageProblem("ignored-child", child.kind_span, {"tag": name, "parent": kind})
+            yield LanguageProblem(IgnoredChild(name, kind), child.kind_span)
         else:
-            data = {"tag": child.kind, "parent": kind, "allowed": list(tag.children)}
-            yield LanguageProblem("unknown-element", child.kind_span, data)
+            yield LanguageProblem(UnknownElement(child.kind, kind, tuple(tag.children)), child.kind_span)

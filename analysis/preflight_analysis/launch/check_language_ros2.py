@@ -5,9 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.launch.check_language import LanguageProblem
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
+from preflight_analysis.launch.problems import (
+    ConflictingAttributes,
+    LanguageProblem,
+    MissingAttribute,
+    UnknownAttribute,
+    UnknownElement,
+)
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
 _ANNOTATIONS = ("topics", "services", "params", "actions")
@@ -21,7 +27,7 @@ def check_language_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
     # In the middle of typing the line that has the attribute may be the one that is left out.
     typing = bool(launch_file.document.problems)
     found = _check(launch_file.root, None)
-    return tuple(problem for problem in found if problem.kind != "missing-attribute" or not typing)
+    return tuple(problem for problem in found if not (typing and isinstance(problem.kind, MissingAttribute)))
 
 
 def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
@@ -34,23 +40,19 @@ def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
             continue
         if name.endswith("-sep") and name.removesuffix("-sep") in given and action.head_span != action.kind_span:
             continue  # launch_xml reads it; in YAML, where the head of an entity is its name, a list is a list
-        yield LanguageProblem(
-            "unknown-attribute", attribute.name_span, {"name": name, "tag": action.kind, "allowed": list(allowed)}
-        )
+        yield LanguageProblem(UnknownAttribute(name, action.kind, tuple(allowed)), attribute.name_span)
     required = ("name", "value") if (action.kind, parent) == ("arg", "include") else tag.required
-    missing = [name for name in required if name not in given]
-    if missing:
-        yield LanguageProblem("missing-attribute", action.kind_span, {"tag": action.kind, "names": missing[:1]})
-    conditions = [name for name in ("if", "unless") if name in given]
-    if len(conditions) == 2:
-        yield LanguageProblem("attributes-exclude", action.kind_span, {"tag": action.kind, "names": conditions})
+    missing = next((name for name in required if name not in given), None)
+    if missing is not None:
+        yield LanguageProblem(MissingAttribute(action.kind, (missing,)), action.kind_span)
+    if given.issuperset(("if", "unless")):
+        yield LanguageProblem(ConflictingAttributes(action.kind, ("if", "unless")), action.kind_span)
     yield from _check_param(action, given)
     for child in action.children:
         if child.kind in tag.children:
             yield from _check(child, action.kind)
         elif not (action.kind in NODE_KINDS and child.kind in _ANNOTATIONS):
-            data = {"tag": child.kind, "parent": action.kind, "allowed": list(tag.children)}
-            yield LanguageProblem("unknown-element", child.kind_span, data)
+            yield LanguageProblem(UnknownElement(child.kind, action.kind, tuple(tag.children)), child.kind_span)
 
 
 def _is_elsewhere(kind: str, parent: str | None, name: str) -> bool:
@@ -66,9 +68,8 @@ def _check_param(action: Action, given: set[str]) -> Iterator[LanguageProblem]:
         return
     nested = any(child.kind == "param" for child in action.children)
     if "from" in given and "name" in given:
-        names = ["name", "from"]
-        yield LanguageProblem("attributes-exclude", action.kind_span, {"tag": "param", "names": names})
+        yield LanguageProblem(ConflictingAttributes("param", ("name", "from")), action.kind_span)
     elif "from" not in given and "name" not in given:
-        yield LanguageProblem("missing-attribute", action.kind_span, {"tag": "param", "names": ["name", "from"]})
+        yield LanguageProblem(MissingAttribute("param", ("name", "from")), action.kind_span)
     elif "name" in given and "value" not in given and not nested:
-        yield LanguageProblem("missing-attribute", action.kind_span, {"tag": "param", "names": ["value"]})
+        yield LanguageProblem(MissingAttribute("param", ("value",)), action.kind_span)

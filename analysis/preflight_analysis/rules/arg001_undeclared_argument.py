@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import ArgumentNeeded, Problem, UndeclaredArgument
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import declarations, declare
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -13,8 +13,8 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     part_of_another = _is_part_of_another(context)
-    for problem in problems_of(rule, context):
-        name, place = str(problem.data["name"]), problem.location
+    for problem in problems_of(context, UndeclaredArgument):
+        name, place = problem.kind.name, problem.location
         message = f"argument '{name}' is not declared"
         launch_file = context.launch_files.get(place.file)
         elsewhere = declarations(launch_file).get(name, ()) if launch_file is not None else ()
@@ -24,10 +24,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             declared = Related("declared here", context.location(place.file, elsewhere[0].head_span))
             yield problem_finding(rule, problem, f"{message} {where}", related=(declared,))
             continue
-        near = nearest(name, problem.data["declared"])
-        not_followed = problem.data.get("not_followed")
-        if not_followed is not None:
-            yield _unsure(rule, context, problem, near, not_followed)
+        near = nearest(name, problem.kind.declared)
+        if problem.kind.not_followed is not None:
+            yield _unsure(rule, context, problem, near, problem.kind.not_followed)
             continue
         fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
         if near is None and part_of_another:
@@ -40,13 +39,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _is_part_of_another(context: Context) -> bool:
     """Whether what is launched here is made to be included: it needs arguments, and in ROS 2 all that is configured
     where it is included is known in it, declared or not."""
-    needed = any(problem.kind == "root-arg-required" for problem in context.tree.problems)
+    needed = any(problems_of(context, ArgumentNeeded))
     return context.tree.generation == 2 and needed
 
 
-def _unsure(rule: Rule, context: Context, problem: Problem, near: str | None, not_followed: Location) -> Finding:
+def _unsure(
+    rule: Rule, context: Context, problem: Problem[UndeclaredArgument], near: str | None, not_followed: Location
+) -> Finding:
     """What comes before could not be evaluated, and in ROS 2 it may have set the argument."""
-    name = problem.data["name"]
+    name = problem.kind.name
     return rule.finding(
         f"nothing that could be read declares argument '{name}'{did_you_mean(near)}",
         problem.location,
@@ -69,5 +70,5 @@ RULE = Rule(
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',
     instead='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camera)"/>',
     check=_check,
-    problems=("arg-undeclared",),
+    problems=(UndeclaredArgument,),
 )

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import MissingArgument
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.arguments import pass_on
 from preflight_analysis.rules.nearest import nearest
@@ -10,9 +11,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        name, file = str(problem.data["name"]), shown(str(problem.data["file"]), context)
-        near = nearest(name, problem.data["passed"])
+    for problem in problems_of(context, MissingArgument):
+        name, file = problem.kind.name, shown(problem.kind.file, context)
+        near = nearest(name, problem.kind.passed)
         hint = f"; it passes '{near}'" if near else ""
         message = f"'{file}' requires argument '{name}', which is not passed{hint}"
         yield problem_finding(rule, problem, message, fixes=pass_on(context, problem.location, name))
@@ -27,5 +28,5 @@ RULE = Rule(
     example='<include file="$(find camera)/launch/camera.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch">\n  <arg name="serial" value="7cd1"/>\n</include>',
     check=_check,
-    problems=("arg-required",),
+    problems=(MissingArgument,),
 )

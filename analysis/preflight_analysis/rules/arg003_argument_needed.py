@@ -1,5 +1,6 @@
 """ARG003: the file cannot be launched without an argument on the command line."""
 
+from preflight_analysis.evaluation.problems import ArgumentNeeded
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -13,7 +14,7 @@ RULE = Rule(
     example='<arg name="robot"/>',
     instead='<arg name="robot" default="turtle"/>',
     check=check_problems(
-        lambda problem: f"argument '{problem.data['name']}' has no default; launch with {problem.data['name']}:=..."
+        lambda needed: f"argument '{needed.name}' has no default; launch with {needed.name}:=...", ArgumentNeeded
     ),
-    problems=("root-arg-required",),
+    problems=(ArgumentNeeded,),
 )

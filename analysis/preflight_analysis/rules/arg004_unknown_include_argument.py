@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import UnknownIncludeArgument
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -10,9 +11,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        name, file = str(problem.data["name"]), shown(str(problem.data["file"]), context)
-        near = nearest(name, problem.data["declared"])
+    for problem in problems_of(context, UnknownIncludeArgument):
+        name, file = problem.kind.name, shown(problem.kind.file, context)
+        near = nearest(name, problem.kind.declared)
         fixes = (
             *(rename(context, problem.location, name, near) if near else ()),
             *remove_at(context, problem.location, f"Do not pass argument '{name}'"),
@@ -35,5 +36,5 @@ RULE = Rule(
     example='<include file="camera.launch">\n  <arg name="frame" value="front"/>\n</include>',
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',
     check=_check,
-    problems=("include-arg-undeclared",),
+    problems=(UnknownIncludeArgument,),
 )

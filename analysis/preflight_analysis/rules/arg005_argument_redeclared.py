@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import RedeclaredArgument
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.problems import problem_finding, problems_of
@@ -9,9 +10,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        name, done = problem.data["name"], "passed" if problem.data["passed"] else "declared"
-        related = (Related(f"{done} here", problem.data["first"]),)
+    for problem in problems_of(context, RedeclaredArgument):
+        name, done = problem.kind.name, "passed" if problem.kind.passed else "declared"
+        related = (Related(f"{done} here", problem.kind.first),)
         fixes = remove_at(context, problem.location, f"Remove this <arg> and keep the first '{name}'")
         yield problem_finding(rule, problem, f"argument '{name}' is {done} already", related=related, fixes=fixes)
 
@@ -25,5 +26,5 @@ RULE = Rule(
     example='<arg name="rate" default="10"/>\n<arg name="rate" default="20"/>',
     instead='<arg name="rate" default="20"/>',
     check=_check,
-    problems=("arg-redeclared",),
+    problems=(RedeclaredArgument,),
 )

@@ -1,5 +1,6 @@
 """ARG006: a value is passed for an argument that the file fixes."""
 
+from preflight_analysis.evaluation.problems import FixedArgument
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -14,7 +15,7 @@ RULE = Rule(
     instead='<!-- in camera.launch: <arg name="rate" default="30"/> -->\n<include file="camera.launch">\n'
     '  <arg name="rate" value="10"/>\n</include>',
     check=check_problems(
-        lambda problem: f"argument '{problem.data['name']}' cannot be passed: the file fixes it with value="
+        lambda fixed: f"argument '{fixed.name}' cannot be passed: the file fixes it with value=", FixedArgument
     ),
-    problems=("arg-override",),
+    problems=(FixedArgument,),
 )

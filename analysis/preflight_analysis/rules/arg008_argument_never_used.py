@@ -5,12 +5,14 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from preflight_analysis.evaluation.problems import ArgumentNeeded
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile, Value
 from preflight_analysis.rules.arguments import declarations
+from preflight_analysis.rules.problems import problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
@@ -87,7 +89,7 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     python = path.endswith(".py")
     if launch_file is None or launch_file.document.problems or context.tree.includes:
         return
-    if any(problem.kind == "root-arg-required" for problem in context.tree.problems):
+    if any(problems_of(context, ArgumentNeeded)):
         return  # made to be included by another, which knows the argument too
     if python and (not context.tree.complete or _uses_others(launch_file.document.text)):
         return  # what it was not seen to do may use it, and what helpers of the project do is not in its text

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import ArgumentNotAChoice
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -9,13 +10,13 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        name, value, choices = (problem.data[key] for key in ("name", "value", "choices"))
-        near = nearest(value, choices)
-        allowed = ", ".join(f"'{choice}'" for choice in choices)
-        message = f"argument '{name}' cannot be '{value}'; it has the choices {allowed}{did_you_mean(near)}"
-        fixes = rename(context, problem.location, value, near) if near else ()
-        declared = Related("declared here", problem.data["declared"])
+    for problem in problems_of(context, ArgumentNotAChoice):
+        wrong = problem.kind
+        near = nearest(wrong.value, wrong.choices)
+        allowed = ", ".join(f"'{choice}'" for choice in wrong.choices)
+        message = f"argument '{wrong.name}' cannot be '{wrong.value}'; it has the choices {allowed}{did_you_mean(near)}"
+        fixes = rename(context, problem.location, wrong.value, near) if near else ()
+        declared = Related("declared here", wrong.declared)
         yield problem_finding(rule, problem, message, related=(declared,), fixes=fixes)
 
 
@@ -29,5 +30,5 @@ RULE = Rule(
     example='<arg name="model" default="s1">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
     instead='<arg name="model" default="s2">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
     check=_check,
-    problems=("arg-not-a-choice",),
+    problems=(ArgumentNotAChoice,),
 )

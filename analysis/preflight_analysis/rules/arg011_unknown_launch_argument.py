@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import UnknownLaunchArgument
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of
@@ -9,9 +10,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        name = str(problem.data["name"])
-        near = nearest(name, problem.data["declared"])
+    for problem in problems_of(context, UnknownLaunchArgument):
+        name = problem.kind.name
+        near = nearest(name, problem.kind.declared)
         yield problem_finding(
             rule, problem, f"the launch is given '{name}', and nothing in it declares that argument{did_you_mean(near)}"
         )
@@ -27,5 +28,5 @@ RULE = Rule(
     example='<!-- roslaunch robot.launch cammera:=false -->\n<arg name="camera" default="true"/>',
     instead='<!-- roslaunch robot.launch camera:=false -->\n<arg name="camera" default="true"/>',
     check=_check,
-    problems=("root-arg-undeclared",),
+    problems=(UnknownLaunchArgument,),
 )

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
@@ -17,12 +18,12 @@ _MOST_ENTRIES = 5000
 """A package has fewer; a path into a home directory must not lead to reading all of it."""
 
 
-def check_missing_files(what: str) -> Check:
+def check_missing_files(kind: type[UnreadablePath], what: str) -> Check:
     """The check of a rule about files that are not there, `what` they are: the nearest one is named and offered."""
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
-        for problem in problems_of(rule, context):
-            path = str(problem.data["path"])
+        for problem in problems_of(context, kind):
+            path = problem.kind.path
             near = nearest_file(path, context.environment)
             message = f"{what} '{shown(path, context)}' does not exist"
             fixes: tuple[Fix, ...] = ()

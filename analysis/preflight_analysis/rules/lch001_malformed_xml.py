@@ -1,5 +1,6 @@
 """LCH001: the file is not well-formed XML or YAML, or no Python."""
 
+from preflight_analysis.evaluation.problems import MalformedPython, MalformedXml, MalformedYaml
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -13,6 +14,10 @@ RULE = Rule(
     "those that include it. What can still be read of the file is checked nevertheless.",
     example='<launch>\n  <node pkg="camera" type="driver" name="camera">\n</launch>',
     instead='<launch>\n  <node pkg="camera" type="driver" name="camera"/>\n</launch>',
-    check=check_problems(lambda problem: str(problem.data["message"])),
-    problems=("xml-malformed", "yaml-malformed", "python-malformed"),
+    check=check_problems(lambda malformed: malformed.message, MalformedXml, MalformedYaml, MalformedPython),
+    problems=(
+        MalformedXml,
+        MalformedYaml,
+        MalformedPython,
+    ),
 )

@@ -1,5 +1,6 @@
 """LCH002: the launch file cannot be read."""
 
+from preflight_analysis.evaluation.problems import NotTextFile, UnreadableFile
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -12,6 +13,9 @@ RULE = Rule(
     why="Nothing can be said of its content, and in most of these cases `roslaunch` cannot read it either.",
     example="An editor saved the file as UTF-16.",
     instead="Save it as UTF-8.",
-    check=check_problems(lambda problem: f"cannot read '{problem.data['path']}': {problem.data['reason']}"),
-    problems=("file-unreadable", "file-not-text"),
+    check=check_problems(lambda file: f"cannot read '{file.path}': {file.reason}", UnreadableFile, NotTextFile),
+    problems=(
+        UnreadableFile,
+        NotTextFile,
+    ),
 )

@@ -1,12 +1,12 @@
 """LCH003: the document element is not <launch>."""
 
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import NoLaunchElement
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
 
-def _message(problem: Problem) -> str:
-    tag = problem.data["tag"]
+def _message(root: NoLaunchElement) -> str:
+    tag = root.tag
     if tag == "launch":
         return "a <launch> element stands within another one; roslaunch takes a single one"
     return f"the outermost element is <{tag}>, not <launch>" if tag else "there is no <launch> element in this file"
@@ -20,6 +20,6 @@ RULE = Rule(
     why="`roslaunch` stops with `No root <launch> tag`.",
     example='<node pkg="camera" type="driver" name="camera"/>',
     instead='<launch>\n  <node pkg="camera" type="driver" name="camera"/>\n</launch>',
-    check=check_problems(_message),
-    problems=("root-not-launch",),
+    check=check_problems(_message, NoLaunchElement),
+    problems=(NoLaunchElement,),
 )

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Severity
+from preflight_analysis.launch.problems import UnknownElement
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -18,10 +19,10 @@ from preflight_analysis.rules.syntax import Tags
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
-    for problem in problems_of(rule, context):
-        name = str(problem.data["tag"])
-        near = nearest(name, problem.data["allowed"])
-        message = f"<{name}> is not known in <{problem.data['parent']}>"
+    for problem in problems_of(context, UnknownElement):
+        name = problem.kind.tag
+        near = nearest(name, problem.kind.allowed)
+        message = f"<{name}> is not known in <{problem.kind.parent}>"
         if not problem.fatal:
             message += " and is skipped"
         elif near is None:
@@ -38,12 +39,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
-def _both_tags(context: Context, tags: Tags, problem: Problem, name: str, fix: Fix) -> Fix:
+def _both_tags(context: Context, tags: Tags, problem: Problem[UnknownElement], name: str, fix: Fix) -> Fix:
     """The fix of the start tag for the end tag too, if there is one."""
     document, tag = context.documents.get(problem.location.file), tags.named_at(problem.location)
     if document is None or tag is None:
         return fix
-    old, end = str(problem.data["tag"]), tag.action.span.end
+    old, end = problem.kind.tag, tag.action.span.end
     found = re.search(rf"</({re.escape(old)})[ \t\r\n]*>\Z", document.text[tag.action.head_span.end : end])
     if found is None:
         return fix
@@ -63,5 +64,5 @@ RULE = Rule(
     example='<node pkg="camera" type="driver" name="camera">\n  <parm name="rate" value="30"/>\n</node>',
     instead='<node pkg="camera" type="driver" name="camera">\n  <param name="rate" value="30"/>\n</node>',
     check=_check,
-    problems=("unknown-element",),
+    problems=(UnknownElement,),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.launch.problems import UnknownAttribute
 from preflight_analysis.rules.misspelt_attributes import explained
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -15,17 +16,17 @@ from preflight_analysis.rules.syntax import Tags
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
     elsewhere = context.once(explained)
-    for problem in problems_of(rule, context):
+    for problem in problems_of(context, UnknownAttribute):
         if problem.location in elsewhere:
             continue
-        name = str(problem.data["name"])
-        near = nearest(name, problem.data["allowed"])
+        name = problem.kind.name
+        near = nearest(name, problem.kind.allowed)
         fixes: tuple[Fix, ...] = ()
         if near is not None:
             tag = tags.around(problem.location)
             if tag is None or tag.action.attribute(near) is None:  # a second one of the name would be malformed
                 fixes = rename(context, problem.location, name, near)
-        message = f"<{problem.data['tag']}> has no attribute '{name}'{did_you_mean(near)}"
+        message = f"<{problem.kind.tag}> has no attribute '{name}'{did_you_mean(near)}"
         yield problem_finding(rule, problem, message, severity="error" if problem.fatal else None, fixes=fixes)
 
 
@@ -39,5 +40,5 @@ RULE = Rule(
     example='<node pkg="camera" type="driver" name="camera" respwan="true"/>',
     instead='<node pkg="camera" type="driver" name="camera" respawn="true"/>',
     check=_check,
-    problems=("unknown-attribute",),
+    problems=(UnknownAttribute,),
 )

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import Problem
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import insert_attribute
-from preflight_analysis.rules.misspelt_attributes import MISSING, misspelt
+from preflight_analysis.launch.problems import MissingAttribute
+from preflight_analysis.rules.misspelt_attributes import misspelt
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tag, Tags
@@ -15,27 +15,27 @@ from preflight_analysis.rules.syntax import Tag, Tags
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
-    for problem in problems_of(rule, context):
+    for problem in problems_of(context, MissingAttribute):
         tag = tags.named_at(problem.location)
-        needed = [str(name) for name in problem.data["names"]]
-        message = _message(problem)
+        needed = problem.kind.names
+        message = _message(problem.kind)
         fixes: tuple[Fix, ...] = ()
         if tag is not None:
             mistaken = misspelt(context, tag, problem.location.file, needed)
             if mistaken is not None:
                 message += f"; is '{mistaken.name}' meant to be it?"
                 fixes = rename(context, mistaken.location, mistaken.name, mistaken.meant)
-            fixes = fixes or _insertion(context, problem, tag, needed[0])
+            fixes = fixes or _insertion(context, problem.location.file, tag, needed[0])
         yield problem_finding(rule, problem, message, fixes=fixes)
 
 
-def _message(problem: Problem) -> str:
-    needed = [f"'{name}'" for name in problem.data["names"]]
-    return f"<{problem.data['tag']}> needs {'one of ' if len(needed) > 1 else ''}{', '.join(needed)}"
+def _message(missing: MissingAttribute) -> str:
+    needed = [f"'{name}'" for name in missing.names]
+    return f"<{missing.tag}> needs {'one of ' if len(needed) > 1 else ''}{', '.join(needed)}"
 
 
-def _insertion(context: Context, problem: Problem, tag: Tag, name: str) -> tuple[Fix, ...]:
-    document = context.documents.get(problem.location.file)
+def _insertion(context: Context, file: str, tag: Tag, name: str) -> tuple[Fix, ...]:
+    document = context.documents.get(file)
     if document is None or document.path.endswith((".yaml", ".yml", ".py")):
         return ()
     return (Fix(f"Add '{name}'", (insert_attribute(tag.action, document, name),), True),)
@@ -50,5 +50,5 @@ RULE = Rule(
     example='<node pkg="camera" name="camera"/>',
     instead='<node pkg="camera" type="driver" name="camera"/>',
     check=_check,
-    problems=(MISSING,),
+    problems=(MissingAttribute,),
 )

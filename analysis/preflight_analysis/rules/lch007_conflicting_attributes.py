@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_attribute
+from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.rules.problems import problem_finding, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -14,17 +15,17 @@ from preflight_analysis.rules.syntax import Tags
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
-    for problem in problems_of(rule, context):
-        message = f"<{problem.data['tag']}> cannot have {quoted(problem.data['names'])} together"
+    for problem in problems_of(context, ConflictingAttributes):
+        message = f"<{problem.kind.tag}> cannot have {quoted(problem.kind.names)} together"
         yield problem_finding(rule, problem, message, fixes=_fixes(context, tags, problem))
 
 
-def _fixes(context: Context, tags: Tags, problem: Problem) -> Iterator[Fix]:
+def _fixes(context: Context, tags: Tags, problem: Problem[ConflictingAttributes]) -> Iterator[Fix]:
     """One for each of the attributes, which removes the others."""
     tag, document = tags.named_at(problem.location), context.documents.get(problem.location.file)
     if tag is None or document is None:
         return
-    attributes = {name: tag.action.attribute(name) for name in problem.data["names"]}
+    attributes = {name: tag.action.attribute(name) for name in problem.kind.names}
     for name in attributes:
         others = [attribute for other, attribute in attributes.items() if other != name and attribute is not None]
         yield Fix(f"Keep '{name}' alone", tuple(remove_attribute(attribute, document) for attribute in others))
@@ -39,5 +40,5 @@ RULE = Rule(
     example='<param name="rate" value="30" textfile="rate.txt"/>',
     instead='<param name="rate" value="30"/>',
     check=_check,
-    problems=("attributes-exclude",),
+    problems=(ConflictingAttributes,),
 )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -18,21 +19,21 @@ _WHOLE = re.compile(r"[+-]?[0-9]+\.0*")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        data = problem.data
-        near = _meant(str(data["value"]), str(data["expected"]), data["choices"])
-        message = f"{data['attribute']}='{data['value']}' of <{data['tag']}> is not {data['expected']}"
-        fixes = rename(context, problem.location, str(data["value"]), near) if near else ()
+    for problem in problems_of(context, BadValue):
+        bad = problem.kind
+        near = _meant(bad)
+        message = f"{bad.attribute}='{bad.value}' of <{bad.tag}> is not {bad.expected}"
+        fixes = rename(context, problem.location, bad.value, near) if near else ()
         yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
 
 
-def _meant(value: str, expected: str, choices: Sequence[str]) -> str | None:
+def _meant(bad: BadValue) -> str | None:
     """The value that roslaunch takes and that is most likely meant."""
-    near = nearest(value, choices)
-    if near is None and "true" in choices:
-        near = _TRUTH.get(value.strip().lower())
-    if near is None and expected == "an integer" and _WHOLE.fullmatch(value.strip()):
-        near = value.strip().partition(".")[0]
+    near = nearest(bad.value, bad.choices)
+    if near is None and "true" in bad.choices:
+        near = _TRUTH.get(bad.value.strip().lower())
+    if near is None and bad.expected == "an integer" and _WHOLE.fullmatch(bad.value.strip()):
+        near = bad.value.strip().partition(".")[0]
     return near
 
 
@@ -46,5 +47,5 @@ RULE = Rule(
     example='<node pkg="camera" type="driver" name="camera" output="scren"/>',
     instead='<node pkg="camera" type="driver" name="camera" output="screen"/>',
     check=_check,
-    problems=("bad-value",),
+    problems=(BadValue,),
 )

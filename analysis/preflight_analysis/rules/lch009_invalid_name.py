@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import InvalidName, Problem
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.rules.problems import as_written, problem_finding, problems_of
@@ -19,23 +19,23 @@ _ILLEGAL = re.compile(r"[^A-Za-z0-9_/]+")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
     # One is enough of a place that is read with several values.
-    first = {problem.location: problem for problem in reversed(list(problems_of(rule, context)))}
+    first = {problem.location: problem for problem in reversed(list(problems_of(context, InvalidName)))}
     for problem in first.values():
-        data = problem.data
-        message = f"{data['what']} name '{as_written(data['name'])}' is not allowed: {data['reason']}"
+        invalid = problem.kind
+        message = f"{invalid.what} name '{as_written(invalid.name)}' is not allowed: {invalid.reason}"
         severity: Severity | None = None if problem.fatal else "warning"
         yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
 
 
-def _fixes(context: Context, tags: Tags, problem: Problem) -> Iterator[Fix]:
+def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Iterator[Fix]:
     """The name without what is not allowed in it, if it is written as it is; a namespace in it becomes `ns`."""
     location = problem.location
     document = context.documents.get(location.file)
     written = document.text[location.span.start : location.span.end] if document is not None else ""
-    if document is None or names.canonicalize(written) != problem.data["name"]:
+    if document is None or names.canonicalize(written) != problem.kind.name:
         return
     legal = _legal(written)
-    if problem.data["what"] == "node" and "/" in legal:
+    if problem.kind.what == "node" and "/" in legal:
         ns, _, name = legal.rstrip("/").rpartition("/")
         tag = tags.around(location)
         if tag is None or tag.action.attribute("ns") is not None or not ns or not names.is_legal(name):
@@ -63,5 +63,5 @@ RULE = Rule(
     example='<node pkg="camera" type="driver" name="front/camera"/>',
     instead='<node pkg="camera" type="driver" name="camera" ns="front"/>',
     check=_check,
-    problems=("invalid-name",),
+    problems=(InvalidName,),
 )

@@ -1,5 +1,6 @@
 """LCH010: an element that roslaunch drops where it stands."""
 
+from preflight_analysis.launch.problems import IgnoredChild
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -12,7 +13,7 @@ RULE = Rule(
     example='<include file="camera.launch">\n  <remap from="image" to="front/image"/>\n</include>',
     instead='<group>\n  <remap from="image" to="front/image"/>\n  <include file="camera.launch"/>\n</group>',
     check=check_problems(
-        lambda problem: f"<{problem.data['tag']}> has no effect in <{problem.data['parent']}>: roslaunch drops it"
+        lambda child: f"<{child.tag}> has no effect in <{child.parent}>: roslaunch drops it", IgnoredChild
     ),
-    problems=("ignored-child",),
+    problems=(IgnoredChild,),
 )

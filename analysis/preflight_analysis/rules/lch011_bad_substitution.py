@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import EvalFailed
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.problems import BadSubstitution
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -18,20 +19,18 @@ _RENAMED = {
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        message = _message(problem)
-        command, known = str(problem.data.get("command", "")), problem.data.get("commands", ())
-        near = nearest(command, known) if command else None
-        near = _RENAMED.get(command, near) if context.tree.generation == 2 and known else near
-        if near is not None:
-            message += did_you_mean(near)
-        yield problem_finding(rule, problem, message)
+    for problem in problems_of(context, BadSubstitution, EvalFailed):
+        match problem.kind:
+            case EvalFailed(expression, message):
+                yield problem_finding(rule, problem, f"$(eval {expression}) fails: {message}")
+            case BadSubstitution() as bad:
+                yield problem_finding(rule, problem, bad.message + did_you_mean(_meant(context, bad)))
 
 
-def _message(problem: Problem) -> str:
-    if problem.kind == "eval-error":
-        return f"$(eval {problem.data['expression']}) fails: {problem.data['message']}"
-    return str(problem.data["message"])
+def _meant(context: Context, bad: BadSubstitution) -> str | None:
+    """The command that there is and that is probably meant."""
+    near = nearest(bad.command, bad.commands) if bad.command else None
+    return _RENAMED.get(bad.command, near) if context.tree.generation == 2 and bad.commands else near
 
 
 RULE = Rule(
@@ -43,5 +42,8 @@ RULE = Rule(
     example='<param name="rate" value="$(args rate)"/>',
     instead='<param name="rate" value="$(arg rate)"/>',
     check=_check,
-    problems=("bad-substitution", "eval-error"),
+    problems=(
+        BadSubstitution,
+        EvalFailed,
+    ),
 )

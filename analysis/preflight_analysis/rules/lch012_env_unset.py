@@ -1,5 +1,6 @@
 """LCH012: $(env) of a variable that is not set."""
 
+from preflight_analysis.evaluation.problems import UnsetVariable
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -12,6 +13,6 @@ RULE = Rule(
     why="`roslaunch` stops where the variable is not set. It may be set on the robot, hence a warning.",
     example='<arg name="robot" default="$(env ROBOT)"/>',
     instead='<arg name="robot" default="$(optenv ROBOT turtle)"/>',
-    check=check_problems(lambda problem: f"environment variable '{problem.data['name']}' is not set"),
-    problems=("env-unset",),
+    check=check_problems(lambda unset: f"environment variable '{unset.name}' is not set", UnsetVariable),
+    problems=(UnsetVariable,),
 )

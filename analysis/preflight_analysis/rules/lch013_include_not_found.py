@@ -1,5 +1,6 @@
 """LCH013: an include of a file that is not there."""
 
+from preflight_analysis.evaluation.problems import IncludeNotFound
 from preflight_analysis.rules.files import check_missing_files
 from preflight_analysis.rules.rule import Rule
 
@@ -12,6 +13,6 @@ RULE = Rule(
     "folder in which `roslaunch` is started, not from that of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',
-    check=check_missing_files("included file"),
-    problems=("include-not-found",),
+    check=check_missing_files(IncludeNotFound, "included file"),
+    problems=(IncludeNotFound,),
 )

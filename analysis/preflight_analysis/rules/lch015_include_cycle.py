@@ -2,15 +2,16 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import IncludeCycle
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        way = " -> ".join(shown(str(path), context) for path in problem.data["chain"])
-        message = f"'{shown(str(problem.data['path']), context)}' includes itself: {way}"
+    for problem in problems_of(context, IncludeCycle):
+        way = " -> ".join(shown(path, context) for path in problem.kind.chain)
+        message = f"'{shown(problem.kind.path, context)}' includes itself: {way}"
         yield problem_finding(rule, problem, message)
 
 
@@ -23,5 +24,5 @@ RULE = Rule(
     example='<!-- in robot.launch -->\n<include file="$(find robot)/launch/robot.launch"/>',
     instead='<!-- in robot.launch -->\n<include file="$(find robot)/launch/base.launch"/>',
     check=_check,
-    problems=("include-cycle",),
+    problems=(IncludeCycle,),
 )

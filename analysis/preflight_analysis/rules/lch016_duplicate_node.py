@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode, Problem
+from preflight_analysis.evaluation.problems import DuplicateNode, Problem
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename
@@ -14,8 +15,8 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     taken = {node.name for node in context.tree.nodes}
-    for problem in problems_of(rule, context):
-        name, first = str(problem.data["name"]), problem.data["first"]
+    for problem in problems_of(context, DuplicateNode):
+        name, first = problem.kind.name, problem.kind.first
         if first is None:
             yield problem_finding(rule, problem, f"'{name}' is the name of roslaunch's own node")
             continue
@@ -59,9 +60,9 @@ def _why(node: LaunchNode) -> str:
     return "the code of this one calls it so, as it has no 'name' here"
 
 
-def _fixes(context: Context, problem: Problem, taken: set[str]) -> tuple[Fix, ...]:
+def _fixes(context: Context, problem: Problem[DuplicateNode], taken: set[str]) -> tuple[Fix, ...]:
     """The name with a number that makes it the only one."""
-    full = str(problem.data["name"])
+    full = problem.kind.name
     namespace, leaf = names.parent(full), full.rpartition("/")[2]
     number = 2
     while f"{namespace}{leaf}_{number}" in taken:
@@ -81,5 +82,5 @@ RULE = Rule(
     example='<node pkg="laser" type="driver" name="laser"/>\n<node pkg="laser" type="driver" name="laser"/>',
     instead='<node pkg="laser" type="driver" name="laser_front"/>\n<node pkg="laser" type="driver" name="laser_rear"/>',
     check=_check,
-    problems=("duplicate-node",),
+    problems=(DuplicateNode,),
 )

@@ -1,7 +1,21 @@
 """LCH017: a node on a machine that is not declared."""
 
-from preflight_analysis.rules.problems import check_names
-from preflight_analysis.rules.rule import Rule
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation.problems import UndefinedMachine
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(context, UndefinedMachine):
+        name = problem.kind.name
+        near = nearest(name, problem.kind.declared)
+        fixes = rename(context, problem.location, name, near) if near else ()
+        yield problem_finding(rule, problem, f"machine '{name}' is not declared{did_you_mean(near)}", fixes=fixes)
+
 
 RULE = Rule(
     id="LCH017",
@@ -11,6 +25,6 @@ RULE = Rule(
     why="`roslaunch` stops and starts nothing.",
     example='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="bse"/>',
     instead='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="base"/>',
-    check=check_names(lambda problem: f"machine '{problem.data['name']}' is not declared", "name", "declared"),
-    problems=("machine-undefined",),
+    check=_check,
+    problems=(UndefinedMachine,),
 )

@@ -2,32 +2,41 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import (
+    CommandNotRun,
+    EvalNotAllowed,
+    LaunchFileNotRun,
+    NestedTooDeeply,
+    UnexpandedEntity,
+    ValueTooLong,
+)
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
+_KINDS = (CommandNotRun, LaunchFileNotRun, EvalNotAllowed, UnexpandedEntity, NestedTooDeeply, ValueTooLong)
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        # Every robot description is made by a command: said, but quietly.
-        severity: Severity | None = "hint" if problem.kind.endswith("-not-run") else None
-        yield problem_finding(rule, problem, _message(problem), severity=severity)
-
-
-def _message(problem: Problem) -> str:
-    data = problem.data
-    if problem.kind == "xml-entity":
-        return f"entity '&{data['name']};' is not expanded; values that use it are unknown here"
-    if problem.kind == "eval-not-allowed":
-        return f"$(eval {data['expression']}) is not evaluated: {data['message']}"
-    if problem.kind == "nested-too-deeply":
-        return f"there are more than {data['limit']} of groups and includes; what is beyond is left out"
-    if problem.kind == "value-too-long":
-        return f"the values that are put together here have more than {data['limit']} characters; they are unknown here"
-    if problem.kind == "launch-file-not-run":
-        return f"{data['name']} was not run, and only what is written out is known of it: {data['reason']}"
-    return f"the command was not run, and its value is unknown here: {data['reason']}"
+    for problem in problems_of(context, *_KINDS):
+        severity: Severity | None = None
+        match problem.kind:
+            case CommandNotRun(reason):
+                # Every robot description is made by a command: said, but quietly.
+                severity = "hint"
+                message = f"the command was not run, and its value is unknown here: {reason}"
+            case LaunchFileNotRun(name, reason):
+                severity = "hint"
+                message = f"{name} was not run, and only what is written out is known of it: {reason}"
+            case EvalNotAllowed(expression, reason):
+                message = f"$(eval {expression}) is not evaluated: {reason}"
+            case UnexpandedEntity(name):
+                message = f"entity '&{name};' is not expanded; values that use it are unknown here"
+            case NestedTooDeeply(limit):
+                message = f"there are more than {limit} of groups and includes; what is beyond is left out"
+            case ValueTooLong(limit):
+                message = f"the values that are put together here have more than {limit}; they are unknown here"
+        yield problem_finding(rule, problem, message, severity=severity)
 
 
 RULE = Rule(
@@ -43,12 +52,5 @@ RULE = Rule(
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',
     instead='<param name="letters" value="$(eval list(name))"/>',
     check=_check,
-    problems=(
-        "command-not-run",
-        "launch-file-not-run",
-        "eval-not-allowed",
-        "xml-entity",
-        "nested-too-deeply",
-        "value-too-long",
-    ),
+    problems=_KINDS,
 )

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -17,23 +17,24 @@ _REMARK = re.compile(r"(?:#|//)")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        text = str(problem.data["text"])
+    for problem in problems_of(context, StrayText):
+        text = problem.kind.text
         shown = text if len(text) <= 40 else text[:40] + "..."
         lost = _TAG.match(text) is not None
         hint = "; is a '<' missing before it?" if lost else ""
-        message = f"the text '{shown}' in <{problem.data['tag']}> means nothing: roslaunch does not look at it{hint}"
+        message = f"the text '{shown}' in <{problem.kind.tag}> means nothing: roslaunch does not look at it{hint}"
         severity: Severity | None = "hint" if _REMARK.match(text) else None
-        yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, problem, text, lost))
+        fixes = _fixes(context, problem.location, text, lost)
+        yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)
 
 
-def _fixes(context: Context, problem: Problem, text: str, lost: bool) -> Iterator[Fix]:
+def _fixes(context: Context, place: Location, text: str, lost: bool) -> Iterator[Fix]:
     if lost:
-        start = problem.location.span.start
-        yield Fix("Insert the '<'", (Edit(context.location(problem.location.file, Span(start, start)), "<"),), True)
+        start = place.span.start
+        yield Fix("Insert the '<'", (Edit(context.location(place.file, Span(start, start)), "<"),), True)
     elif _REMARK.match(text) and "--" not in text:
         # A comment in XML cannot have two dashes in it.
-        yield Fix("Make it a comment", (Edit(problem.location, f"<!-- {text.lstrip('#/ ')} -->"),), True)
+        yield Fix("Make it a comment", (Edit(place, f"<!-- {text.lstrip('#/ ')} -->"),), True)
 
 
 RULE = Rule(
@@ -46,5 +47,5 @@ node is never started, or a remark that was meant as a comment.""",
     example='<launch>\n  node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
     instead='<launch>\n  <node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
     check=_check,
-    problems=("stray-text",),
+    problems=(StrayText,),
 )

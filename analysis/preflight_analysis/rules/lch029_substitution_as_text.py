@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.problems import SubstitutionAsText
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        text, meant = str(problem.data["text"]), str(problem.data["meant"])
+    for problem in problems_of(context, SubstitutionAsText):
+        text, meant = problem.kind.text, problem.kind.meant
         place = problem.location
         document = context.documents.get(place.file)
         exact = document is not None and document.text[place.span.start : place.span.end] == text
@@ -30,5 +31,5 @@ topic or file is then really called `$(arg name`, and nothing says so.""",
     example='<param name="port" value="${arg port}"/>\n<param name="rate" value="$(arg rate"/>',
     instead='<param name="port" value="$(arg port)"/>\n<param name="rate" value="$(arg rate)"/>',
     check=_check,
-    problems=("substitution-as-text",),
+    problems=(SubstitutionAsText,),
 )

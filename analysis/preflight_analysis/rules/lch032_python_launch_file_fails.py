@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.environment.installed_paths import package_around
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.problems import include_chain, problems_of
@@ -14,20 +14,20 @@ _LAUNCH = re.compile(r"launch(_\w+)?\Z")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
+    for problem in problems_of(context, PythonException, PythonImportFailed):
         severity: Severity | None = None
         confidence: Confidence = "certain"
         related: tuple[Related, ...] = ()
-        if problem.kind == "python-import":
-            # Which modules there are is a matter of the environment, which may be another one when it is launched.
-            there = has_ros(context)
-            severity, confidence = ("warning", "likely") if there else ("info", "possible")
-            message = _import(context, problem, has_ros=there)
-        else:
-            error, said = problem.data["error"], problem.data["message"]
-            message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
-            frames = [place for place in reversed(problem.data["frames"]) if place != problem.location]
-            related = tuple(Related("in the traceback", place) for place in frames)
+        match problem.kind:
+            case PythonImportFailed() as failed:
+                # Which modules there are is a matter of the environment, which may be another one when it is launched.
+                there = has_ros(context)
+                severity, confidence = ("warning", "likely") if there else ("info", "possible")
+                message = _import(context, failed, problem.location.file, has_ros=there)
+            case PythonException(error, said, frames):
+                message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
+                places = (place for place in reversed(frames) if place != problem.location)
+                related = tuple(Related("in the traceback", place) for place in places)
         yield rule.finding(
             message,
             problem.location,
@@ -38,11 +38,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-def _import(context: Context, problem: Problem, *, has_ros: bool) -> str:
+def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros: bool) -> str:
     """What is missing, and what to do about it; the rest of the file counts as far as its text tells."""
-    said = str(problem.data["message"])
+    said = failed.message
     message = f"the launch file cannot be run here, so it counts as far as its text tells: {said}"
-    module = str(problem.data["module"]).partition(".")[0]
+    module = failed.module.partition(".")[0]
     if _LAUNCH.match(module):
         return f"{message}; {module} has it neither in Humble nor in Jazzy, Kilted or Rolling"
     if not said.startswith("No module named"):
@@ -51,7 +51,7 @@ def _import(context: Context, problem: Problem, *, has_ros: bool) -> str:
         return f"{message}; package '{module}' is in the workspace and is not built"
     if not has_ros:
         return f"{message}; no ROS is installed here, which most modules of launch files come with"
-    owner = package_around(context.environment, problem.location.file)
+    owner = package_around(context.environment, file)
     names = {module, f"python3-{module}", f"python3-{module.replace('_', '-')}"}
     if owner is None or names.isdisjoint(owner.dependencies):
         return f"{message}; install what it is part of, and name that in the package.xml of the package"
@@ -69,5 +69,8 @@ RULE = Rule(
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',
     check=_check,
-    problems=("python-exception", "python-import"),
+    problems=(
+        PythonException,
+        PythonImportFailed,
+    ),
 )

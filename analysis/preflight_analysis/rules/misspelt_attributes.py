@@ -6,14 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.launch.problems import MissingAttribute
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.problems import problems_of
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.syntax import Tag, Tags
-
-MISSING = "missing-attribute"
-"""The kind of problem that an element has without the attribute."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,9 +41,9 @@ def explained(context: Context) -> frozenset[Location]:
     """Where those are written that stand for a missing one: that finding says it all. Ask through `context.once`."""
     tags = Tags(context.launch_files)
     found = set()
-    for problem in context.tree.problems:
-        tag = tags.named_at(problem.location) if problem.kind == MISSING else None
-        each = misspelt(context, tag, problem.location.file, map(str, problem.data["names"])) if tag else None
+    for problem in problems_of(context, MissingAttribute):
+        tag = tags.named_at(problem.location)
+        each = misspelt(context, tag, problem.location.file, problem.kind.names) if tag else None
         if each is not None:
             found.add(each.location)
     return frozenset(found)

@@ -6,6 +6,7 @@ from functools import cache, partial
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
+from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
@@ -17,8 +18,8 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     meant = cache(partial(_meant, context))
-    for problem in problems_of(rule, context):
-        name, chain = str(problem.data["name"]), include_chain(problem.origin)
+    for problem in problems_of(context, PackageNotFound):
+        name, chain = problem.kind.name, include_chain(problem.origin)
         yield _finding(rule, context, name, meant(name), problem.location, chain, stops=problem.fatal)
     packages = context.environment.packages
     for node in context.tree.nodes:
@@ -86,5 +87,5 @@ RULE = Rule(
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
     check=_check,
-    problems=("package-not-found",),
+    problems=(PackageNotFound,),
 )

@@ -1,5 +1,6 @@
 """PRM002: a parameter file that is not there."""
 
+from preflight_analysis.evaluation.problems import ParameterFileNotFound
 from preflight_analysis.rules.files import check_missing_files
 from preflight_analysis.rules.rule import Rule
 
@@ -13,6 +14,6 @@ RULE = Rule(
     "without the file, on their defaults: then it is a warning.",
     example='<rosparam command="load" file="$(find camera)/config/camrea.yaml"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
-    check=check_missing_files("parameter file"),
-    problems=("param-file-not-found",),
+    check=check_missing_files(ParameterFileNotFound, "parameter file"),
+    problems=(ParameterFileNotFound,),
 )

@@ -2,15 +2,16 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.problems import UnreadableParameterFile
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        path = shown(str(problem.data["path"]), context)
-        yield problem_finding(rule, problem, f"parameter file '{path}' cannot be read: {problem.data['reason']}")
+    for problem in problems_of(context, UnreadableParameterFile):
+        path = shown(problem.kind.path, context)
+        yield problem_finding(rule, problem, f"parameter file '{path}' cannot be read: {problem.kind.reason}")
 
 
 RULE = Rule(
@@ -23,5 +24,5 @@ RULE = Rule(
     example='<rosparam command="load" file="$(find camera)/config"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     check=_check,
-    problems=("param-file-unreadable",),
+    problems=(UnreadableParameterFile,),
 )

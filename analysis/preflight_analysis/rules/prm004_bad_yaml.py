@@ -1,5 +1,6 @@
 """PRM004: parameters that are not valid YAML."""
 
+from preflight_analysis.evaluation.problems import BadYaml
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -12,6 +13,6 @@ RULE = Rule(
     why="`roslaunch` stops and starts nothing.",
     example="<rosparam>\nrate: 10\n\tframe: map\n</rosparam>",
     instead="<rosparam>\nrate: 10\nframe: map\n</rosparam>",
-    check=check_problems(lambda problem: f"not valid as parameters: {problem.data['message']}"),
-    problems=("bad-yaml",),
+    check=check_problems(lambda bad: f"not valid as parameters: {bad.message}", BadYaml),
+    problems=(BadYaml,),
 )

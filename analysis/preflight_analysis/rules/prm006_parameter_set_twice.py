@@ -8,6 +8,7 @@ from itertools import compress, takewhile
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.problems import YamlKeyTwice
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
 from preflight_analysis.findings.finding import Finding, Related, Severity
 from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of
@@ -185,12 +186,12 @@ def _is_inside(place: Location, node: LaunchNode) -> bool:
 
 
 def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
+    for problem in problems_of(context, YamlKeyTwice):
         yield problem_finding(
             rule,
             problem,
-            f"'{problem.data['name']}' stands twice in this dictionary: the later one counts, all of this is dropped",
-            related=(Related("the one that counts", problem.data["second"]),),
+            f"'{problem.kind.name}' stands twice in this dictionary: the later one counts, all of this is dropped",
+            related=(Related("the one that counts", problem.kind.second),),
         )
 
 
@@ -276,5 +277,5 @@ RULE = Rule(
     '<include file="$(find robot)/launch/robot.launch"/>',
     instead='<include file="$(find robot)/launch/robot.launch"/>\n<param name="use_sim_time" value="true"/>',
     check=_check,
-    problems=("yaml-key-twice",),
+    problems=(YamlKeyTwice,),
 )

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.executables import ExecutableIndex
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -22,11 +22,14 @@ _STDERR_LINES = 3
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(rule, context):
-        if problem.kind == "command-missing":
-            yield _missing(rule, context, str(problem.data["command"]), problem.origin, stops=problem.fatal)
-        else:
-            yield problem_finding(rule, problem, _message(problem))
+    for problem in problems_of(context, CommandFailed, CommandMissing, MalformedCommand):
+        match problem.kind:
+            case CommandMissing(line):
+                yield _missing(rule, context, line, problem.origin, stops=problem.fatal)
+            case MalformedCommand(message):
+                yield problem_finding(rule, problem, f"the command cannot be split into words: {message}")
+            case CommandFailed() as failed:
+                yield problem_finding(rule, problem, _message(failed))
     # A program that is named with its folder is looked for without running anything.
     for command in context.tree.commands:
         if command.launch_file:
@@ -37,17 +40,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield _missing(rule, context, command.line, command.origin, stops=False)
 
 
-def _message(problem: Problem) -> str:
-    if problem.kind == "command-malformed":
-        return f"the command cannot be split into words: {problem.data['message']}"
-    lines = [line.strip() for line in problem.data["stderr"] if line.strip()]
+def _message(failed: CommandFailed) -> str:
+    lines = [line.strip() for line in failed.stderr if line.strip()]
     if any(_TRACEBACK.match(line) for line in lines):
         reported = lines[-1:]
     else:
         # xacro says what is wrong and where, and may go on with advice.
         start = next((n for n, line in enumerate(lines) if _ERROR.search(line)), max(0, len(lines) - _STDERR_LINES))
         reported = lines[start : start + _STDERR_LINES]
-    return "; ".join([f"the command failed: {problem.data['reason']}", *reported])
+    return "; ".join([f"the command failed: {failed.reason}", *reported])
 
 
 def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: bool) -> Finding:
@@ -126,5 +127,9 @@ RULE = Rule(
     example='<param name="robot_description" command="$(find xacro)/xacro.py $(find arm)/urdf/arm.xacro"/>',
     instead='<param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro"/>',
     check=_check,
-    problems=("command-failed", "command-missing", "command-malformed"),
+    problems=(
+        CommandFailed,
+        CommandMissing,
+        MalformedCommand,
+    ),
 )

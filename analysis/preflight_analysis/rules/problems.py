@@ -5,24 +5,30 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import TypeVar, cast
 
 from preflight_analysis.documents.span import Location, Origin, Span
-from preflight_analysis.evaluation.tree import Problem
+from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules.rule import Check, Context, Rule
 
 _ANONYMOUS = re.compile(r"_ANON\d+")
 
 
-def problems_of(rule: Rule, context: Context) -> Iterator[Problem]:
-    """The problems whose kind `rule` owns."""
-    return (problem for problem in context.tree.problems if problem.kind in rule.problems)
+K = TypeVar("K", bound=ProblemKind)
+
+
+def problems_of(context: Context, *kinds: type[K]) -> Iterator[Problem[K]]:
+    """The problems of these kinds."""
+    for problem in context.tree.problems:
+        if isinstance(problem.kind, kinds):
+            yield cast(Problem[K], problem)
 
 
 def problem_finding(
     rule: Rule,
-    problem: Problem,
+    problem: Problem[ProblemKind],
     message: str,
     *,
     severity: Severity | None = None,
@@ -42,26 +48,12 @@ def problem_finding(
     )
 
 
-def check_problems(message: Callable[[Problem], str]) -> Check:
+def check_problems(message: Callable[[K], str], *kinds: type[K]) -> Check:
     """The check of a rule that has nothing to do but to word its problems."""
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
-        for problem in problems_of(rule, context):
-            yield problem_finding(rule, problem, message(problem))
-
-    return check
-
-
-def check_names(message: Callable[[Problem], str], wrong: str, known: str) -> Check:
-    """As `check_problems`, for problems whose data has a wrong name at `wrong` and the known ones at `known`: the
-    nearest of them is named, and offered as a fix."""
-
-    def check(rule: Rule, context: Context) -> Iterator[Finding]:
-        for problem in problems_of(rule, context):
-            name = str(problem.data[wrong])
-            near = nearest(name, problem.data[known])
-            fixes = rename(context, problem.location, name, near) if near else ()
-            yield problem_finding(rule, problem, message(problem) + did_you_mean(near), fixes=fixes)
+        for problem in problems_of(context, *kinds):
+            yield problem_finding(rule, problem, message(problem.kind))
 
     return check
 

@@ -83,7 +83,7 @@ def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iter
     """
     met: dict[Location, deque[int]] = {}
     for number, problem in enumerate(context.tree.problems):
-        if problem.fatal and problem.kind in rule.problems:
+        if problem.fatal and isinstance(problem.kind, rule.problems):
             met.setdefault(problem.location, deque()).append(number)
     for finding in findings:
         numbers = met.get(finding.location) if finding.stops_launch else None

@@ -20,6 +20,7 @@ from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.problems import ProblemKind
 
 T = TypeVar("T")
 
@@ -86,7 +87,7 @@ Check = Callable[["Rule", Context], Iterable[Finding]]
 class Rule(RuleDescription):
     """A rule. A check may give a finding another severity than the usual one with `finding(..., severity=...)`.
 
-    `problems` are the kinds of `evaluation.problems.KINDS` that the rule reports; each kind has one rule.
+    `problems` are the kinds of problems that the rule reports; each kind has one rule.
     `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
@@ -95,7 +96,7 @@ class Rule(RuleDescription):
     """
 
     check: Check = field(repr=False)
-    problems: tuple[str, ...] = ()
+    problems: tuple[type[ProblemKind], ...] = ()
     needs_graph: bool = False
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)

@@ -276,7 +276,7 @@ def _check_language(state: State) -> None:
             said = {problem.span for problem in launch_file.document.problems} | set(launch_file.extra_roots)
             for found in memo.language(launch_file) if memo is not None else check_language(launch_file):
                 if found.span not in said:
-                    state.problem(found.kind, (launch_file.document.location(found.span),), fatal=False, **found.data)
+                    state.problem(found.kind, (launch_file.document.location(found.span),), fatal=False)
 
 
 def _too_deep(state: State, scope: Scope, action: Action) -> bool:

@@ -13,6 +13,7 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
     Command,
@@ -20,12 +21,12 @@ from preflight_analysis.evaluation.tree import (
     LaunchNode,
     NotTaken,
     Param,
-    Problem,
     Unknown,
     Use,
 )
-from preflight_analysis.launch.check_language import LanguageProblem, check_language
+from preflight_analysis.launch.check_language import check_language
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.problems import LanguageProblem, ProblemKind
 
 MAX_RECORDS = 4_000
 
@@ -43,7 +44,7 @@ class Record:
     includes: tuple[Include, ...]
     commands: tuple[Command, ...]
     uses: tuple[Use, ...]
-    problems: tuple[Problem, ...]
+    problems: tuple[Problem[ProblemKind], ...]
     unknowns: tuple[Unknown, ...]
     not_taken: tuple[NotTaken, ...]
     declared: Mapping[str, Location]

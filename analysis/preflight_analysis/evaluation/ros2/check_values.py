@@ -12,9 +12,9 @@ from typing import Any
 
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
-from preflight_analysis.launch.check_language import LanguageProblem
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
+from preflight_analysis.launch.problems import BadSubstitution, BadValue, LanguageProblem
 from preflight_analysis.launch.schema_ros2 import PARAM_TYPES, TAGS_ROS2
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 
@@ -130,16 +130,15 @@ def _param(action: Action, value: Value) -> Iterator[LanguageProblem]:
 
 
 def _bad_value(action: Action, name: str, value: Value, expected: str) -> LanguageProblem:
-    data = {"tag": action.kind, "attribute": name, "value": value.text, "expected": expected}
     choices = ("true", "false") if expected == _EXPECTED["bool"] else ()
-    return LanguageProblem("bad-value", value.span, {**data, "choices": choices})
+    return LanguageProblem(BadValue(action.kind, name, value.text, expected, choices), value.span)
 
 
 def substitution_problems(value: Value) -> Iterator[LanguageProblem]:
     """What is wrong with the form of the substitutions of a value."""
     if value.problem is not None:
         span = value.problem_span or value.span
-        yield LanguageProblem("bad-substitution", span, {"text": value.text, "message": value.problem})
+        yield LanguageProblem(BadSubstitution(value.text, value.problem), span)
         return
     for part in value.parts:
         if isinstance(part, Substitution):
@@ -154,16 +153,15 @@ def _substitution(part: Substitution) -> Iterator[LanguageProblem]:
     known = SUBSTITUTIONS_ROS2.get(part.command)
     if known is None:
         message = f"'{part.command}' is not a substitution"
-        more = {"command": part.command, "commands": tuple(SUBSTITUTIONS_ROS2)}
-        yield LanguageProblem("bad-substitution", part.span, {"text": part.text, "message": message, **more})
+        yield LanguageProblem(BadSubstitution(part.text, message, part.command, tuple(SUBSTITUTIONS_ROS2)), part.span)
         return
     if part.command in _UNREADABLE:
         message = (
             f"launch cannot read $({part.command} ...) in XML and YAML files: write $({_UNREADABLE[part.command]} ...)"
         )
-        yield LanguageProblem("bad-substitution", part.span, {"text": part.text, "message": message})
+        yield LanguageProblem(BadSubstitution(part.text, message), part.span)
         return
     arity, count = known[2], len(part.words)
     if count < arity.least or (arity.most is not None and count > arity.most):
         message = f"$({part.command}) takes {arity}"
-        yield LanguageProblem("bad-substitution", part.span, {"text": part.text, "message": message})
+        yield LanguageProblem(BadSubstitution(part.text, message), part.span)

@@ -15,6 +15,15 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.problems import (
+    ArgumentNotAChoice,
+    LaunchFileNotRun,
+    MalformedPython,
+    MissingArgument,
+    NestedTooDeeply,
+    Problem,
+    UnknownIncludeArgument,
+)
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
@@ -34,11 +43,11 @@ from preflight_analysis.evaluation.ros2.python_runs import called, calls_own_cod
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.ros2.written import is_from_yaml
-from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Problem, Use
-from preflight_analysis.launch.check_language import LanguageProblem
+from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.problems import LanguageProblem, UnknownElement
 from preflight_analysis.launch.read import PYTHON_SUFFIX, read_launch
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
@@ -49,7 +58,7 @@ MAX_INCLUDES = 2_000
 _WITH_ACTIONS = tuple(tag for tag, schema in TAGS_ROS2.items() if "node" in schema.children)
 NO_RESULTS = NoResults()
 _MALFORMED = {".yaml": "yaml-malformed", ".yml": "yaml-malformed", PYTHON_SUFFIX: "python-malformed"}
-_SURE_UNRUN = ("python-malformed", "launch-file-not-run", "arg-not-a-choice", "nested-too-deeply")
+_SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
 """What can be said of a Python launch file that was not run."""
 
 
@@ -150,12 +159,13 @@ class _Walk:
 
     def _report_missing_below(self) -> None:
         """launch stops there also where the include is never executed, for a condition around it that is false."""
-        said = {(p.location, p.data["name"]) for p in self._state.problems if p.kind == "arg-required"}
+        kinds = ((problem.kind, problem.location) for problem in self._state.problems)
+        said = {(place, kind.name) for kind, place in kinds if isinstance(kind, MissingArgument)}
         for missing in self._missing_below:
             if missing.include is not None and (missing.include, missing.name) not in said:
                 said.add((missing.include, missing.name))
-                data = {"name": missing.name, "file": missing.location.file, "passed": missing.passed}
-                self._state.problems.append(Problem("arg-required", (missing.include,), data, True))
+                kind = MissingArgument(missing.name, missing.location.file, tuple(missing.passed))
+                self._state.problems.append(Problem(kind, (missing.include,), True))
 
     def _root_args(self, launch_file: LaunchFile) -> None:
         own = {name: arg for name, arg in self._state.args.items() if arg.origin[-1].file == launch_file.path}
@@ -175,8 +185,8 @@ class _Walk:
             state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", place.location(span))
         if not place.file.endswith(PYTHON_SUFFIX):
             for found in (*check_language_ros2(launch_file), *check_values_ros2(launch_file)):
-                if found.kind != "unknown-element" or not self._is_extension(place, found):
-                    state.problem(found.kind, place.origin(found.span), **found.data)
+                if not self._is_extension(place, found):
+                    state.problem(found.kind, place.origin(found.span))
         if launch_file.root is None:
             span = document.root.tag_span if document.root is not None else Span(0, min(1, len(document.text)))
             tag = document.root.tag if document.root is not None else None
@@ -186,13 +196,18 @@ class _Walk:
         self._actions(place, launch_file.root.children)
         if place.partial:
             # What is written in a program need not be what it does.
-            kept = [p for p in state.problems[before:] if p.location.file != place.file or p.kind in _SURE_UNRUN]
-            state.problems[before:] = kept
+            state.problems[before:] = (
+                problem
+                for problem in state.problems[before:]
+                if problem.location.file != place.file or isinstance(problem.kind, _SURE_UNRUN)
+            )
 
     def _is_extension(self, place: Place, found: LanguageProblem) -> bool:
-        """Whether a package defines the tag; what that does is not known."""
-        tag = str(found.data["tag"])
-        package = exposed_actions(self._state.environment).get(tag) if found.data["parent"] in _WITH_ACTIONS else None
+        """Whether it is a tag that a package defines; what that does is not known."""
+        if not isinstance(found.kind, UnknownElement) or found.kind.parent not in _WITH_ACTIONS:
+            return False
+        tag = found.kind.tag
+        package = exposed_actions(self._state.environment).get(tag)
         if package is not None:
             self._state.note_unknown(
                 f"<{tag}>", f"what this tag of package '{package}' starts", place.origin(found.span)[-1]
@@ -372,8 +387,8 @@ class _Walk:
             if name not in names and name not in used and name not in IMPLICIT:
                 value = child.value("name")
                 span = value.span if value is not None else child.kind_span
-                data = {"name": name, "file": path, "declared": sorted(names)}
-                self._state.problems.append(Problem("include-arg-undeclared", place.origin(span), data, False))
+                kind = UnknownIncludeArgument(name, tuple(sorted(names)), path)
+                self._state.problems.append(Problem(kind, place.origin(span), False))
 
     def _passed(self, performer: Performer, action: Action) -> list[tuple[str, Action]]:
         found = []
