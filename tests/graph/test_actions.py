@@ -74,9 +74,11 @@ def test_a_remap_of_the_name_moves_all_topics() -> None:
     launch = '<launch><node pkg="p" type="t" name="n" ns="a"><remap from="go" to="/b/come"/></node></launch>'
     graph = graph_of(launch, client("go"))
     assert list(graph.topics) == [f"/b/come/{topic}" for topic in sorted(TOPICS)]
-    (end,) = graph.actions["/b/come"].wants
+    (end,) = graph.actions["/b/come"].consumers
     assert end.remap is not None
-    assert {c.action for channel in graph.topics.values() for c in (*channel.offers, *channel.wants)} == {"/b/come"}
+    assert {c.action for channel in graph.topics.values() for c in (*channel.providers, *channel.consumers)} == {
+        "/b/come"
+    }
 
 
 def test_what_a_client_library_remapped_already_is_not_remapped_again() -> None:
@@ -86,7 +88,7 @@ def test_what_a_client_library_remapped_already_is_not_remapped_again() -> None:
         </node></launch>
     """
     graph = graph_of(launch, client("/come", md5="0" * 32))
-    (end,) = graph.actions["/come"].wants
+    (end,) = graph.actions["/come"].consumers
     assert end.remap is not None
     assert end.remap.source == "go"
     assert list(graph_of(launch, client("come")).actions) == ["/stay"]
@@ -97,7 +99,7 @@ def test_remaps_that_leave_topics_behind_leave_no_action() -> None:
     graph = graph_of(launch, client("go"))
     assert graph.actions == {}
     assert sorted(graph.topics) == ["/b/goal", *(f"/go/{topic}" for topic in sorted(TOPICS) if topic != "goal")]
-    assert {c.action for channel in graph.topics.values() for c in (*channel.offers, *channel.wants)} == {None}
+    assert {c.action for channel in graph.topics.values() for c in (*channel.providers, *channel.consumers)} == {None}
 
 
 def test_json_has_the_action_and_marks_its_topics() -> None:
@@ -135,9 +137,9 @@ def test_an_action_of_ros_2_is_three_services_and_two_topics(role: Role) -> None
     ]
     offered = role == "action_server"
     for channel in (*graph.services.values(), *graph.topics.values(), *graph.actions.values()):
-        assert (len(channel.offers), len(channel.wants)) == ((1, 0) if offered else (0, 1))
+        assert (len(channel.providers), len(channel.consumers)) == ((1, 0) if offered else (0, 1))
     (action,) = graph.actions.values()
-    (end,) = (*action.offers, *action.wants)
+    (end,) = (*action.providers, *action.consumers)
     assert (action.name, end.endpoint.type) == ("/b/come", "m/action/Go")
 
 

@@ -15,7 +15,7 @@ def graph_of(text: str) -> Graph:
 
 def ends(graph: Graph) -> dict[str, tuple[list[str], list[str]]]:
     return {
-        name: ([c.node.name for c in channel.offers], [c.node.name for c in channel.wants])
+        name: ([c.node.name for c in channel.providers], [c.node.name for c in channel.consumers])
         for name, channel in graph.topics.items()
     }
 
@@ -47,7 +47,7 @@ def test_a_remap_is_looked_up_with_the_resolved_name() -> None:
                       "publishers": {"~plan": "x/P"}}}
     """)
     assert sorted(graph.topics) == ["/plan", "/robot/scan_filtered", "/robot/wheel/odom"]
-    (plan,) = graph.topics["/plan"].offers
+    (plan,) = graph.topics["/plan"].providers
     assert plan.remap is not None
     assert plan.remap.target == "/plan"
     assert graph.topics["/robot/scan_filtered"].types == ("x/Y", "x/Z")
@@ -95,11 +95,11 @@ def test_declared_actions_move_with_a_remap_of_their_name() -> None:
         //- interfaces
         {"/n": {"action_servers": {"dock": "x/Dock"}}, "/m": {"action_clients": {"dock": "x/Dock"}}}
     """)
-    assert {name: (len(c.offers), len(c.wants)) for name, c in graph.actions.items()} == {
+    assert {name: (len(c.providers), len(c.consumers)) for name, c in graph.actions.items()} == {
         "/base/dock": (0, 1),
         "/dock": (1, 0),
     }
-    assert {name: len(c.wants) for name, c in graph.topics.items()} == dict.fromkeys(
+    assert {name: len(c.consumers) for name, c in graph.topics.items()} == dict.fromkeys(
         [*(f"/dock/{t}" for t in ("goal", "cancel")), *(f"/base/dock/{t}" for t in ("feedback", "result", "status"))], 1
     ) | dict.fromkeys(
         [*(f"/base/dock/{t}" for t in ("goal", "cancel")), *(f"/dock/{t}" for t in ("feedback", "result", "status"))], 0
@@ -114,7 +114,7 @@ def test_an_end_made_twice_counts_once() -> None:
     """)
     graph = analyse(fixture).graph
     assert graph is not None
-    assert len(graph.topics["/a"].offers) == 1
+    assert len(graph.topics["/a"].providers) == 1
 
 
 def test_interfaces_and_nodes_must_match() -> None:
@@ -144,7 +144,7 @@ def test_a_client_that_told_only_its_sum_has_the_type_of_its_server() -> None:
          "/b": {"services": {"wipe": "x/Nothing"}, "md5": {"wipe": "11"}},
          "/c": {"clients": {"reset": null}, "md5": {"reset": "11"}}}
     """)
-    (client,) = graph.services["/reset"].wants
+    (client,) = graph.services["/reset"].consumers
     assert client.endpoint.type == "std_srvs/Empty"
 
 
@@ -159,5 +159,5 @@ def test_a_client_without_a_server_has_the_only_type_of_its_sum() -> None:
          "/c": {"clients": {"rest": null}, "md5": {"rest": "11"}}}
     """
     for second, expected in (("x/A", "x/A"), ("x/B", None)):
-        (client,) = graph_of(text.replace("SECOND", second)).services["/rest"].wants
+        (client,) = graph_of(text.replace("SECOND", second)).services["/rest"].consumers
         assert client.endpoint.type == expected

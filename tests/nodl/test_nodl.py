@@ -93,7 +93,7 @@ def test_the_document_of_an_executable_and_what_it_includes(tmp_path: Path) -> N
         ("service", "~/reset", "std_srvs/srv/Trigger"),
         ("subscriber", "/stop", "std_msgs/msg/Empty"),
     ]
-    scan = found.topics["/robot/scan"].offers[0].endpoint
+    scan = found.topics["/robot/scan"].providers[0].endpoint
     assert dict(scan.qos) == {"reliability": "best_effort", "depth": 5}
     assert (scan.source_file or "").endswith("nodl/driver.nodl.yaml")
     assert DRIVER.splitlines()[(scan.source_line or 0) - 1].strip() == "- name: scan"

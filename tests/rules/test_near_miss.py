@@ -30,16 +30,18 @@ def _end(made: random.Random, nodes: list[Any]) -> End:
     given = made.choice((name, name[1:], name.rpartition("/")[2], "~" + name[1:]))
     if made.random() < 0.3:
         name = node.name.rpartition("/")[0] + name
-    offers = made.random() < 0.5
-    endpoint = Endpoint("publisher" if offers else "subscriber", given, made.choice(TYPES), builtin=made.random() < 0.1)
-    return offers, name, node, endpoint, made.random() < 0.2
+    providers = made.random() < 0.5
+    endpoint = Endpoint(
+        "publisher" if providers else "subscriber", given, made.choice(TYPES), builtin=made.random() < 0.1
+    )
+    return providers, name, node, endpoint, made.random() < 0.2
 
 
 def _channels(ends: list[End]) -> dict[str, Channel]:
     sides: dict[str, tuple[list[Connection], list[Connection]]] = {}
-    for offers, name, node, endpoint, remapped in ends:
+    for providers, name, node, endpoint, remapped in ends:
         remap: Any = SimpleNamespace() if remapped else None
-        sides.setdefault(name, ([], []))[not offers].append(Connection(name, node, endpoint, remap))
+        sides.setdefault(name, ([], []))[not providers].append(Connection(name, node, endpoint, remap))
     return {name: Channel(name, tuple(o), tuple(w), name.startswith("/x")) for name, (o, w) in sorted(sides.items())}
 
 
@@ -52,7 +54,7 @@ def _context(topics: dict[str, Channel]) -> Any:
 
 
 def _told(found: tuple[NearMiss, ...]) -> list[tuple[Any, ...]]:
-    return [(id(n.wanting), id(n.offering), n.likeness, n.same_type, n.offering_dangles) for n in found]
+    return [(id(n.consumer), id(n.provider), n.likeness, n.same_type, n.provider_dangles) for n in found]
 
 
 @pytest.mark.parametrize("seed", range(8))

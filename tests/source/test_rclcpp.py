@@ -266,8 +266,8 @@ def test_the_type_of_an_action_is_as_ros_2_has_it(harness: Harness) -> None:
     analysis = workspace.static(str(harness.folder / "src/p/main.launch.xml"))
     graph = workspace.with_interfaces(analysis, [NOT_RUN], "not run here").graph
     assert graph is not None
-    offers = [offer.endpoint.type for offer in graph.actions["/navigate"].offers]
-    assert offers == ["nav2_msgs/action/NavigateToPose"]
+    providers = [offer.endpoint.type for offer in graph.actions["/navigate"].providers]
+    assert providers == ["nav2_msgs/action/NavigateToPose"]
 
 
 def test_parameters_of_a_mode_that_is_off_are_declared_by_name(harness: Harness) -> None:

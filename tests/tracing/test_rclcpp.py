@@ -72,9 +72,9 @@ def test_each_node_of_a_process_is_a_node_of_the_graph(kilted: RclHarness) -> No
         ("/n", "/", None),
         ("/n/costmap/costmap", "/n/costmap/", "/n"),
     ]
-    assert {name: [c.node.name for c in topic.offers] for name, topic in graph.topics.items() if "a" in name[-3:]} == {
-        "/n/costmap/map": ["/n/costmap/costmap"]
-    }
+    assert {
+        name: [c.node.name for c in topic.providers] for name, topic in graph.topics.items() if "a" in name[-3:]
+    } == {"/n/costmap/map": ["/n/costmap/costmap"]}
     reads = {read.name: read.node.name for read in graph.param_reads if not read.use.builtin}
     assert reads == {"/n/rate": "/n", "/n/costmap/costmap/resolution": "/n/costmap/costmap"}
     told = json.loads(command(kilted, "graph", "--format", "json").stdout)
@@ -97,7 +97,7 @@ def test_a_name_of_the_launch_is_that_of_each_node_and_others_are_their_own(kilt
     graph = kilted.check(launched(kilted, both, inside, "namespace='robot'")).graph
     assert graph is not None
     assert [node.name for node in graph.tree.nodes] == ["/robot/front", "/robot/back"]
-    topics = {name: [c.node.name for c in topic.offers] for name, topic in graph.topics.items()}
+    topics = {name: [c.node.name for c in topic.providers] for name, topic in graph.topics.items()}
     assert topics["/robot/x"] == ["/robot/front"]
     assert topics["/robot/y"] == ["/robot/back"]
 

@@ -484,8 +484,8 @@ def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
     analysis = harness.check("<node pkg='pkg' exec='both'><remap from='scan' to='out'/></node>")
     assert analysis.graph is not None
     assert [node.name for node in analysis.graph.tree.nodes] == ["/front", "/back/rear"]
-    offers = {name: [c.node.name for c in topic.offers] for name, topic in analysis.graph.topics.items()}
-    assert (offers["/out"], offers["/back/out"]) == (["/front"], ["/back/rear"])
+    providers = {name: [c.node.name for c in topic.providers] for name, topic in analysis.graph.topics.items()}
+    assert (providers["/out"], providers["/back/out"]) == (["/front"], ["/back/rear"])
     file = harness.write(
         "p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n"
     )

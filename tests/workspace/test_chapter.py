@@ -127,9 +127,9 @@ def topics_of(analysis: Analysis) -> dict[str, tuple[list[str], list[str]]]:
     """Who publishes and who subscribes, but for what each node has by itself."""
     assert analysis.graph is not None
     return {
-        name: (sorted(end.node.name for end in channel.offers), sorted(end.node.name for end in channel.wants))
+        name: (sorted(end.node.name for end in channel.providers), sorted(end.node.name for end in channel.consumers))
         for name, channel in analysis.graph.topics.items()
-        if not all(end.endpoint.builtin for end in (*channel.offers, *channel.wants))
+        if not all(end.endpoint.builtin for end in (*channel.providers, *channel.consumers))
     }
 
 
@@ -161,7 +161,7 @@ def test_no_robot_hears_the_other(tmp_path: Path) -> None:
         assert graph is not None
         for channels in (graph.topics, graph.services, graph.actions):
             for channel in channels.values():
-                ends = [end for end in (*channel.offers, *channel.wants) if not end.endpoint.builtin]
+                ends = [end for end in (*channel.providers, *channel.consumers) if not end.endpoint.builtin]
                 assert len({end.node.name.split("/")[1] for end in ends}) <= 1, channel
 
 

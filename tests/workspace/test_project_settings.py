@@ -70,8 +70,8 @@ def test_nodes_that_cannot_be_run_are_known_from_the_settings(tmp_path: Path) ->
     graph = workspace.with_interfaces(static, [NOT_RUN] * 4, None).graph
     assert graph is not None
     assert [interface.source for interface in graph.interfaces] == ["settings", "settings", "none", "annotation"]
-    assert [c.node.name for c in graph.topics["/chatter"].offers] == ["/a"]
-    assert [c.node.name for c in graph.services["/reset"].offers] == ["/b"]
+    assert [c.node.name for c in graph.topics["/chatter"].providers] == ["/a"]
+    assert [c.node.name for c in graph.services["/reset"].providers] == ["/b"]
     assert [read.name for read in graph.param_reads] == ["/a/rate"]
 
 

@@ -18,7 +18,7 @@ from preflight_analysis.graph.processes import each_node
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
 
-_OFFERS = ("publisher", "service", "action_server")
+_PROVIDERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
 _SERVICE_ROLES = ("service", "client")
 
@@ -195,6 +195,6 @@ def _channel(name: str, connections: Sequence[Connection], external: bool) -> Ch
     for each in connections:
         end = each.endpoint
         alike.setdefault((id(each.node), end.role, end.type, end.md5), each)
-    offers = tuple(each for each in alike.values() if each.endpoint.role in _OFFERS)
-    wants = tuple(each for each in alike.values() if each.endpoint.role not in _OFFERS)
-    return Channel(name, offers, wants, external)
+    providers = tuple(each for each in alike.values() if each.endpoint.role in _PROVIDERS)
+    consumers = tuple(each for each in alike.values() if each.endpoint.role not in _PROVIDERS)
+    return Channel(name, providers, consumers, external)

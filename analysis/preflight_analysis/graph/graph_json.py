@@ -28,7 +28,7 @@ def graph_json(graph: Graph) -> dict[str, Any]:
     ends: dict[int, list[Connection]] = {id(node): [] for node in graph.tree.nodes}
     for channels in (graph.topics, graph.services, graph.actions):
         for channel in channels.values():
-            for connection in (*channel.offers, *channel.wants):
+            for connection in (*channel.providers, *channel.consumers):
                 ends[id(connection.node)].append(connection)
     reads: dict[int, list[ParamRead]] = {id(node): [] for node in graph.tree.nodes}
     for read in graph.param_reads:
@@ -92,12 +92,12 @@ def _params_read(reads: Iterable[ParamRead]) -> list[dict[str, Any]]:
     return [found[name] for name in sorted(found)]
 
 
-def _channel(channel: Channel, offering: str, wanting: str) -> dict[str, Any]:
+def _channel(channel: Channel, provider: str, consumer: str) -> dict[str, Any]:
     data: dict[str, Any] = {
         "types": list(channel.types),
-        offering: sorted({c.node.name for c in channel.offers}),
-        wanting: sorted({c.node.name for c in channel.wants}),
+        provider: sorted({c.node.name for c in channel.providers}),
+        consumer: sorted({c.node.name for c in channel.consumers}),
     }
-    if all(c.endpoint.builtin for c in (*channel.offers, *channel.wants)):
+    if all(c.endpoint.builtin for c in (*channel.providers, *channel.consumers)):
         data["builtin"] = True
     return data

@@ -31,9 +31,9 @@ class Channel:
     """A topic, service or action: everything that meets under one name. Servers are on the offering side."""
 
     name: str
-    offers: tuple[Connection, ...]
+    providers: tuple[Connection, ...]
     """Publishers of a topic, servers of a service or action."""
-    wants: tuple[Connection, ...]
+    consumers: tuple[Connection, ...]
     """Subscribers of a topic, clients of a service or action."""
     external: bool = False
     """The settings say that something outside of the launch offers or wants it."""
@@ -41,7 +41,9 @@ class Channel:
     @property
     def types(self) -> tuple[str, ...]:
         """The types in use, sorted, without repetition."""
-        return tuple(sorted({c.endpoint.type for c in (*self.offers, *self.wants) if c.endpoint.type is not None}))
+        return tuple(
+            sorted({c.endpoint.type for c in (*self.providers, *self.consumers) if c.endpoint.type is not None})
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,7 +27,7 @@ def expected_of(graph: Graph, documents: Mapping[str, Document]) -> Expected:
     ends: dict[int, list[Connection]] = defaultdict(list)
     for channels in (graph.topics, graph.services, graph.actions):
         for channel in channels.values():
-            for connection in (*channel.offers, *channel.wants):
+            for connection in (*channel.providers, *channel.consumers):
                 ends[id(connection.node)].append(connection)
     nodes = [
         _node(node, interface, ends[id(node)], graph.tree.generation, documents)

@@ -91,7 +91,7 @@ def remap_targets(analysis: Analysis, file: str, place: Place, element: Element,
     namespace = next((n.namespace for n, _ in _interfaces(analysis, graph, file, node)), "/") if node else "/"
     found: list[tuple[bool, str, Item]] = []
     for channel in (*graph.topics.values(), *graph.services.values(), *graph.actions.values()):
-        ends = (*channel.offers, *channel.wants)
+        ends = (*channel.providers, *channel.consumers)
         if not any(not end.endpoint.builtin and not _made_here(end, file, element) for end in ends):
             continue
         name = channel.name

@@ -60,12 +60,12 @@ _OUTCOMES = {
     "not-run": "was not run",
 }
 _SIDES = (
-    ("Publishes", "topics", "offers"),
-    ("Subscribes to", "topics", "wants"),
-    ("Offers services", "services", "offers"),
-    ("Calls services", "services", "wants"),
-    ("Offers actions", "actions", "offers"),
-    ("Calls actions", "actions", "wants"),
+    ("Publishes", "topics", "providers"),
+    ("Subscribes to", "topics", "consumers"),
+    ("Offers services", "services", "providers"),
+    ("Calls services", "services", "consumers"),
+    ("Offers actions", "actions", "providers"),
+    ("Calls actions", "actions", "consumers"),
 )
 
 
@@ -241,7 +241,7 @@ def _ends(graph: Graph, name: str) -> Iterator[str]:
         channel = channels.get(name)
         if channel is not None:
             verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
-            for verb, ends in zip(verbs, (channel.offers, channel.wants), strict=True):
+            for verb, ends in zip(verbs, (channel.providers, channel.consumers), strict=True):
                 nodes = ", ".join(sorted({code(c.node.name) for c in ends})) or "nobody"
                 yield f"- {kind} {code(name)} {verb} {nodes}"
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
-from preflight_analysis.rules.near_miss import NearMiss, dangling_wants, fixes, near_misses, nodes_looked_at, weight
+from preflight_analysis.rules.near_miss import NearMiss, dangling_consumers, fixes, near_misses, nodes_looked_at, weight
 from preflight_analysis.rules.places import connection_location, ends_of, related_end
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -21,20 +21,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
-            f"{nodes_looked_at(graph)} offers action '{pair.wanting.name}', of which {pair.wanting.node.name} is a "
-            f"client; did you mean '{pair.offering.name}', offered by {pair.offering.node.name} ({pair.why})?",
+            f"{nodes_looked_at(graph)} offers action '{pair.consumer.name}', of which {pair.consumer.node.name} is a "
+            f"client; did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?",
             connection_location(pair.site),
             severity=severity,
             confidence=confidence,
             related=(
-                related_end(pair.other, "offers" if pair.other is pair.offering else "is a client of"),
+                related_end(pair.other, "offers" if pair.other is pair.provider else "is a client of"),
                 *include_chain(pair.site.node.origin),
             ),
             fixes=_fixes(context, pair),
-            ends=ends_of(pair.wanting, pair.offering),
+            ends=ends_of(pair.consumer, pair.provider),
         )
-    explained = {id(pair.wanting) for pair in near}
-    for end in dangling_wants(context, "actions"):
+    explained = {id(pair.consumer) for pair in near}
+    for end in dangling_consumers(context, "actions"):
         if id(end) not in explained and not graph.blind:
             sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""

@@ -14,7 +14,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     for channel in context.graph.actions.values():
-        servers = list({c.node.name: c for c in channel.offers}.values())
+        servers = list({c.node.name: c for c in channel.providers}.values())
         if len(servers) < 2:
             continue
         # A remap that brings them together is the place to change; else the later of the nodes.

@@ -70,7 +70,7 @@ def _idle(graph: Graph) -> Iterator[IdleRemap]:
     wanted = {id(each.nodes[0]) for each in reached.values()}
     ends: dict[int, list[Connection]] = {}
     for channel in (*graph.topics.values(), *graph.services.values()):
-        for end in (*channel.offers, *channel.wants):
+        for end in (*channel.providers, *channel.consumers):
             if id(end.node) in wanted and end.remap is None and not end.endpoint.builtin:
                 ends.setdefault(id(end.node), []).append(end)
     for each in reached.values():
@@ -169,4 +169,4 @@ def _partner(channel: Channel | None, end: Connection) -> Connection | None:
 
 def _facing(channel: Channel, end: Connection) -> tuple[Connection, ...]:
     """The ends of the channel that one like `end` talks to."""
-    return channel.wants if end.endpoint.role in ("publisher", "service") else channel.offers
+    return channel.consumers if end.endpoint.role in ("publisher", "service") else channel.providers

@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     clock = graph.topics.get("/clock")
     if (
-        (clock is not None and clock.offers)
+        (clock is not None and clock.providers)
         or graph.is_external("/clock")
         or any(map(publishes_clock, graph.tree.nodes))
     ):

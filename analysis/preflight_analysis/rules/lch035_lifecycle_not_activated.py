@@ -125,7 +125,7 @@ def _others_may_act(context: Context) -> bool:
     if any(node.kind == "process" for node in context.tree.nodes):
         return True
     services = context.graph.services.values() if context.graph is not None else ()
-    if any(end.endpoint.type == _CHANGE for channel in services for end in channel.wants):
+    if any(end.endpoint.type == _CHANGE for channel in services for end in channel.consumers):
         return True
     roots = (file.root for file in context.launch_files.values() if file.root is not None)
     return any(action.kind in _ACTING for root in roots for action in root.walk())

@@ -31,26 +31,26 @@ _EVIDENCE: tuple[Evidence, ...] = ("typo", "slash", "level", "words")
 
 @dataclass(frozen=True, slots=True)
 class NearMiss:
-    """`wanting` (a subscriber or client) has no other end; `offering` has a like name and no conflicting type."""
+    """`consumer` (a subscriber or client) has no other end; `provider` has a like name and no conflicting type."""
 
-    wanting: Connection
-    offering: Connection
+    consumer: Connection
+    provider: Connection
     likeness: Evidence
     same_type: bool
     """Both types are known and equal."""
-    offering_dangles: bool
+    provider_dangles: bool
 
     @property
     def site(self) -> Connection:
         """The end at which it is reported: that whose name the launch file sets, else the wanting one."""
-        if self.wanting.remap is None and self.offering.remap is not None:
-            return self.offering
-        return self.wanting
+        if self.consumer.remap is None and self.provider.remap is not None:
+            return self.provider
+        return self.consumer
 
     @property
     def other(self) -> Connection:
         """The end that is not the site."""
-        return self.offering if self.site is self.wanting else self.wanting
+        return self.provider if self.site is self.consumer else self.consumer
 
     @property
     def strong(self) -> bool:
@@ -62,15 +62,15 @@ class NearMiss:
         """Whether the evidence will do for a change that is made for the user: like words are of other things as often
         as not (`pose`, `goal_pose`)."""
         if self.likeness == "words":
-            same_leaf = _leaf(self.wanting.name) == _leaf(self.offering.name)
-            return self.same_type and self.offering_dangles and same_leaf
-        return self.same_type or self.offering_dangles
+            same_leaf = _leaf(self.consumer.name) == _leaf(self.provider.name)
+            return self.same_type and self.provider_dangles and same_leaf
+        return self.same_type or self.provider_dangles
 
     @property
     def why(self) -> str:
         """What speaks for it, for a message: `same type x/Y; '/scan' is absolute`."""
-        said = f"same type {self.wanting.endpoint.type}" if self.same_type else "type not known"
-        short, long = sorted((self.wanting.name, self.offering.name), key=len)
+        said = f"same type {self.consumer.endpoint.type}" if self.same_type else "type not known"
+        short, long = sorted((self.consumer.name, self.provider.name), key=len)
         if self.likeness == "slash":
             return f"{said}; '{short}' is given with a leading slash, the other one is relative to its node's namespace"
         if self.likeness == "level":
@@ -83,21 +83,21 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
 
     Where what is not known of some node may well be the other end, only strong evidence counts.
     """
-    wants = tuple(dangling_wants(context, kind))
-    if context.graph is None or not wants:
+    consumers = tuple(dangling_consumers(context, kind))
+    if context.graph is None or not consumers:
         return ()
     channels = tuple(context.graph.channels(kind).values())
-    return context.kept.get(_near_misses, kind, channels, wants, context.graph.blind > 0)
+    return context.kept.get(_near_misses, kind, channels, consumers, context.graph.blind > 0)
 
 
-def _near_misses(channels: tuple[Channel, ...], wants: tuple[Connection, ...], blind: bool) -> tuple[NearMiss, ...]:
-    index = _Index(channels, wants)
+def _near_misses(channels: tuple[Channel, ...], consumers: tuple[Connection, ...], blind: bool) -> tuple[NearMiss, ...]:
+    index = _Index(channels, consumers)
     hits = _nearest.best(index.seekers, index.pools, index.rate)
     found = []
-    for wanting in wants:
-        hit = hits.get(index.seeker(wanting))
+    for consumer in consumers:
+        hit = hits.get(index.seeker(consumer))
         if hit is not None:
-            near = index.near_miss(wanting, hit)
+            near = index.near_miss(consumer, hit)
             if not index.ambiguous(near) and (near.strong or not blind):
                 found.append(near)
     return tuple(found)
@@ -113,28 +113,28 @@ class _Index:
     or its last segment. In a fleet of like robots that leaves few to compare.
     """
 
-    def __init__(self, channels: Iterable[Channel], wants: Iterable[Connection]) -> None:
+    def __init__(self, channels: Iterable[Channel], consumers: Iterable[Connection]) -> None:
         self._nodes: dict[int, tuple[str, int]] = {}
         self._names: Counter[str] = Counter()
-        self._wants = {self.seeker(wanting): wanting for wanting in wants}
-        self.seekers = {seeker: _pools(wanting) for seeker, wanting in self._wants.items()}
+        self._consumers = {self.seeker(consumer): consumer for consumer in consumers}
+        self.seekers = {seeker: _pools(consumer) for seeker, consumer in self._consumers.items()}
         """The wanting ends, with the pools of the channels that each may have been meant for."""
         self.pools: dict[Hashable, list[Hashable]] = {pool: [] for pools in self.seekers.values() for pool in pools}
         self._channels: dict[Hashable, Channel] = {}
         self._lone: Counter[tuple[str, str | None, str]] = Counter()
-        self._offered: Counter[tuple[str | None, str]] = Counter()
+        self._provided: Counter[tuple[str | None, str]] = Counter()
         for channel in channels:
             leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
-            if not channel.offers or not channel.wants:
-                side = "offers" if channel.offers else "wants"
-                ends = channel.offers or channel.wants
+            if not channel.providers or not channel.consumers:
+                side = "providers" if channel.providers else "consumers"
+                ends = channel.providers or channel.consumers
                 self._lone.update((side, end.endpoint.type, leaf) for end in ends)
-            if channel.offers:
-                wanted_by = tuple(map(self._node, channel.wants))
-                key = channel.name, _dangles(channel), wanted_by, *(map(self._end, channel.offers))
+            if channel.providers:
+                consumed_by = tuple(map(self._node, channel.consumers))
+                key = channel.name, _dangles(channel), consumed_by, *(map(self._end, channel.providers))
                 self._channels[key] = channel
-                for type_ in {_known_type(end) for end in channel.offers}:
-                    self._offered[type_, leaf] += 1
+                for type_ in {_known_type(end) for end in channel.providers}:
+                    self._provided[type_, leaf] += 1
                     for pool in ((), (type_,), (type_, numbers), (type_, leaf)):
                         if pool in self.pools:
                             self.pools[pool].append(key)
@@ -152,39 +152,39 @@ class _Index:
             self._names[name] += 1
         return found
 
-    def seeker(self, wanting: Connection) -> Hashable:
+    def seeker(self, consumer: Connection) -> Hashable:
         """The end as `Nearest` knows it."""
-        return wanting.name, self._end(wanting)
+        return consumer.name, self._end(consumer)
 
     def rate(self, seeker: Hashable, candidate: Hashable) -> Hit | None:
         """How well a channel fits an end."""
-        return min(self._hits(self._wants[seeker], candidate), key=lambda hit: hit.rank, default=None)
+        return min(self._hits(self._consumers[seeker], candidate), key=lambda hit: hit.rank, default=None)
 
-    def _hits(self, wanting: Connection, candidate: Hashable) -> Iterator[Hit]:
+    def _hits(self, consumer: Connection, candidate: Hashable) -> Iterator[Hit]:
         channel = self._channels[candidate]
-        for number, kind, distance in _candidates(wanting, channel):
+        for number, kind, distance in _candidates(consumer, channel):
             how = _EVIDENCE.index(kind)
             yield Hit((how > 0, not _dangles(channel), how, distance, channel.name, number), candidate)
 
-    def near_miss(self, wanting: Connection, hit: Hit) -> NearMiss:
+    def near_miss(self, consumer: Connection, hit: Hit) -> NearMiss:
         """What a hit says, with the ends as they are now."""
         channel = self._channels[hit.candidate]
-        offering = channel.offers[hit.rank[-1]]
-        known = _known_type(wanting) is not None and _known_type(offering) is not None
-        return NearMiss(wanting, offering, _EVIDENCE[hit.rank[2]], known, _dangles(channel))
+        provider = channel.providers[hit.rank[-1]]
+        known = _known_type(consumer) is not None and _known_type(provider) is not None
+        return NearMiss(consumer, provider, _EVIDENCE[hit.rank[2]], known, _dangles(channel))
 
     def ambiguous(self, near: NearMiss) -> bool:
         """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
         was meant, if any?"""
-        type_ = near.wanting.endpoint.type or ""
-        leaf = _leaf(near.wanting.name)
-        if near.likeness == "words" and leaf == _leaf(near.offering.name):
-            return self._offered[type_, leaf] > 1 and not share_words(
-                *map(names.parent, (near.wanting.name, near.offering.name))
+        type_ = near.consumer.endpoint.type or ""
+        leaf = _leaf(near.consumer.name)
+        if near.likeness == "words" and leaf == _leaf(near.provider.name):
+            return self._provided[type_, leaf] > 1 and not share_words(
+                *map(names.parent, (near.consumer.name, near.provider.name))
             )
         if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
             return False
-        return any(self._lone[side, type_, leaf] > 1 for side in ("offers", "wants"))
+        return any(self._lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))
 
 
 def _leaf(name: str) -> str:
@@ -192,16 +192,16 @@ def _leaf(name: str) -> str:
 
 
 def _dangles(channel: Channel) -> bool:
-    return not channel.wants and not channel.external
+    return not channel.consumers and not channel.external
 
 
-def _pools(wanting: Connection) -> tuple[Hashable, ...]:
-    type_, numbers = _known_type(wanting), numbers_in(wanting.name)
+def _pools(consumer: Connection) -> tuple[Hashable, ...]:
+    type_, numbers = _known_type(consumer), numbers_in(consumer.name)
     if type_ is None:
         return ((),)
     if not numbers:
         return ((type_,), (None,))
-    return tuple((t, more) for t in (type_, None) for more in (numbers, (), _leaf(wanting.name)))
+    return tuple((t, more) for t in (type_, None) for more in (numbers, (), _leaf(consumer.name)))
 
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
@@ -209,15 +209,15 @@ def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
     return near_misses(context, "topics")
 
 
-def dangling_wants(context: Context, kind: ChannelKind) -> list[Connection]:
+def dangling_consumers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
-    return [end for ends in context.once(_all_lone_wants)[kind] for end in ends]
+    return [end for ends in context.once(_all_lone_consumers)[kind] for end in ends]
 
 
-def dangling_offers(context: Context, kind: ChannelKind) -> list[Connection]:
+def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     channels = context.graph.channels(kind) if context.graph is not None else {}
-    found = zip(channels, context.once(_all_lone_offers)[kind], strict=True)
+    found = zip(channels, context.once(_all_lone_providers)[kind], strict=True)
     return [end for name, ends in found if ends and not _read_otherwise(name, channels) for end in ends]
 
 
@@ -225,12 +225,12 @@ _Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
 """The ends of each channel of a kind, in the order of the graph."""
 
 
-def _all_lone_wants(context: Context) -> _Lone:
-    return _of_all_channels(context, _lone_wants)
+def _all_lone_consumers(context: Context) -> _Lone:
+    return _of_all_channels(context, _lone_consumers)
 
 
-def _all_lone_offers(context: Context) -> _Lone:
-    return _of_all_channels(context, _lone_offers)
+def _all_lone_providers(context: Context) -> _Lone:
+    return _of_all_channels(context, _lone_providers)
 
 
 def _of_all_channels(context: Context, lone: Callable[[Channel], tuple[Connection, ...]]) -> _Lone:
@@ -241,27 +241,27 @@ def _of_all_channels(context: Context, lone: Callable[[Channel], tuple[Connectio
     return {kind: tuple(islice(found, len(some))) for kind, some in channels.items()}
 
 
-def dangling_topic_offers(context: Context) -> list[Connection]:
+def dangling_topic_providers(context: Context) -> list[Connection]:
     """Those of topics, for which several rules ask: do so through `context.once`."""
-    return dangling_offers(context, "topics")
+    return dangling_providers(context, "topics")
 
 
-def _lone_wants(channel: Channel) -> tuple[Connection, ...]:
-    if channel.offers or channel.external:
+def _lone_consumers(channel: Channel) -> tuple[Connection, ...]:
+    if channel.providers or channel.external:
         return ()
-    return tuple(c for c in channel.wants if c.action is None and not may_dangle(channel.name, c.endpoint))
+    return tuple(c for c in channel.consumers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
-def _lone_offers(channel: Channel) -> tuple[Connection, ...]:
-    if channel.wants or channel.external:
+def _lone_providers(channel: Channel) -> tuple[Connection, ...]:
+    if channel.consumers or channel.external:
         return ()
-    return tuple(c for c in channel.offers if c.action is None and not may_dangle(channel.name, c.endpoint))
+    return tuple(c for c in channel.providers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
 def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
     """Whether an image is read in another transport of the same publisher."""
     others = (channels.get(name + transport) for transport in IMAGE_TRANSPORTS)
-    return any(channel.wants and channel.offers for channel in others if channel is not None)
+    return any(channel.consumers and channel.providers for channel in others if channel is not None)
 
 
 def by_type(ends: Iterable[Connection]) -> Mapping[str | None, list[Connection]]:
@@ -272,21 +272,21 @@ def by_type(ends: Iterable[Connection]) -> Mapping[str | None, list[Connection]]
     return found
 
 
-def lone_of_type(wanting: Connection, dangling: Mapping[str | None, list[Connection]]) -> Connection | None:
+def lone_of_type(consumer: Connection, dangling: Mapping[str | None, list[Connection]]) -> Connection | None:
     """The only one of the dangling offering ends that has the same specific type, if there is exactly one."""
-    type_ = wanting.endpoint.type
+    type_ = consumer.endpoint.type
     if type_ is None or type_ == "*" or type_.startswith(_GENERIC_PACKAGES):
         return None
-    found = list(islice((c for c in dangling.get(type_, ()) if c.node is not wanting.node), 2))
+    found = list(islice((c for c in dangling.get(type_, ()) if c.node is not consumer.node), 2))
     return found[0] if len(found) == 1 else None
 
 
 def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
     """How severe a near miss is and how sure: without evidence beside a like name it is but a hint."""
-    ends = (near.wanting.endpoint, near.offering.endpoint)
+    ends = (near.consumer.endpoint, near.provider.endpoint)
     speculative = any(end.uncertain for end in ends)
     sure = graph.complete and near.same_type and not speculative
-    alike = near.likeness == "typo" or (near.offering_dangles and graph.likely_complete and not _of_another_node(near))
+    alike = near.likeness == "typo" or (near.provider_dangles and graph.likely_complete and not _of_another_node(near))
     evidence = near.same_type and alike
     severity: Severity = "info" if any(end.assumed or end.on_demand for end in ends) else "warning"
     return severity if evidence else "hint", "likely" if sure else "possible"
@@ -295,10 +295,10 @@ def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
 def _of_another_node(near: NearMiss) -> bool:
     """Whether the offered name is a private one and the wanted one is that of another node, which may well be started
     elsewhere: `/rectifier/image` for `/camera/image`, but not `/tracker/image` for `/old_tracker/image`."""
-    private = near.offering.remap is None and near.offering.endpoint.name.startswith("~")
-    if near.likeness != "words" or not private or near.wanting.name.startswith(f"{near.offering.node.name}/"):
+    private = near.provider.remap is None and near.provider.endpoint.name.startswith("~")
+    if near.likeness != "words" or not private or near.consumer.name.startswith(f"{near.provider.node.name}/"):
         return False
-    return not has_all_words(near.wanting.name, near.offering.name)
+    return not has_all_words(near.consumer.name, near.provider.name)
 
 
 def nodes_looked_at(graph: Graph) -> str:
@@ -318,7 +318,7 @@ def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
         if corrected is not None:
             return (corrected,)
     # A remap at a publisher that others listen to would only move the gap to them.
-    movable = (near.wanting, *((near.offering,) if near.offering_dangles else ()))
+    movable = (near.consumer, *((near.provider,) if near.provider_dangles else ()))
     ends = [end for end in movable if end.remap is None]
     found = [_insert_remap(context, end, _partner(near, end).name, end is ends[0]) for end in ends]
     return tuple(fix for fix in found if fix is not None)
@@ -329,26 +329,26 @@ def _known_type(end: Connection) -> str | None:
 
 
 def _partner(near: NearMiss, end: Connection) -> Connection:
-    return near.offering if end is near.wanting else near.wanting
+    return near.provider if end is near.consumer else near.consumer
 
 
-def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[int, Evidence, int]]:
+def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, Evidence, int]]:
     """Which of the channel's offering ends the wanting one may have been meant for, how they are alike and how far they
     are apart."""
     dangles = _dangles(channel)
-    if any(end.node is wanting.node for end in channel.wants):
+    if any(end.node is consumer.node for end in channel.consumers):
         return  # it knows that name
     alike: list[tuple[Literal["typo", "words"], int] | None] = []
-    for number, offering in enumerate(channel.offers):
-        if offering.endpoint.builtin or offering.node is wanting.node:
+    for number, provider in enumerate(channel.providers):
+        if provider.endpoint.builtin or provider.node is consumer.node:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
             continue
-        mine, theirs = _known_type(wanting), _known_type(offering)
+        mine, theirs = _known_type(consumer), _known_type(provider)
         known = mine is not None and theirs is not None
         if (known and mine != theirs) or not (known or dangles):
             continue
-        if known and dangles and wanting.name.endswith(channel.name.rpartition("/")[2]):
-            short, long = sorted((wanting, offering), key=lambda end: len(end.name))
+        if known and dangles and consumer.name.endswith(channel.name.rpartition("/")[2]):
+            short, long = sorted((consumer, provider), key=lambda end: len(end.name))
             how_far = len(long.name) - len(short.name)
             if _is_slash(short, long):
                 yield number, "slash", how_far
@@ -357,11 +357,11 @@ def _candidates(wanting: Connection, channel: Channel) -> Iterator[tuple[int, Ev
                 yield number, "level", how_far
                 continue
         if not alike:
-            alike.append(likeness(wanting.name, channel.name))  # the same for all ends of the channel
+            alike.append(likeness(consumer.name, channel.name))  # the same for all ends of the channel
         if alike[0] is None:
             continue
         how, distance = alike[0]
-        if how == "words" and not (known and dangles and _says_enough(wanting.name, channel.name, mine or "")):
+        if how == "words" and not (known and dangles and _says_enough(consumer.name, channel.name, mine or "")):
             continue
         yield number, how, distance
 

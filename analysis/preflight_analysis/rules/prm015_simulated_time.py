@@ -25,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     clock = graph.topics.get("/clock")
     has_clock = (
-        (clock is not None and bool(clock.offers)) or graph.is_external("/clock") or any(map(publishes_clock, nodes))
+        (clock is not None and bool(clock.providers)) or graph.is_external("/clock") or any(map(publishes_clock, nodes))
     )
     if not has_clock:
         node, param = on[0]
@@ -69,7 +69,7 @@ def _counted(number: int) -> str:
 
 def _publishes_clock(node: LaunchNode, context: Context) -> bool:
     clock = context.graph.topics.get("/clock") if context.graph is not None else None
-    return publishes_clock(node) or (clock is not None and any(offer.node is node for offer in clock.offers))
+    return publishes_clock(node) or (clock is not None and any(provider.node is node for provider in clock.providers))
 
 
 RULE = Rule(

@@ -25,31 +25,31 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:
     # A topic that all nodes share has as many pairs as nodes squared, and few settings.
     alike: dict[str, list[Connection]] = {}
-    for offering in channel.offers if channel.wants else ():
-        alike.setdefault(_settings(offering), []).append(offering)
+    for provider in channel.providers if channel.consumers else ():
+        alike.setdefault(_settings(provider), []).append(provider)
     problems: dict[tuple[str, str], str | None] = {}
     found: list[Finding] = []
-    for wanting in channel.wants if channel.offers else ():
-        asked = _settings(wanting)
-        for offered, offerings in alike.items():
+    for consumer in channel.consumers if channel.providers else ():
+        asked = _settings(consumer)
+        for offered, providers in alike.items():
             pair = offered, asked
             if pair not in problems:
-                problems[pair] = _problem(offerings[0], wanting)
+                problems[pair] = _problem(providers[0], consumer)
             problem = problems[pair]
             if problem is not None:
-                found += (_finding(rule, channel, offering, wanting, problem) for offering in offerings)
+                found += (_finding(rule, channel, provider, consumer, problem) for provider in providers)
     return tuple(found)
 
 
-def _finding(rule: Rule, channel: Channel, offering: Connection, wanting: Connection, problem: str) -> Finding:
-    assumed = wanting.endpoint.assumed or offering.endpoint.assumed
+def _finding(rule: Rule, channel: Channel, provider: Connection, consumer: Connection, problem: str) -> Finding:
+    assumed = consumer.endpoint.assumed or provider.endpoint.assumed
     return rule.finding(
-        f"{wanting.node.name} gets nothing of '{channel.name}' from {offering.node.name}: {problem}",
-        connection_location(wanting),
+        f"{consumer.node.name} gets nothing of '{channel.name}' from {provider.node.name}: {problem}",
+        connection_location(consumer),
         severity="warning" if assumed else None,
         confidence="likely" if assumed else "certain",
-        related=(related_end(offering, "publishes"), *include_chain(wanting.node.origin)),
-        ends=ends_of(wanting, offering),
+        related=(related_end(provider, "publishes"), *include_chain(consumer.node.origin)),
+        ends=ends_of(consumer, provider),
     )
 
 
@@ -57,18 +57,18 @@ def _settings(end: Connection) -> str:
     return repr(sorted(end.endpoint.qos.items()))
 
 
-def _problem(offering: Connection, wanting: Connection) -> str | None:
+def _problem(provider: Connection, consumer: Connection) -> str | None:
     # Of a publisher whose settings are known, those that are not among them are the weakest.
-    known = {"reliability", "durability"} <= offering.endpoint.qos.keys()
+    known = {"reliability", "durability"} <= provider.endpoint.qos.keys()
     for policy, order in _ORDERS.items():
         offered, asked = (
-            offering.endpoint.qos.get(policy, order[0] if known else None),
-            wanting.endpoint.qos.get(policy),
+            provider.endpoint.qos.get(policy, order[0] if known else None),
+            consumer.endpoint.qos.get(policy),
         )
         if offered in order and asked in order and order.index(offered) < order.index(asked):
             return f"its {policy} is {_said(offered)}, and the subscription asks for {_said(asked)}"
     for policy in ("deadline", "lease_duration"):
-        offered, asked = offering.endpoint.qos.get(policy), wanting.endpoint.qos.get(policy)
+        offered, asked = provider.endpoint.qos.get(policy), consumer.endpoint.qos.get(policy)
         if offered is None and known and isinstance(asked, (int, float)):
             return f"it promises no {policy.replace('_', ' ')}, and the subscription asks for {asked} s"
         if isinstance(offered, (int, float)) and isinstance(asked, (int, float)) and offered > asked:

@@ -8,8 +8,8 @@ from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import (
     by_type,
-    dangling_offers,
-    dangling_wants,
+    dangling_consumers,
+    dangling_providers,
     fixes,
     near_misses,
     nodes_looked_at,
@@ -27,28 +27,28 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
     remapped = context.once(meant_ends)
-    near = [pair for pair in near_misses(context, "services") if id(pair.wanting) not in remapped]
+    near = [pair for pair in near_misses(context, "services") if id(pair.consumer) not in remapped]
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
-            f"{nodes_looked_at(graph)} offers service '{pair.wanting.name}', which {pair.wanting.node.name} calls; "
-            f"did you mean '{pair.offering.name}', offered by {pair.offering.node.name} ({pair.why})?",
+            f"{nodes_looked_at(graph)} offers service '{pair.consumer.name}', which {pair.consumer.node.name} calls; "
+            f"did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?",
             connection_location(pair.site),
             severity=severity,
             confidence=confidence,
             related=(
-                related_end(pair.other, "offers" if pair.other is pair.offering else "calls"),
+                related_end(pair.other, "offers" if pair.other is pair.provider else "calls"),
                 *include_chain(pair.site.node.origin),
             ),
             fixes=fixes(context, pair),
-            ends=ends_of(pair.wanting, pair.offering),
+            ends=ends_of(pair.consumer, pair.provider),
         )
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
-    unused = by_type(dangling_offers(context, "services")) if answers else {}
-    explained = {id(pair.wanting) for pair in near} | remapped
-    for end in dangling_wants(context, "services"):
+    unused = by_type(dangling_providers(context, "services")) if answers else {}
+    explained = {id(pair.consumer) for pair in near} | remapped
+    for end in dangling_consumers(context, "services"):
         if id(end) not in explained:
             sure = graph.complete and not end.endpoint.uncertain
             kind = f" ({end.endpoint.type})" if end.endpoint.type else ""

@@ -21,7 +21,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # Two nodes of a kind share all their services: one finding for all that stand at one place.
     found: dict[tuple[Location, tuple[str, ...]], list[tuple[str, list[Connection]]]] = {}
     for channel in context.graph.services.values():
-        servers = list({c.node.name: c for c in channel.offers if not c.endpoint.builtin and c.action is None}.values())
+        servers = list(
+            {c.node.name: c for c in channel.providers if not c.endpoint.builtin and c.action is None}.values()
+        )
         if len(servers) > 1:
             # A remap that brings them together is the place to change; else the later of the nodes.
             servers.sort(key=lambda c: c.remap is not None)

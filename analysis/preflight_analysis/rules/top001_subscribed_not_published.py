@@ -8,8 +8,8 @@ from preflight_analysis.rules.idle_remaps import meant_ends
 from preflight_analysis.rules.near_miss import (
     NearMiss,
     by_type,
-    dangling_topic_offers,
-    dangling_wants,
+    dangling_consumers,
+    dangling_topic_providers,
     fixes,
     lone_of_type,
     nodes_looked_at,
@@ -28,8 +28,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # Where a remap that has no effect was meant for the end, TOP004 says so, with the better fix.
     remapped = context.once(meant_ends)
     pairs = context.once(topic_near_misses)
-    near = [pair for pair in pairs if remapped.isdisjoint((id(pair.wanting), id(pair.offering)))]
-    dangling, whole = by_type(context.once(dangling_topic_offers)), nodes_looked_at(graph)
+    near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
+    dangling, whole = by_type(context.once(dangling_topic_providers)), nodes_looked_at(graph)
     for pair in near:
         severity, confidence = weight(graph, pair)
         yield rule.finding(
@@ -38,14 +38,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity=severity,
             confidence=confidence,
             related=(
-                related_end(pair.other, "publishes" if pair.other is pair.offering else "subscribes to"),
+                related_end(pair.other, "publishes" if pair.other is pair.provider else "subscribes to"),
                 *include_chain(pair.site.node.origin),
             ),
             fixes=fixes(context, pair),
-            ends=ends_of(pair.wanting, pair.offering),
+            ends=ends_of(pair.consumer, pair.provider),
         )
-    explained = {id(pair.wanting) for pair in near} | remapped
-    for end in dangling_wants(context, "topics"):
+    explained = {id(pair.consumer) for pair in near} | remapped
+    for end in dangling_consumers(context, "topics"):
         if id(end) not in explained and not graph.blind:
             sure = graph.complete and not end.endpoint.uncertain
             lone = lone_of_type(end, dangling)
@@ -53,15 +53,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _near_message(graph: Graph, pair: NearMiss) -> str:
-    wanting, offering = pair.wanting, pair.offering
-    if pair.site is wanting:
+    consumer, provider = pair.consumer, pair.provider
+    if pair.site is consumer:
         return (
-            f"{nodes_looked_at(graph)} publishes '{wanting.name}', to which {wanting.node.name} subscribes; "
-            f"did you mean '{offering.name}', published by {offering.node.name} ({pair.why})?"
+            f"{nodes_looked_at(graph)} publishes '{consumer.name}', to which {consumer.node.name} subscribes; "
+            f"did you mean '{provider.name}', published by {provider.node.name} ({pair.why})?"
         )
     return (
-        f"{offering.node.name} publishes '{offering.name}', but {wanting.node.name} subscribes to '{wanting.name}' "
-        f"({pair.why}), which {nodes_looked_at(graph)} publishes; did you mean '{wanting.name}'?"
+        f"{provider.node.name} publishes '{provider.name}', but {consumer.node.name} subscribes to '{consumer.name}' "
+        f"({pair.why}), which {nodes_looked_at(graph)} publishes; did you mean '{consumer.name}'?"
     )
 
 

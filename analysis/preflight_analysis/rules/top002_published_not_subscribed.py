@@ -6,7 +6,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import meant_ends
-from preflight_analysis.rules.near_miss import dangling_topic_offers, topic_near_misses
+from preflight_analysis.rules.near_miss import dangling_topic_providers, topic_near_misses
 from preflight_analysis.rules.places import connection_location, ends_of
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -16,10 +16,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None or graph.blind:
         return
-    reported = {id(pair.offering) for pair in context.once(topic_near_misses)} | context.once(meant_ends)
+    reported = {id(pair.provider) for pair in context.once(topic_near_misses)} | context.once(meant_ends)
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     at: dict[tuple[Location, str], list[Connection]] = {}
-    for end in context.once(dangling_topic_offers):
+    for end in context.once(dangling_topic_providers):
         if id(end) not in reported:
             at.setdefault((connection_location(end), end.node.name), []).append(end)
     for (location, node), dangling in at.items():

@@ -30,9 +30,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     for channel in context.graph.topics.values():
-        if len(channel.offers) < 2 or is_transform(channel.name):
+        if len(channel.providers) < 2 or is_transform(channel.name):
             continue
-        ends = list({c.node.name: c for c in channel.offers if not (c.endpoint.builtin or c.action)}.values())
+        ends = list({c.node.name: c for c in channel.providers if not (c.endpoint.builtin or c.action)}.values())
         latched = [end for end in ends if end.endpoint.qos.get("latch") is True and not _is_shared(end)]
         if channel.name == "/clock" and len(ends) > 1:
             yield _finding(rule, channel, ends, "warning", "time jumps between them")

@@ -27,13 +27,15 @@ _SHARED = (
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for channel in context.graph.topics.values() if context.graph is not None else ():
-        if len(channel.offers) < 2 or len(channel.wants) < 2 or channel.external or is_transform(channel.name):
+        if len(channel.providers) < 2 or len(channel.consumers) < 2 or channel.external or is_transform(channel.name):
             continue
-        offers, wants = _twins(channel, channel.offers), _twins(channel, channel.wants)
-        for kind, (mine, theirs) in offers.items():
+        providers, consumers = _twins(channel, channel.providers), _twins(channel, channel.consumers)
+        for kind, (mine, theirs) in providers.items():
             # Who says something on a topic and hears it there too talks to its like.
             hearing = (
-                None if kind in wants else next((pair for pair in wants.values() if _same(pair, mine, theirs)), None)
+                None
+                if kind in consumers
+                else next((pair for pair in consumers.values() if _same(pair, mine, theirs)), None)
             )
             if hearing is not None:
                 yield _finding(rule, context, channel, (mine, theirs), hearing)

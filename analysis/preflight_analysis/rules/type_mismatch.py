@@ -16,48 +16,48 @@ from preflight_analysis.rules.rule import Rule
 class Verbs:
     """How to say what the two ends do: `publishes`, `subscribes to`."""
 
-    offers: str
-    wants: str
+    provides: str
+    consumes: str
 
 
 def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs: Verbs) -> Iterator[Finding]:
     """A finding for each wanting end and each type that does not fit it."""
     for channel in channels.values():
         # Of those that are alike the first one is told; a topic that all nodes share has many.
-        offerings: dict[tuple[str | None, str | None, bool], Connection] = {}
-        for end in channel.offers:
-            offerings.setdefault((end.endpoint.type, end.endpoint.md5, end.action is None), end)
-        for wanting in channel.wants:
+        providers: dict[tuple[str | None, str | None, bool], Connection] = {}
+        for end in channel.providers:
+            providers.setdefault((end.endpoint.type, end.endpoint.md5, end.action is None), end)
+        for consumer in channel.consumers:
             reported: set[tuple[str | None, str]] = set()
-            for offering in offerings.values():
-                if wanting.action is not None and offering.action is not None:
+            for provider in providers.values():
+                if consumer.action is not None and provider.action is not None:
                     continue  # said once of the action, not of each of its topics
-                difference = _difference(wanting, offering)
-                if difference is None or (offering.endpoint.type, difference) in reported:
+                difference = _difference(consumer, provider)
+                if difference is None or (provider.endpoint.type, difference) in reported:
                     continue
-                reported.add((offering.endpoint.type, difference))
-                site, other = (wanting, offering)
-                if wanting.remap is None and offering.remap is not None:
-                    site, other = offering, wanting
+                reported.add((provider.endpoint.type, difference))
+                site, other = (consumer, provider)
+                if consumer.remap is None and provider.remap is not None:
+                    site, other = provider, consumer
                 yield rule.finding(
-                    f"types of '{channel.name}' differ: {offering.node.name} {verbs.offers} it as "
-                    f"{offering.endpoint.type or 'an unknown type'}, {wanting.node.name} {verbs.wants} it as "
-                    f"{wanting.endpoint.type or 'an unknown type'}"
+                    f"types of '{channel.name}' differ: {provider.node.name} {verbs.provides} it as "
+                    f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} it as "
+                    f"{consumer.endpoint.type or 'an unknown type'}"
                     f"{difference}",
                     connection_location(site),
-                    severity="info" if wanting.endpoint.assumed or offering.endpoint.assumed else None,
-                    confidence=_confidence(graph, wanting, offering),
+                    severity="info" if consumer.endpoint.assumed or provider.endpoint.assumed else None,
+                    confidence=_confidence(graph, consumer, provider),
                     related=(
-                        related_end(other, verbs.offers if other is offering else verbs.wants),
+                        related_end(other, verbs.provides if other is provider else verbs.consumes),
                         *include_chain(site.node.origin),
                     ),
-                    ends=ends_of(wanting, offering),
+                    ends=ends_of(consumer, provider),
                 )
 
 
-def _difference(wanting: Connection, offering: Connection) -> str | None:
+def _difference(consumer: Connection, provider: Connection) -> str | None:
     """None when they fit; else what to add to the message, which is empty when the types' names tell it all."""
-    mine, theirs = wanting.endpoint, offering.endpoint
+    mine, theirs = consumer.endpoint, provider.endpoint
     if "*" in (mine.type, theirs.type, mine.md5, theirs.md5):
         return None
     sums_differ = bool(mine.md5 and theirs.md5) and mine.md5 != theirs.md5

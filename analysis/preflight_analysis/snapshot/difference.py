@@ -37,12 +37,12 @@ class Change:
 
 @dataclass(frozen=True, slots=True, order=True)
 class Link:
-    """A connection of two nodes that came or went. `offers` is the publisher or server."""
+    """A connection of two nodes that came or went. `provider` is the publisher or server."""
 
     what: str
     name: str
-    offers: str
-    wants: str
+    provider: str
+    consumer: str
     kind: Kind
 
 
@@ -185,11 +185,13 @@ def _end_json(end: End | None) -> dict[str, Any] | None:
 
 def _links(nodes: Mapping[str, _Ends]) -> set[tuple[str, str, str, str]]:
     found: set[tuple[str, str, str, str]] = set()
-    for what, offering, wanting in CHANNELS:
+    for what, providing, consuming in CHANNELS:
         sides: dict[str, tuple[list[str], list[str]]] = {}
         for node, ends in nodes.items():
-            for role, side in ((offering, 0), (wanting, 1)):
+            for role, side in ((providing, 0), (consuming, 1)):
                 for name in ends.get(role, ()):
                     sides.setdefault(name, ([], []))[side].append(node)
-        found.update((what, name, a, b) for name, (offers, wants) in sides.items() for a in offers for b in wants)
+        found.update(
+            (what, name, a, b) for name, (providers, consumers) in sides.items() for a in providers for b in consumers
+        )
     return found

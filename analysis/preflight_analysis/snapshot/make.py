@@ -64,7 +64,7 @@ def _by_node(graph: Graph) -> tuple[dict[int, list[Connection]], dict[int, list[
     ends: dict[int, list[Connection]] = {id(node): [] for node in graph.tree.nodes}
     for channels in (graph.topics, graph.services, graph.actions):
         for channel in channels.values():
-            for connection in (*channel.offers, *channel.wants):
+            for connection in (*channel.providers, *channel.consumers):
                 if not connection.endpoint.builtin and connection.action is None:
                     ends[id(connection.node)].append(connection)
     reads: dict[int, list[ParamRead]] = {id(node): [] for node in graph.tree.nodes}

@@ -48,7 +48,7 @@ def to_json(found: Difference) -> dict[str, Any]:
             for change in found.changes
         ],
         "connections": [
-            {"kind": link.kind, "what": link.what, "name": link.name, "offers": link.offers, "wants": link.wants}
+            {"kind": link.kind, "what": link.what, "name": link.name, "offers": link.provider, "wants": link.consumer}
             for link in found.links
         ],
         "not_compared": [{"node": node, "reason": reason} for node, reason in found.not_compared.items()],
@@ -76,7 +76,8 @@ def to_text(found: Difference, before: str, after: str, *, colour: bool = False)
     if found.links:
         lines += ["", "connections"]
         lines += [
-            line(link.kind, f"{link.what} {link.name}  {link.offers} -> {link.wants}", "  ") for link in found.links
+            line(link.kind, f"{link.what} {link.name}  {link.provider} -> {link.consumer}", "  ")
+            for link in found.links
         ]
     if found.not_compared:
         lines += ["", "not compared to the end"]
@@ -96,7 +97,8 @@ def to_markdown(found: Difference, before: str, after: str) -> str:
     if found.links:
         lines += ["", "| | connection | from | to |", "| --- | --- | --- | --- |"]
         lines += [
-            f"| {_SIGNS[link.kind]} | {link.what} {_code(link.name)} | {_code(link.offers)} | {_code(link.wants)} |"
+            f"| {_SIGNS[link.kind]} | {link.what} {_code(link.name)} "
+            f"| {_code(link.provider)} | {_code(link.consumer)} |"
             for link in found.links
         ]
     if found.not_compared:

@@ -151,7 +151,7 @@ class _Builder:
         )
         for kind, named in all_channels:
             for channel in named.values():
-                ends = (*channel.offers, *channel.wants)
+                ends = (*channel.providers, *channel.consumers)
                 if all(end.action is not None for end in ends):
                     continue
                 at = len(channels)

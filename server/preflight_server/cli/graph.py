@@ -76,10 +76,11 @@ def _lines(graph: Graph) -> Iterator[str]:
 
 def _channels(kind: str, channels: Mapping[str, Channel]) -> Iterator[str]:
     for name, channel in channels.items():
-        ends = (*channel.offers, *channel.wants)
+        ends = (*channel.providers, *channel.consumers)
         if all(c.endpoint.builtin or c.action is not None for c in ends):
             continue  # an action is shown as such
-        offers, wants = (
-            ", ".join(sorted({c.node.name for c in side})) or "nobody" for side in (channel.offers, channel.wants)
+        providers, consumers = (
+            ", ".join(sorted({c.node.name for c in side})) or "nobody"
+            for side in (channel.providers, channel.consumers)
         )
-        yield f"{kind} {name}  {' | '.join(channel.types) or 'type not known'}  {offers} -> {wants}"
+        yield f"{kind} {name}  {' | '.join(channel.types) or 'type not known'}  {providers} -> {consumers}"

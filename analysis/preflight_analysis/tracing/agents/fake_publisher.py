@@ -53,7 +53,7 @@ class FakePublisher:
                 return
             self._goals[topic] = goal or ""
             self._waiting[topic] = time.monotonic()
-        self._master.offer(topic, self._listening.getsockname()[1])
+        self._master.add_publisher(topic, self._listening.getsockname()[1])
 
     def busy(self) -> bool:
         """Whether something is still on its way."""

@@ -34,7 +34,7 @@ class Master:
         self._sides: dict[str, dict[str, dict[str, str]]] = {"publisher": {}, "subscriber": {}, "service": {}}
         self._apis: dict[str, str] = {}
         self._param_subscribers: dict[str, set[str]] = {}
-        self._offers: dict[str, int] = {}
+        self._ports: dict[str, int] = {}
 
     @property
     def uri(self) -> str:
@@ -63,10 +63,10 @@ class Master:
             except (TypeError, KeyError, ValueError, AttributeError) as error:
                 return [-1, str(error), 0]
 
-    def offer(self, topic: str, port: int) -> None:
+    def add_publisher(self, topic: str, port: int) -> None:
         """Be a publisher of the topic, at this port of the loopback."""
         with self._lock:
-            self._offers[topic] = port
+            self._ports[topic] = port
             self._topics.setdefault(topic, "*")
             publishers = self._sides["publisher"].setdefault(topic, {})
             publishers[""] = self._uri
@@ -123,9 +123,9 @@ class Master:
         return [-1, "no provider", ""]
 
     def api_requestTopic(self, caller: str, topic: str, protocols: list[Any]) -> list[Any]:
-        if topic not in self._offers:
+        if topic not in self._ports:
             return [0, f"[{topic}] is not published here", []]
-        return [1, "ready", ["TCPROS", "127.0.0.1", self._offers[topic]]]
+        return [1, "ready", ["TCPROS", "127.0.0.1", self._ports[topic]]]
 
     # state
 
