@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.problems import UnknownLaunchArgument
 from preflight_analysis.launch.model import LaunchFile
 
 
@@ -18,4 +19,4 @@ def report_undeclared(state: Collector, root: LaunchFile, given: Iterable[str], 
     used = {use.name for use in state.uses if use.kind == "arg"}
     for name in given:
         if name not in names and name not in used and not name.startswith("__"):
-            state.problem("root-arg-undeclared", at, fatal=False, name=name, declared=sorted(names))
+            state.problem(UnknownLaunchArgument(name, tuple(sorted(names))), at)

@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import resolve
 from preflight_analysis.launch.model import Action, ActionAttribute
+from preflight_analysis.launch.problems import BadValue, ConflictingAttributes, MissingAttribute, UnknownAttribute
 from preflight_analysis.launch.schema import one_of
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.substitutions import parse_value
@@ -71,7 +72,7 @@ class Attributes:
     def missing(self, name: str) -> None:
         """Note an attribute that roslaunch needs."""
         origin = self.scope.origin(self.action.kind_span)
-        self.state.problem("missing-attribute", origin, tag=self.action.kind, name=name, names=[name])
+        self.state.problem(MissingAttribute(self.action.kind, (name,)), origin)
 
     def convert(self, name: str, default: T, converter: Callable[[str], T]) -> T:
         """The attribute through `converter`, which raises `BadValueError`; `default` where absent, unknown or bad."""
@@ -87,8 +88,8 @@ class Attributes:
     def refuse(self, attribute: ActionAttribute) -> None:
         """Note an attribute on which roslaunch stops, where others that it does not know get a warning."""
         kind = self.action.kind
-        origin, allowed = self.scope.origin(attribute.name_span), list(TAGS[kind].attributes)
-        self.state.problem("unknown-attribute", origin, name=attribute.name, tag=kind, allowed=allowed)
+        origin, allowed = self.scope.origin(attribute.name_span), tuple(TAGS[kind].attributes)
+        self.state.problem(UnknownAttribute(attribute.name, kind, allowed), origin)
 
     def chosen(self, name: str, text: str) -> bool:
         """Whether `text` is among the choices that the language has for the attribute; if not, that is noted."""
@@ -103,15 +104,8 @@ class Attributes:
         attribute = self.action.attribute(name)
         known = TAGS[self.action.kind.lower()].attributes.get(name)
         span = attribute.value.span if attribute else self.action.kind_span
-        self.state.problem(
-            "bad-value",
-            self.scope.origin(span),
-            tag=self.action.kind,
-            attribute=name,
-            value=value,
-            expected=expected,
-            choices=choices or (known.choices if known else ()),
-        )
+        choices = choices or (known.choices if known else ())
+        self.state.problem(BadValue(self.action.kind, name, value, expected, choices), self.scope.origin(span))
 
 
 def positive_number(text: str) -> float:
@@ -146,7 +140,7 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
     results = {name: attributes.get(name) for name in ("if", "unless")}
     given = [name for name, found in results.items() if found is not None]
     if len(given) == 2:
-        state.problem("attributes-exclude", scope.origin(action.kind_span), tag=action.kind, names=given)
+        state.problem(ConflictingAttributes(action.kind, tuple(given)), scope.origin(action.kind_span))
         return False
     for name, found in results.items():
         if found is None:

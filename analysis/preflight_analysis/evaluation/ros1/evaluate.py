@@ -11,6 +11,21 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.problems import (
+    IncludeArgumentWithoutValue,
+    IncludeCycle,
+    IncludeNotFound,
+    MalformedXml,
+    NestedTooDeeply,
+    NoLaunchElement,
+    NotTextFile,
+    RedeclaredArgument,
+    UndefinedMachine,
+    UnexpandedEntity,
+    UnknownIncludeArgument,
+    UnreadableFile,
+    UnreadableInclude,
+)
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.memo import Memo, key_of
@@ -29,6 +44,7 @@ from preflight_analysis.evaluation.ros1.tags import (
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
 from preflight_analysis.launch.check_language import check_language
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.problems import ConflictingAttributes
 
 MAX_DEPTH = 150
 """Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
@@ -59,8 +75,8 @@ def evaluate(
     found = state.read_launch_file(path)
     whole = (Location.of_file(path),)
     if isinstance(found, Unreadable):
-        kind = "file-not-text" if found.kind == "not-text" else "file-unreadable"
-        state.problem(kind, whole, path=path, reason=found.reason)
+        kind = NotTextFile if found.kind == "not-text" else UnreadableFile
+        state.problem(kind(path, found.reason), whole)
     else:
         ns = args.get("__ns") or environment.variables.get("ROS_NAMESPACE") or "/"
         scope = Scope(path, found.document.lines, (), names.as_namespace(ns))
@@ -98,9 +114,9 @@ def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: 
     """Evaluate one file in `scope`; the default machine after it."""
     document = launch_file.document
     for problem in document.problems:
-        state.problem("xml-malformed", scope.origin(problem.span), message=problem.message)
+        state.problem(MalformedXml(problem.message), scope.origin(problem.span))
     for name, span in document.entities:
-        state.problem("xml-entity", scope.origin(span), fatal=False, name=name)
+        state.problem(UnexpandedEntity(name), scope.origin(span))
         state.unknown(f"&{name};", "entities of a DOCTYPE are not expanded", scope, span)
     root = launch_file.root
     _check_root(state, scope, launch_file)
@@ -117,24 +133,24 @@ def _check_root(state: State, scope: Scope, launch_file: LaunchFile) -> None:
     if root is not None:
         # Of a text that is not well-formed it is said where that ends: a start tag for an end tag is one slip.
         if launch_file.extra_roots and not document.problems:
-            state.problem("root-not-launch", scope.origin(launch_file.extra_roots[0]), tag="launch")
+            state.problem(NoLaunchElement("launch"), scope.origin(launch_file.extra_roots[0]))
     elif document.root is not None:
-        state.problem("root-not-launch", scope.origin(document.root.tag_span), tag=document.root.tag)
+        state.problem(NoLaunchElement(document.root.tag), scope.origin(document.root.tag_span))
     elif not document.problems:
-        state.problem("root-not-launch", scope.origin(Span(0, min(1, len(document.text)))), tag=None)
+        state.problem(NoLaunchElement(None), scope.origin(Span(0, min(1, len(document.text)))))
 
 
 def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
     """roslaunch reads `if` and `unless` of `<launch>`, but makes no substitutions there and goes on in any case."""
     attributes = Attributes(state, scope, root)
-    conditions = ["if", "unless"]
+    conditions = ("if", "unless")
     given = [found for found in map(root.attribute, conditions) if found is not None]
     for attribute in given:
         if "$" in attribute.value.text:
             attributes.bad_value(attribute.name, attribute.value.text, "true, false, 1 or 0; nothing is replaced here")
             return
     if len(given) > 1:
-        state.problem("attributes-exclude", scope.origin(root.kind_span), tag=root.kind, names=conditions)
+        state.problem(ConflictingAttributes(root.kind, conditions), scope.origin(root.kind_span))
     for attribute in given[:1]:
         try:
             values.to_bool(attribute.value.text)
@@ -218,7 +234,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     file_origin = scope.origin(file_attribute.value.span)
     if real is None:
-        state.problem("include-not-found", file_origin, path=path, reason="does not exist")
+        state.problem(IncludeNotFound(path, "does not exist"), file_origin)
         state.unknown("<include>", f"{path} does not exist", scope, file_attribute.value.span)
         return default_machine
     found = _included(state, scope, path, passed, file_origin)
@@ -228,11 +244,10 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     inside.args, inside.declared, inside.anonymous, inside.pass_all_args = passed, {}, {}, pass_all
     default_machine = _included_file(state, inside, found, default_machine)
     if not pass_all:
-        declared = sorted(inside.declared)
+        declared = tuple(sorted(inside.declared))
         for name, tag in tags.items():
             if name not in inside.declared:
-                origin_of_tag = scope.origin(tag.span)
-                state.problem("include-arg-undeclared", origin_of_tag, name=name, file=path, declared=declared)
+                state.problem(UnknownIncludeArgument(name, declared, path), scope.origin(tag.span))
     return default_machine
 
 
@@ -286,7 +301,7 @@ def _too_deep(state: State, scope: Scope, action: Action) -> bool:
     if not state.exhausted:
         state.exhausted = True
         limit = f"{MAX_DEPTH} levels" if scope.depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"
-        state.problem("nested-too-deeply", scope.origin(action.kind_span), fatal=False, limit=limit)
+        state.problem(NestedTooDeeply(limit), scope.origin(action.kind_span))
         state.unknown(f"<{action.kind}>", f"there are more than {limit}", scope, action.kind_span)
     return True
 
@@ -320,11 +335,10 @@ def _passed_args(
         value, default = attributes.get("value"), attributes.get("default")
         attributes.get("doc")
         if value is not None and default is not None:
-            names_given = ["value", "default"]
-            state.problem("attributes-exclude", scope.origin(child.kind_span), tag="arg", names=names_given)
+            state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(child.kind_span))
             continue
         if name in seen and not pass_all:
-            state.problem("arg-redeclared", scope.origin(span), name=name, first=seen[name], passed=True)
+            state.problem(RedeclaredArgument(name, seen[name], passed=True), scope.origin(span))
             continue
         seen.setdefault(name, scope.location(span))
         given = value if value is not None else default
@@ -338,7 +352,7 @@ def _passed_args(
         state.uses.append(Use("argument", scope.location(span), name, now.text if now else None))
     # roslaunch looks at all of them first.
     for name, span in without:
-        state.problem("include-arg-no-value", scope.origin(span), name=name)
+        state.problem(IncludeArgumentWithoutValue(name), scope.origin(span))
         del seen[name]
     return passed, seen
 
@@ -351,12 +365,12 @@ def _included(
     if path in above:
         state.depends_on_outside = True
     if path in above and _same_args(scope, path, passed):
-        state.problem("include-cycle", origin, path=path, chain=[*above[above.index(path) :], path])
+        state.problem(IncludeCycle(path, (*above[above.index(path) :], path)), origin)
         return None
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
-        kind = "include-not-found" if found.kind == "missing" else "include-unreadable"
-        state.problem(kind, origin, path=path, reason=found.reason)
+        kind = IncludeNotFound if found.kind == "missing" else UnreadableInclude
+        state.problem(kind(path, found.reason), origin)
         state.unknown("<include>", f"{path} {found.reason}", scope, origin[-1].span)
         return None
     return found
@@ -417,4 +431,4 @@ def _check_machines(state: State) -> None:
             attribute = node.action.attribute("machine")
             span = attribute.value.span if attribute else node.action.kind_span
             origin = (*node.origin[:-1], state.location(node.location.file, span))
-            state.problem("machine-undefined", origin, name=node.machine, declared=sorted(state.machines))
+            state.problem(UndefinedMachine(node.machine, tuple(sorted(state.machines))), origin)

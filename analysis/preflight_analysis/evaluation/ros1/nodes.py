@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.problems import DuplicateNode, InvalidName
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, plain_number, positive_number
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
@@ -16,6 +17,7 @@ from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.tags import clear_params, evaluate_env, evaluate_remap, namespace_of
 from preflight_analysis.evaluation.tree import LaunchNode, Unknown, Use
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.launch.schema_ros1 import TAGS
 
 
@@ -116,8 +118,8 @@ def _valid(attributes: Attributes, name: Resolved, options: _Options) -> bool:
     """What roslaunch checks last, when the children are done."""
     if options.respawn and options.required:
         origin = attributes.scope.origin(attributes.action.kind_span)
-        given = ["respawn", "required"]
-        attributes.state.problem("attributes-exclude", origin, tag=attributes.action.kind, names=given)
+        kind = ConflictingAttributes(attributes.action.kind, ("respawn", "required"))
+        attributes.state.problem(kind, origin)
         return False
     if name.known and "/" in name.text:
         _invalid_name(attributes, name.text, "a node's name cannot contain a namespace, use the attribute ns")
@@ -139,7 +141,7 @@ def _valid(attributes: Attributes, name: Resolved, options: _Options) -> bool:
 
 def _invalid_name(attributes: Attributes, name: str, reason: str, *, fatal: bool = True) -> None:
     origin = attributes.scope.origin(_span(attributes.action, "name"))
-    attributes.state.problem("invalid-name", origin, fatal=fatal, what="node", name=name, reason=reason)
+    attributes.state.problem(InvalidName(name, "node", reason), origin, fatal=fatal)
 
 
 def _test_name(attributes: Attributes) -> Resolved | None:
@@ -185,7 +187,7 @@ def _claim_name(state: State, full: str, location: Location, scope: Scope, actio
         state.node_names[full] = location
         return True
     origin = scope.origin(_span(action, "name"))
-    state.problem("duplicate-node", origin, name=full, first=state.node_names[full])
+    state.problem(DuplicateNode(full, state.node_names[full]), origin)
     return False
 
 

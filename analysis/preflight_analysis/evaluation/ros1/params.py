@@ -12,6 +12,16 @@ from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.problems import (
+    BadYaml,
+    CommandFailed,
+    CommandMissing,
+    CommandNotRun,
+    MalformedCommand,
+    ParameterFileNotFound,
+    UnreadableParameterFile,
+    YamlKeyTwice,
+)
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
@@ -19,6 +29,7 @@ from preflight_analysis.evaluation.ros1.substitute import resolve
 from preflight_analysis.evaluation.tree import Command, CommandValue, Param, Use
 from preflight_analysis.evaluation.yaml_params import YamlError, YamlValue, load_yaml
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.problems import ConflictingAttributes, MissingAttribute
 from preflight_analysis.launch.substitutions import parse_value
 
 SOURCES = ("value", "textfile", "binfile", "command")
@@ -31,8 +42,8 @@ def evaluate_param(state: State, scope: Scope, action: Action, *, node: str | No
     attributes = Attributes(state, scope, action)
     given = [source for source in SOURCES if attributes.get(source) is not None]
     if len(given) != 1:
-        kind = "attributes-exclude" if given else "missing-attribute"
-        state.problem(kind, scope.origin(action.kind_span), tag="param", names=given or list(SOURCES))
+        kind = ConflictingAttributes("param", tuple(given)) if given else MissingAttribute("param", SOURCES)
+        state.problem(kind, scope.origin(action.kind_span))
         return
     attributes.strip("name")
     found = attributes.require("name")
@@ -99,7 +110,7 @@ def _printed(state: State, scope: Scope, action: Action, line: str, param: str) 
     try:
         shlex.split(line)
     except ValueError as error:
-        state.problem("command-malformed", origin, command=line, message=str(error))
+        state.problem(MalformedCommand(str(error)), origin)
         return _NoValue(f"its command cannot be split into words: {error}")
     result = state.results.result(line)
     state.commands.append(Command(line, _full_name(scope, param), origin, result))
@@ -108,10 +119,10 @@ def _printed(state: State, scope: Scope, action: Action, line: str, param: str) 
     if result.status == "done":
         return result.output
     if result.status == "not-run":
-        state.problem("command-not-run", origin, fatal=False, command=line, reason=result.reason)
+        state.problem(CommandNotRun(result.reason), origin)
         return CommandValue(line, result.reason)
-    kind = "command-missing" if result.status == "missing" else "command-failed"
-    state.problem(kind, origin, command=line, reason=result.reason, stderr=list(result.stderr_tail))
+    missing = result.status == "missing"
+    state.problem(CommandMissing(line) if missing else CommandFailed(result.reason, result.stderr_tail), origin)
     return _NoValue(f"its command failed: {result.reason}")
 
 
@@ -123,9 +134,9 @@ def _full_name(scope: Scope, param: str) -> str:
 def report_file(state: State, scope: Scope, action: Action, attribute: str, found: Unreadable) -> None:
     """Note that a file named in a parameter tag cannot be read."""
     written = action.attribute(attribute)
-    kind = "param-file-not-found" if found.kind == "missing" else "param-file-unreadable"
+    kind = ParameterFileNotFound if found.kind == "missing" else UnreadableParameterFile
     origin = scope.origin(written.value.span if written else action.kind_span)
-    state.problem(kind, origin, path=found.path, tag=action.kind, attribute=attribute, reason=found.reason)
+    state.problem(kind(found.path, found.reason), origin)
 
 
 def _file_use(scope: Scope, action: Action, attribute: str, path: str) -> Use:
@@ -148,7 +159,7 @@ def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str |
     if not attributes.chosen("command", command):
         return
     if command == "delete" and file is not None:
-        state.problem("attributes-exclude", scope.origin(action.kind_span), tag="rosparam", names=["command", "file"])
+        state.problem(ConflictingAttributes("rosparam", ("command", "file")), scope.origin(action.kind_span))
         return
     if command != "load":
         return
@@ -221,7 +232,7 @@ def _load(
         origin = scope.origin(action.head_span)
         if place is not None:
             origin = (*origin, place) if place.file != scope.file else (*scope.chain, place)
-        state.problem("bad-yaml", origin, message=message, path=file)
+        state.problem(BadYaml(message), origin)
         state.unknown("<rosparam>", "its YAML is malformed", scope, action.kind_span, full)
 
     try:
@@ -238,7 +249,7 @@ def _load(
     for key, first, second in loaded.twice:
         where, other = (text.location(span) or origin[-1] for span in (first, second))
         at = (*origin, where) if where.file != scope.file else (*scope.chain, where)
-        state.problem("yaml-key-twice", at, fatal=False, name=key, second=other)
+        state.problem(YamlKeyTwice(key, other), at)
     try:
         leaves, stopped = _leaves(loaded)
         outside = text.file != scope.file

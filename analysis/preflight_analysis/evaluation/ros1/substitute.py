@@ -8,15 +8,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import Any
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import expression, values
+from preflight_analysis.evaluation.problems import (
+    ArgumentNeeded,
+    EvalFailed,
+    EvalNotAllowed,
+    MissingArgument,
+    PackageNotFound,
+    UndeclaredArgument,
+    UnsetVariable,
+)
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.launch.model import Substitution, Value
+from preflight_analysis.launch.problems import BadSubstitution, ProblemKind
 from preflight_analysis.launch.substitutions import (
     COMMANDS_ROS1,
     SubstitutionSyntaxError,
@@ -28,11 +37,9 @@ from preflight_analysis.launch.substitutions import (
 class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list
     """A substitution that has no value. `kind` None: the reason is known already."""
 
-    def __init__(
-        self, kind: str | None = None, *, origin: Origin | None = None, fatal: bool = True, **data: Any
-    ) -> None:
+    def __init__(self, kind: ProblemKind | None = None, origin: Origin | None = None) -> None:
         super().__init__(kind)
-        self.kind, self.origin, self.fatal, self.data = kind, origin, fatal, data
+        self.kind, self.origin = kind, origin
 
 
 def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) -> Resolved:
@@ -43,7 +50,7 @@ def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) ->
     if "$" not in value.text or (value.problem is None and value.is_literal):
         return Resolved(value.text)
     if value.problem is not None:
-        state.problem("bad-substitution", scope.origin(at or value.span), text=value.text, message=value.problem)
+        state.problem(BadSubstitution(value.text, value.problem), scope.origin(at or value.span))
         return Resolved(value.text, False)
     text, known, finds = value.text, True, False
     for part in value.substitutions:
@@ -53,7 +60,7 @@ def resolve(state: State, scope: Scope, value: Value, at: Span | None = None) ->
             continue
         if part.command == "eval" and not is_eval(value.text):
             message = "$(eval ...) must be the whole value"
-            state.problem("bad-substitution", scope.origin(span), text=part.text, message=message)
+            state.problem(BadSubstitution(part.text, message), scope.origin(span))
             known = False
             continue
         result = _one(state, scope, part, span, record=at is None)
@@ -80,7 +87,7 @@ def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: 
     try:
         if part.command == "arg":
             if len(words) != 1:
-                raise _Failure("bad-substitution", text=part.text, message="$(arg name) takes exactly one name")
+                raise _Failure(BadSubstitution(part.text, "$(arg name) takes exactly one name"))
             declaration = scope.declared.get(words[0])
             given = scope.args.get(words[0])
             origin = (given.origin if given else None) or ()
@@ -90,7 +97,7 @@ def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: 
             text = _COMMANDS.get(part.command, _unknown_command)(state, scope, part, words)
     except _Failure as failure:
         if failure.kind is not None:
-            state.problem(failure.kind, failure.origin or scope.origin(span), fatal=failure.fatal, **failure.data)
+            state.problem(failure.kind, failure.origin or scope.origin(span))
         text = None
     if record:
         name = words[0] if words and part.command != "eval" else part.arguments
@@ -105,16 +112,15 @@ def _arg(scope: Scope, name: str) -> str:
             raise _Failure
         return given.text
     if name not in scope.declared:
-        raise _Failure("arg-undeclared", name=name, declared=sorted({*scope.declared, *scope.args}))
+        raise _Failure(UndeclaredArgument(name, tuple(sorted({*scope.declared, *scope.args}))))
     if scope.chain:
-        passed = sorted(scope.args)
-        raise _Failure("arg-required", origin=scope.chain, name=name, file=scope.file, passed=passed)
-    raise _Failure("root-arg-required", origin=(scope.declared[name],), name=name)
+        raise _Failure(MissingArgument(name, scope.file, tuple(sorted(scope.args))), scope.chain)
+    raise _Failure(ArgumentNeeded(name), (scope.declared[name],))
 
 
 def _env(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     if len(words) != 1:
-        raise _Failure("bad-substitution", text=part.text, message="$(env NAME) takes exactly one name")
+        raise _Failure(BadSubstitution(part.text, "$(env NAME) takes exactly one name"))
     return _environment_variable(state, words[0])
 
 
@@ -122,18 +128,18 @@ def _environment_variable(state: State, name: str) -> str:
     try:
         return state.environment.variables[name]
     except KeyError:
-        raise _Failure("env-unset", name=name) from None
+        raise _Failure(UnsetVariable(name)) from None
 
 
 def _optenv(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     if not words:
-        raise _Failure("bad-substitution", text=part.text, message="$(optenv NAME default) needs a name")
+        raise _Failure(BadSubstitution(part.text, "$(optenv NAME default) needs a name"))
     return state.environment.variables.get(words[0], " ".join(words[1:]))
 
 
 def _anon(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     if len(words) != 1:
-        raise _Failure("bad-substitution", text=part.text, message="$(anon name) takes exactly one name")
+        raise _Failure(BadSubstitution(part.text, "$(anon name) takes exactly one name"))
     return _anonymous(state, scope, words[0])
 
 
@@ -149,7 +155,7 @@ def _dirname(state: State, scope: Scope, part: Substitution, words: list[str]) -
 
 def _unknown_command(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     message = f"'{part.command}' is not a substitution" if part.command else "the substitution is empty"
-    raise _Failure("bad-substitution", text=part.text, message=message, command=part.command, commands=COMMANDS_ROS1)
+    raise _Failure(BadSubstitution(part.text, message, part.command, COMMANDS_ROS1))
 
 
 def _eval(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
@@ -172,15 +178,15 @@ def _eval(state: State, scope: Scope, part: Substitution, words: list[str]) -> s
     try:
         return str(expression.evaluate(text, by_name, functions))
     except expression.NotAllowedError as error:
-        raise _Failure("eval-not-allowed", fatal=False, expression=text, message=str(error)) from error
+        raise _Failure(EvalNotAllowed(text, str(error))) from error
     except expression.EvaluationError as error:
-        raise _Failure("eval-error", expression=text, message=str(error)) from error
+        raise _Failure(EvalFailed(text, str(error))) from error
 
 
 def _package(state: State, name: str) -> str:
     package = state.environment.packages.get(name)
     if package is None:
-        raise _Failure("package-not-found", name=name)
+        raise _Failure(PackageNotFound(name))
     return package.share
 
 
@@ -200,7 +206,7 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
     try:
         pieces = [text[start:end] for start, end in find_substitutions(text)]
     except SubstitutionSyntaxError as error:
-        state.problem("bad-substitution", scope.origin(at or value.span), text=text, message=str(error))
+        state.problem(BadSubstitution(text, str(error)), scope.origin(at or value.span))
         return Resolved(text, False)
     for piece in pieces:
         words = [w for w in piece[2:-1].split(" ") if w]
@@ -208,18 +214,18 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
             if (not words or words[0] not in COMMANDS_ROS1) and piece not in substitutions:
                 # Made by a value: `$$(arg a)` where a is `(b)`.
                 message = f"'{piece}', which the values make, is not a substitution"
-                state.problem("bad-substitution", scope.origin(at or value.span), text=piece, message=message)
+                state.problem(BadSubstitution(piece, message), scope.origin(at or value.span))
             known = known and bool(words) and words[0] in COMMANDS_ROS1
             continue
         part = substitutions.get(piece)
         span = at or (part.span if part else value.span)
         try:
             if len(words) != 2:
-                raise _Failure("bad-substitution", text=piece, message="$(find package) takes exactly one package")
+                raise _Failure(BadSubstitution(piece, "$(find package) takes exactly one package"))
             share = _package(state, words[1])
         except _Failure as failure:
             if failure.kind is not None:
-                state.problem(failure.kind, scope.origin(span), fatal=failure.fatal, **failure.data)
+                state.problem(failure.kind, scope.origin(span))
             known = False
             continue
         if not state.has_room(len(text) + len(share), scope.origin(span)):

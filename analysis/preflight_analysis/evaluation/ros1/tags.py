@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.problems import FixedArgument, InvalidName, RedeclaredArgument
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, positive_number
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.tree import Machine, Remap, Use
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.problems import ConflictingAttributes, UnknownElement
 from preflight_analysis.launch.schema_ros1 import TAGS
 
 _REFUSED_MACHINE = tuple(name for name in TAGS["machine"].refused if name != "env")
@@ -30,7 +32,7 @@ def evaluate_remap(state: State, scope: Scope, action: Action, *, inside_node: b
     for end, span in zip(ends, places, strict=True):
         if not end or not names.is_legal(end):
             reason = "a name is a letter, ~ or /, then letters, digits, _ and /" if end else "it is empty"
-            state.problem("invalid-name", scope.origin(span), what="remap", name=end, reason=reason)
+            state.problem(InvalidName(end, "remap", reason), scope.origin(span))
             return None
     source, target = (scope.location(span) for span in places)
     return Remap(ends[0], ends[1], scope.origin(action.head_span), source, target, inside_node)
@@ -67,17 +69,17 @@ def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
     span = name_attribute.value.span if name_attribute else action.kind_span
     location = scope.location(span)
     if value is not None and default is not None:
-        state.problem("attributes-exclude", scope.origin(action.kind_span), tag="arg", names=["value", "default"])
+        state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(action.kind_span))
         default = None
     if name in scope.declared and not scope.pass_all_args:
         first = scope.declared[name]
-        state.problem("arg-redeclared", scope.origin(span), name=name, first=first, passed=False)
+        state.problem(RedeclaredArgument(name, first, passed=False), scope.origin(span))
         return
     scope.declared.setdefault(name, location)
     given = scope.args.get(name)
     if value is not None:
         if given is not None and not scope.pass_all_args:
-            state.problem("arg-override", scope.chain or scope.origin(span), name=name, declared=location)
+            state.problem(FixedArgument(name), scope.chain or scope.origin(span))
         else:
             scope.args[name] = ArgValue(value.text if value.known else None, scope.origin(span))
     elif default is not None and given is None:
@@ -112,8 +114,7 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
         return None
     for child in action.children:
         if child.kind == "env":
-            origin = scope.origin(child.kind_span)
-            state.problem("unknown-element", origin, tag=child.kind, parent=action.kind, allowed=[])
+            state.problem(UnknownElement(child.kind, action.kind, ()), scope.origin(child.kind_span))
             return None
     timeout = attributes.convert("timeout", None, positive_number)
     machine = Machine(
@@ -132,7 +133,7 @@ def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
         state.machines[machine.name] = machine
     elif not machine.name or state.machines[machine.name].settings != machine.settings:
         reason = "it is declared twice, with different attributes" if machine.name else "that is the local machine's"
-        state.problem("invalid-name", scope.origin(action.kind_span), what="machine", name=machine.name, reason=reason)
+        state.problem(InvalidName(machine.name, "machine", reason), scope.origin(action.kind_span))
         return None
     return machine.name if default == "true" else None
 
