@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
-from preflight_analysis.evaluation.problems import Problem, ValueTooLong, of_name
+from preflight_analysis.evaluation.problems import Problem, ValueTooLong
 from preflight_analysis.evaluation.tree import (
     Arg,
     Command,
@@ -77,10 +75,8 @@ class Collector:
             found = self._digests[path] = self.files.digest(path)
         return found
 
-    def problem(self, kind: ProblemKind | str, origin: Origin, *, fatal: bool | None = None, **data: Any) -> None:
+    def problem(self, kind: ProblemKind, origin: Origin, *, fatal: bool | None = None) -> None:
         """Note a problem; the same one at the same place once."""
-        if isinstance(kind, str):
-            kind = of_name(kind, data)
         self._add(Problem(kind, origin, kind.usually_fatal if fatal is None else fatal))
 
     def _add(self, problem: Problem[ProblemKind]) -> None:

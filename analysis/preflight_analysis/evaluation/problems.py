@@ -2,21 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any, Generic, TypeVar
+from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 from preflight_analysis.documents.span import Location, Origin
-from preflight_analysis.launch.problems import (
-    BadSubstitution,
-    BadValue,
-    ConflictingAttributes,
-    MissingAttribute,
-    OfName,
-    ProblemKind,
-    UnknownAttribute,
-    UnknownElement,
-)
+from preflight_analysis.launch.problems import OfName, ProblemKind
 
 K_co = TypeVar("K_co", bound=ProblemKind, covariant=True)
 
@@ -358,59 +348,3 @@ class UndefinedMachine(_OfNames):
     """A node on a machine that is not declared."""
 
     __slots__ = ()
-
-
-# TODO: makers that still give a name and a dictionary
-_OF_NAME: dict[str, type[ProblemKind]] = {
-    "file-unreadable": UnreadableFile,
-    "file-not-text": NotTextFile,
-    "xml-malformed": MalformedXml,
-    "yaml-malformed": MalformedYaml,
-    "xml-entity": UnexpandedEntity,
-    "python-malformed": MalformedPython,
-    "python-exception": PythonException,
-    "python-import": PythonImportFailed,
-    "launch-file-not-run": LaunchFileNotRun,
-    "root-not-launch": NoLaunchElement,
-    "unknown-element": UnknownElement,
-    "unknown-attribute": UnknownAttribute,
-    "missing-attribute": MissingAttribute,
-    "attributes-exclude": ConflictingAttributes,
-    "bad-value": BadValue,
-    "invalid-name": InvalidName,
-    "bad-substitution": BadSubstitution,
-    "eval-error": EvalFailed,
-    "eval-not-allowed": EvalNotAllowed,
-    "env-unset": UnsetVariable,
-    "package-not-found": PackageNotFound,
-    "arg-undeclared": UndeclaredArgument,
-    "arg-required": MissingArgument,
-    "root-arg-required": ArgumentNeeded,
-    "root-arg-undeclared": UnknownLaunchArgument,
-    "include-arg-undeclared": UnknownIncludeArgument,
-    "arg-not-a-choice": ArgumentNotAChoice,
-    "arg-redeclared": RedeclaredArgument,
-    "arg-override": FixedArgument,
-    "include-arg-no-value": IncludeArgumentWithoutValue,
-    "include-not-found": IncludeNotFound,
-    "include-unreadable": UnreadableInclude,
-    "include-cycle": IncludeCycle,
-    "nested-too-deeply": NestedTooDeeply,
-    "param-file-not-found": ParameterFileNotFound,
-    "param-file-unreadable": UnreadableParameterFile,
-    "bad-yaml": BadYaml,
-    "command-malformed": MalformedCommand,
-    "command-failed": CommandFailed,
-    "command-missing": CommandMissing,
-    "command-not-run": CommandNotRun,
-    "yaml-key-twice": YamlKeyTwice,
-    "duplicate-node": DuplicateNode,
-    "machine-undefined": UndefinedMachine,
-}
-
-
-def of_name(name: str, data: Mapping[str, Any]) -> ProblemKind:
-    """A problem by its name."""
-    kind = _OF_NAME[name]
-    given = {each.name: data[each.name] for each in fields(kind) if each.name in data}  # type: ignore[arg-type]
-    return kind(**{key: tuple(value) if isinstance(value, list) else value for key, value in given.items()})

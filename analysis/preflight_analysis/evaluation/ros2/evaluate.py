@@ -16,13 +16,25 @@ from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.problems import (
+    ArgumentNeeded,
     ArgumentNotAChoice,
+    DuplicateNode,
+    IncludeCycle,
+    IncludeNotFound,
     LaunchFileNotRun,
     MalformedPython,
+    MalformedXml,
+    MalformedYaml,
     MissingArgument,
     NestedTooDeeply,
+    NoLaunchElement,
+    NotTextFile,
     Problem,
+    PythonException,
+    UnexpandedEntity,
     UnknownIncludeArgument,
+    UnreadableFile,
+    UnreadableInclude,
 )
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
@@ -47,7 +59,7 @@ from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
 from preflight_analysis.launch.check_language_ros2 import check_language_ros2
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
-from preflight_analysis.launch.problems import LanguageProblem, UnknownElement
+from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
 from preflight_analysis.launch.read import PYTHON_SUFFIX, read_launch
 from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
@@ -57,7 +69,7 @@ MAX_DEPTH = 150
 MAX_INCLUDES = 2_000
 _WITH_ACTIONS = tuple(tag for tag, schema in TAGS_ROS2.items() if "node" in schema.children)
 NO_RESULTS = NoResults()
-_MALFORMED = {".yaml": "yaml-malformed", ".yml": "yaml-malformed", PYTHON_SUFFIX: "python-malformed"}
+_MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml, PYTHON_SUFFIX: MalformedPython}
 _SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
 """What can be said of a Python launch file that was not run."""
 
@@ -126,8 +138,8 @@ class _Walk:
         whole = (Location.of_file(path),)
         found = self._state.read_launch_file(path)
         if isinstance(found, Unreadable):
-            kind = "file-not-text" if found.kind == "not-text" else "file-unreadable"
-            self._state.problem(kind, whole, path=path, reason=found.reason)
+            kind = NotTextFile if found.kind == "not-text" else UnreadableFile
+            self._state.problem(kind(path, found.reason), whole)
             return
         self._context.launch_file = path
         found, run = self._as_run(found, ())
@@ -153,7 +165,7 @@ class _Walk:
             place = self._state.location(node.location.file, span)
             if node.name in first:
                 origin = (*node.origin[:-1], place)
-                self._state.problem("duplicate-node", origin, fatal=False, name=node.name, first=first[node.name])
+                self._state.problem(DuplicateNode(node.name, first[node.name]), origin, fatal=False)
             else:
                 first[node.name] = place
 
@@ -178,10 +190,10 @@ class _Walk:
             state.visited.append(place.file)
         self._note_names(launch_file)
         for problem in document.problems:
-            kind = _MALFORMED.get(os.path.splitext(place.file)[1], "xml-malformed")
-            state.problem(kind, place.origin(problem.span), message=problem.message)
+            kind = _MALFORMED.get(os.path.splitext(place.file)[1], MalformedXml)
+            state.problem(kind(problem.message), place.origin(problem.span))
         for name, span in document.entities:
-            state.problem("xml-entity", place.origin(span), fatal=False, name=name)
+            state.problem(UnexpandedEntity(name), place.origin(span))
             state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", place.location(span))
         if not place.file.endswith(PYTHON_SUFFIX):
             for found in (*check_language_ros2(launch_file), *check_values_ros2(launch_file)):
@@ -190,7 +202,7 @@ class _Walk:
         if launch_file.root is None:
             span = document.root.tag_span if document.root is not None else Span(0, min(1, len(document.text)))
             tag = document.root.tag if document.root is not None else None
-            state.problem("root-not-launch", place.origin(span), tag=tag)
+            state.problem(NoLaunchElement(tag), place.origin(span))
             return
         before = len(state.problems)
         self._actions(place, launch_file.root.children)
@@ -236,7 +248,7 @@ class _Walk:
                 if error is not None:
                     name, _, message = error.text.partition(": ")
                     origin = place.origin(action.head_span)
-                    self._state.problem("python-exception", origin, error=name, message=message, frames=())
+                    self._state.problem(PythonException(name, message), origin)
                 else:
                     before = len(self._state.nodes)
                     execute(self, performer, action)
@@ -264,7 +276,7 @@ class _Walk:
                 self._context.set(name, performer.value(default), place.origin(default.span))
             else:
                 if not place.chain:
-                    state.problem("root-arg-required", origin, name=name)
+                    state.problem(ArgumentNeeded(name), origin)
                 self._context.set(name, Resolved(f"$(var {name})", False), origin)
         found = self._context.get(name)
         value = found.value if found is not None and found.value.known else None
@@ -285,8 +297,7 @@ class _Walk:
         found = self._context.get(name)
         declared = performer.place.origin(action.head_span)
         origin = found.origin if found is not None and found.origin else declared
-        where = declared[-1]
-        self._state.problem("arg-not-a-choice", origin, name=name, value=value.text, choices=choices, declared=where)
+        self._state.problem(ArgumentNotAChoice(name, value.text, tuple(choices), declared[-1]), origin)
 
     def _let(self, performer: Performer, action: Action) -> None:
         name, value = action.value("name"), action.value("value")
@@ -405,7 +416,7 @@ class _Walk:
         state, origin = self._state, (*place.chain, at)
         chain = [location.file for location in place.chain]
         if path in (place.file, *chain):
-            state.problem("include-cycle", origin, path=path, chain=[*chain, place.file])
+            state.problem(IncludeCycle(path, (*chain, place.file)), origin)
             return None
         found = state.read_launch_file(path)
         if isinstance(found, Unreadable) and found.kind == "missing":
@@ -413,9 +424,9 @@ class _Walk:
         if not isinstance(found, Unreadable):
             return found
         if found.kind == "missing":
-            state.problem("include-not-found", origin, path=path, reason=found.reason)
+            state.problem(IncludeNotFound(path, found.reason), origin)
         else:
-            state.problem("include-unreadable", origin, path=path, reason=found.reason)
+            state.problem(UnreadableInclude(path, found.reason), origin)
         state.note_unknown("<include>", f"{path} {found.reason}", at)
         return None
 
@@ -443,10 +454,10 @@ class _Walk:
             if declared.include is not None:
                 self._missing_below.append(declared)
             elif include is None:
-                self._state.problem("root-arg-required", (declared.location,), name=declared.name)
+                self._state.problem(ArgumentNeeded(declared.name), (declared.location,))
             else:
-                file = declared.location.file
-                self._state.problem("arg-required", include, name=declared.name, file=file, passed=passed)
+                kind = MissingArgument(declared.name, declared.location.file, tuple(passed))
+                self._state.problem(kind, include)
 
     def _included_without_context(self, file: LaunchFile, action: Action) -> LaunchFile | None:
         value = action.value("file")
@@ -477,7 +488,7 @@ class _Walk:
         if not self._exhausted:
             self._exhausted = True
             limit = f"{MAX_DEPTH} levels" if self._depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"
-            self._state.problem("nested-too-deeply", place.origin(action.kind_span), fatal=False, limit=limit)
+            self._state.problem(NestedTooDeeply(limit), place.origin(action.kind_span))
             at = place.location(action.kind_span)
             self._state.note_unknown(f"<{action.kind}>", f"there are more than {limit}", at)
         return True
@@ -679,7 +690,7 @@ class _Walk:
             pop()
         except IndexError:
             origin, message = performer.place.origin(action.head_span), f"{name} stack unexpectedly empty"
-            self._state.problem("python-exception", origin, error="RuntimeError", message=message, frames=())
+            self._state.problem(PythonException("RuntimeError", message), origin)
 
     def _set_use_sim_time(self, performer: Performer, action: Action) -> None:
         """The frontends hand the text over where the action wants a bool: it fails when it is executed."""
@@ -687,15 +698,8 @@ class _Walk:
         value = action.value("value")
         if value is not None and not performer.place.file.endswith(PYTHON_SUFFIX):
             expected = 'what launch can use: it takes no text; write <set_parameter name="use_sim_time" value="..."/>'
-            self._state.problem(
-                "bad-value",
-                performer.place.origin(value.span),
-                tag=action.kind,
-                attribute="value",
-                value=value.text,
-                expected=expected,
-                choices=(),
-            )
+            bad = BadValue(action.kind, "value", value.text, expected)
+            self._state.problem(bad, performer.place.origin(value.span))
 
     def _set_log_dir(self, performer: Performer, action: Action) -> None:
         value = action.value("new_log_dir")
@@ -810,15 +814,8 @@ def _condition(performer: Performer, action: Action, attribute: ActionAttribute,
             origin = performer.place.origin(action.head_span)
             performer.state.note_not_taken(action, attribute, result.text, origin)
         return taken
-    performer.state.problem(
-        "bad-value",
-        performer.place.origin(span),
-        tag=action.kind,
-        attribute=attribute.name,
-        value=result.text,
-        expected="true, false, 1 or 0",
-        choices=("true", "false"),
-    )
+    bad = BadValue(action.kind, attribute.name, result.text, "true, false, 1 or 0", ("true", "false"))
+    performer.state.problem(bad, performer.place.origin(span))
     return False
 
 

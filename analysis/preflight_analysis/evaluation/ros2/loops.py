@@ -6,6 +6,7 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.problems import BadValue
 
 MAX_ROUNDS = 1_000
 
@@ -22,15 +23,10 @@ def rounds(performer: Performer, action: Action) -> list[dict[str, str]]:
         return []
     found = _indices(action, result.text) if action.kind == "for" else _sets(result.text)
     if found is None:
-        performer.state.problem(
-            "bad-value",
-            performer.place.origin(value.span),
-            tag=action.kind,
-            attribute="len" if action.kind == "for" else "values",
-            value=result.text,
-            expected="an integer" if action.kind == "for" else "YAML maps with semicolons between",
-            choices=(),
-        )
+        attribute = "len" if action.kind == "for" else "values"
+        expected = "an integer" if action.kind == "for" else "YAML maps with semicolons between"
+        bad = BadValue(action.kind, attribute, result.text, expected)
+        performer.state.problem(bad, performer.place.origin(value.span))
         return []
     return found[:MAX_ROUNDS]
 

@@ -11,6 +11,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.files import without_dots
+from preflight_analysis.evaluation.problems import InvalidName
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Scope
 from preflight_analysis.evaluation.ros2.param_files import EVERY
@@ -64,7 +65,7 @@ def namespace_of(
     if known and text is not None and _NAMESPACE.fullmatch(text) is None:
         origin = performer.place.origin(value.span if value is not None else action.kind_span)
         reason = "a namespace is made of letters, digits and underscores between single slashes"
-        performer.state.problem("invalid-name", origin, fatal=fatal, what="namespace", name=text, reason=reason)
+        performer.state.problem(InvalidName(text, "namespace", reason), origin, fatal=fatal)
         return result, False
     return result, True
 
@@ -91,7 +92,7 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     name = known(performer.value(name_value), "name") if name_value is not None else None
     if name is not None and name_value is not None and not unknowns and _NODE_NAME.fullmatch(name) is None:
         reason = "a name is a letter or underscore, then letters, digits and underscores"
-        state.problem("invalid-name", place.origin(name_value.span), what="node", name=name, reason=reason)
+        state.problem(InvalidName(name, "node", reason), place.origin(name_value.span))
         return
     ns, valid = namespace_of(performer, action, scope)
     if not valid:

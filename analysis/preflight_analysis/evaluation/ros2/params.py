@@ -13,6 +13,7 @@ from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.files import without_dots
+from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFound, UnreadableParameterFile
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
 from preflight_analysis.evaluation.ros2.param_files import (
@@ -28,6 +29,7 @@ from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coer
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
+from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.launch.schema_ros2 import PARAM_TYPES
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
 
@@ -121,9 +123,7 @@ def param_value(performer: Performer, action: Action, value: Value, type_name: s
     except NotOfTypeError as problem:
         origin = performer.place.origin(value.span)
         text = performer.value(value).text
-        performer.state.problem(
-            "bad-value", origin, tag="param", attribute="value", value=text, expected=str(problem), choices=()
-        )
+        performer.state.problem(BadValue("param", "value", text, str(problem)), origin)
         return _UNKNOWN
 
 
@@ -163,10 +163,12 @@ def file_source(
     path = without_dots(path) or path
     found = state.read_text(path)
     if isinstance(found, Unreadable):
-        kind = "param-file-not-found" if found.kind == "missing" and not empty else "param-file-unreadable"
-        fatal, reason = must_exist or substitute, empty or found.reason
-        written = "" if empty else path
-        state.problem(kind, origin, fatal=fatal, path=written, tag="param", attribute="from", reason=reason)
+        fatal = must_exist or substitute
+        if empty:
+            state.problem(UnreadableParameterFile("", empty), origin, fatal=fatal)
+        else:
+            kind = ParameterFileNotFound if found.kind == "missing" else UnreadableParameterFile
+            state.problem(kind(path, found.reason), origin, fatal=fatal)
         return None
     text = found.text
     if substitute:
@@ -180,7 +182,7 @@ def file_source(
         message, span = file.problem
         at = origin if path in state.made else (*origin, found.lines.location(path, span))
         fatal = to.composable or substitute
-        state.problem("bad-yaml", at, fatal=fatal, message=message, path=path)
+        state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
     return _of_file(file, text, path, lines, origin, to, gone=path in state.made)
 
@@ -270,15 +272,7 @@ def pushed_value(performer: Performer, value: Value) -> Any:
     if not is_valid(found) or found == []:
         origin = performer.place.origin(value.span)
         expected = "a bool, a number, a text or a list of one of them"
-        performer.state.problem(
-            "bad-value",
-            origin,
-            tag="set_parameter",
-            attribute="value",
-            value=result.text,
-            expected=expected,
-            choices=(),
-        )
+        performer.state.problem(BadValue("set_parameter", "value", result.text, expected), origin)
         return None
     return found
 

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.problems import BadValue
 
 EXPECTED = "a bool, a number, a text or a non-empty list of one of them"
 _SCALARS = (bool, int, float, str)
@@ -43,15 +44,9 @@ def python_value(performer: Performer, action: Action) -> tuple[bool, Any]:
     except NotOfTypeError as problem:
         value = action.value("value")
         span = value.span if value is not None else action.head_span
-        performer.state.problem(
-            "bad-value",
-            performer.place.origin(span),
-            tag="parameters",
-            attribute=_text(performer, action, "name"),
-            value=_text(performer, action, "value"),
-            expected=str(problem),
-            choices=(),
-        )
+        name, written = (_text(performer, action, each) for each in ("name", "value"))
+        bad = BadValue("parameters", name, written, str(problem))
+        performer.state.problem(bad, performer.place.origin(span))
         return False, None
 
 

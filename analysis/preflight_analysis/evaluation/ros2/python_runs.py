@@ -24,6 +24,13 @@ from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.problems import (
+    LaunchFileNotRun,
+    PackageNotFound,
+    PythonException,
+    PythonImportFailed,
+    UnsetVariable,
+)
 from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
 from preflight_analysis.evaluation.tree import Command, Edited
 from preflight_analysis.launch.configurations import substitutions_of
@@ -229,10 +236,10 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         return None
     if result.status == "not-run":
         state.note_unknown(what, f"it was not run: {result.reason}", origin[-1])
-        state.problem("launch-file-not-run", origin, fatal=False, name=what, reason=result.reason)
+        state.problem(LaunchFileNotRun(what, result.reason), origin)
         return None
     if result.status != "done":
-        state.problem("python-exception", origin, error="", message=result.reason, frames=())
+        state.problem(PythonException("", result.reason), origin)
         state.note_unknown(what, result.reason, origin[-1])
         return None
     reply = _read(result.output)
@@ -293,20 +300,20 @@ def _raised(
     package = _PACKAGE.search(message) if name == _PACKAGE_ERROR else None
     variable = _variable(run, here[-1], message) if name == "KeyError" and here else None
     if package is not None:
-        state.problem("package-not-found", origin, name=package[1])
+        state.problem(PackageNotFound(package[1]), origin)
     elif variable is not None and variable in state.environment.variables:
         state.note_unknown(name, f"the sandbox is not told what {variable} is", origin[-1])
     elif variable is not None:
-        state.problem("env-unset", origin, name=variable)
+        state.problem(UnsetVariable(variable), origin)
     elif name in _IMPORT_ERRORS:
         module = str(error.get("module", ""))
-        state.problem("python-import", origin, fatal=False, module=module, message=message)
+        state.problem(PythonImportFailed(module, message), origin)
     else:
         behind = [(file, line) for file, line in own if file.startswith("/") and file not in state.made]
         places = tuple(_frame(state, place, run, file, line) for file, line in behind)
         if name == "AssertionError" and not message and behind:
             message = _asserted(state, run, *behind[-1])
-        state.problem("python-exception", origin, error=name, message=message, frames=places)
+        state.problem(PythonException(name, message, places), origin)
 
 
 def _variable(run: PythonRun, line: int, message: str) -> str | None:

@@ -7,7 +7,6 @@ import os
 import shlex
 import shutil
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
@@ -16,6 +15,17 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.problems import (
+    CommandFailed,
+    CommandMissing,
+    CommandNotRun,
+    EvalFailed,
+    EvalNotAllowed,
+    MalformedCommand,
+    PackageNotFound,
+    UndeclaredArgument,
+    UnsetVariable,
+)
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.context import Context, Place
@@ -23,6 +33,7 @@ from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.evaluation.tree import Command, Use
 from preflight_analysis.launch.model import Literal, Substitution, Value
+from preflight_analysis.launch.problems import BadSubstitution, ProblemKind
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, parse_value_ros2
 
 Parts = tuple[Literal | Substitution, ...]
@@ -31,9 +42,9 @@ Parts = tuple[Literal | Substitution, ...]
 class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list
     """A substitution that has no value. `kind` None: the reason is known already."""
 
-    def __init__(self, kind: str | None = None, *, fatal: bool = True, **data: Any) -> None:
+    def __init__(self, kind: ProblemKind | None = None, *, fatal: bool | None = None) -> None:
         super().__init__(kind)
-        self.kind, self.fatal, self.data = kind, fatal, data
+        self.kind, self.fatal = kind, fatal
 
 
 class Performer:
@@ -46,7 +57,7 @@ class Performer:
         """The text of a whole value."""
         if value.problem is not None:
             span = value.problem_span or value.span
-            self.state.problem("bad-substitution", self.place.origin(span), text=value.text, message=value.problem)
+            self.state.problem(BadSubstitution(value.text, value.problem), self.place.origin(span))
             return Resolved(value.text, False)
         if len(value.parts) == 1 and isinstance(value.parts[0], Literal):
             return Resolved(value.parts[0].text)  # most values, and at each keystroke
@@ -77,22 +88,17 @@ class Performer:
             known = SUBSTITUTIONS_ROS2.get(part.command)
             of_python = _PERFORM_PYTHON.get(part.command) if self.place.file.endswith(".py") else None
             if known is None and of_python is None:
-                raise _Failure(
-                    "bad-substitution",
-                    text=part.text,
-                    message=f"'{part.command}' is not a substitution",
-                    command=part.command,
-                    commands=tuple(SUBSTITUTIONS_ROS2),
-                )
+                message = f"'{part.command}' is not a substitution"
+                raise _Failure(BadSubstitution(part.text, message, part.command, tuple(SUBSTITUTIONS_ROS2)))
             if known is not None and of_python is None:
                 arity, count = known[2], len(part.words)
                 if count < arity.least or (arity.most is not None and count > arity.most):
-                    raise _Failure("bad-substitution", text=part.text, message=f"$({part.command}) takes {arity}")
+                    raise _Failure(BadSubstitution(part.text, f"$({part.command}) takes {arity}"))
             text: str | None = (of_python or _PERFORM[part.command])(self, part)
         except _Failure as failure:
             if failure.kind is not None:
                 origin = self.place.origin(part.span)
-                self.state.problem(failure.kind, origin, fatal=failure.fatal, **failure.data)
+                self.state.problem(failure.kind, origin, fatal=failure.fatal)
             text = None
         name = "".join(p.text for p in part.words[0]) if part.words else ""
         if part.command == "var":
@@ -122,8 +128,8 @@ class Performer:
             if len(part.words) == 2:
                 return self._word(part, 1)
             scope = self.context.scope
-            declared, unsure = sorted(scope.configurations), scope.not_followed
-            raise _Failure("arg-undeclared", fatal=unsure is None, name=name, declared=declared, not_followed=unsure)
+            undeclared = UndeclaredArgument(name, tuple(sorted(scope.configurations)), scope.not_followed)
+            raise _Failure(undeclared, fatal=scope.not_followed is None)
         if not found.value.known:
             raise _Failure
         return found.value.text
@@ -134,14 +140,14 @@ class Performer:
         if found is None:
             if len(part.words) == 2:
                 return self._word(part, 1)
-            raise _Failure("env-unset", name=name)
+            raise _Failure(UnsetVariable(name))
         return found
 
     def _share(self, part: Substitution) -> str:
         name = self._word(part, 0)
         package = self.state.environment.packages.get(name)
         if package is None:
-            raise _Failure("package-not-found", name=name)
+            raise _Failure(PackageNotFound(name))
         return package.share
 
     def _prefix(self, part: Substitution) -> str:
@@ -152,7 +158,7 @@ class Performer:
     def _executable_of_package(self, part: Substitution) -> str:
         name, package = self._word(part, 0), self._word(part, 1)
         if package not in self.state.environment.packages:
-            raise _Failure("package-not-found", name=package)
+            raise _Failure(PackageNotFound(package))
         found = self.state.executables.find(package, name)
         if found.path is None:
             # What is not built yet is no reason to call the launch file wrong.
@@ -175,7 +181,7 @@ class Performer:
         text, distro = self._word(part, 0), self.state.environment.distro
         alone = distro in expressions.WITHOUT_MODULES
         if alone and len(part.words) == 2 and not self.place.file.endswith(".py"):
-            raise _Failure("bad-substitution", text=part.text, message=f"$(eval) takes 1 argument in ROS 2 {distro}")
+            raise _Failure(BadSubstitution(part.text, f"$(eval) takes 1 argument in ROS 2 {distro}"))
         given = self._word(part, 1) if len(part.words) == 2 else "math"
         modules = [name for each in given.split(",") if (name := each.strip())]
         if modules != ["math"] and not alone:
@@ -185,7 +191,7 @@ class Performer:
         except expression.NotAllowedError:
             return self._run_eval(part, text, modules)
         except expression.EvaluationError as error:
-            raise _Failure("eval-error", expression=text, message=str(error)) from error
+            raise _Failure(EvalFailed(text, str(error))) from error
 
     def _run_eval(self, part: Substitution, text: str, modules: Sequence[str]) -> str:
         """The text of an expression that Python itself has to evaluate, in the sandbox."""
@@ -196,12 +202,12 @@ class Performer:
             self.state.note_unknown(part.text, "it was not evaluated", self._at(part))
             raise _Failure
         if result.status != "done":
-            raise _Failure("eval-not-allowed", fatal=False, expression=text, message=result.reason)
+            raise _Failure(EvalNotAllowed(text, result.reason))
         outcome = expressions.read_answer(result.output)
         if outcome.text is None and outcome.sure:
-            raise _Failure("eval-error", expression=text, message=outcome.error)
+            raise _Failure(EvalFailed(text, outcome.error))
         if outcome.text is None:
-            raise _Failure("eval-not-allowed", fatal=False, expression=text, message=outcome.error)
+            raise _Failure(EvalNotAllowed(text, outcome.error))
         return outcome.text
 
     def _dirname(self, part: Substitution) -> str:
@@ -215,7 +221,7 @@ class Performer:
         try:
             shlex.split(line)
         except ValueError as error:
-            raise _Failure("command-malformed", command=line, message=str(error)) from error
+            raise _Failure(MalformedCommand(str(error))) from error
         if self.state.results.placeholder is not None:
             return self.state.results.placeholder
         result = self.state.results.result(line)
@@ -224,11 +230,10 @@ class Performer:
             return result.output
         if result is not None and result.status in ("failed", "missing"):
             if result.status == "failed":
-                stderr = list(result.stderr_tail)
-                raise _Failure("command-failed", command=line, reason=result.reason, stderr=stderr)
-            raise _Failure("command-missing", command=line, reason=result.reason)
+                raise _Failure(CommandFailed(result.reason, result.stderr_tail))
+            raise _Failure(CommandMissing(line))
         if result is not None:
-            raise _Failure("command-not-run", fatal=False, command=line, reason=result.reason)
+            raise _Failure(CommandNotRun(result.reason))
         self.state.note_unknown(part.text, "the command was not run", self._at(part))
         raise _Failure
 
@@ -246,7 +251,7 @@ class Performer:
         truth = yaml_bool(text)
         if truth is None:
             message = f"'{text}' is neither true nor false"
-            raise _Failure("bad-substitution", text=part.text, message=message)
+            raise _Failure(BadSubstitution(part.text, message))
         return truth
 
     def _not(self, part: Substitution) -> str:
@@ -280,7 +285,7 @@ class Performer:
         found = self.state.read_text(os.path.join(self.state.cwd, path))
         if isinstance(found, Unreadable):
             message = f"the file '{path}' {found.reason}"
-            raise _Failure("bad-substitution", text=part.text, message=message)
+            raise _Failure(BadSubstitution(part.text, message))
         return found.text
 
     def _param(self, part: Substitution) -> str:
@@ -291,7 +296,7 @@ class Performer:
         if len(part.words) == 2:
             return self._word(part, 1)
         message = f"no <set_parameter> of '{name}' comes before"
-        raise _Failure("bad-substitution", text=part.text, message=message)
+        raise _Failure(BadSubstitution(part.text, message))
 
     def _log_dir(self, part: Substitution) -> str:
         self.state.note_unknown(part.text, "the folder of the logs is made at launch", self._at(part))
@@ -308,7 +313,7 @@ class Performer:
             return self._word(part, 1)
         if found is None:
             message = f"no loop around it has a variable '{name}'"
-            raise _Failure("bad-substitution", text=part.text, message=message)
+            raise _Failure(BadSubstitution(part.text, message))
         return found
 
     def _path_join(self, part: Substitution) -> str:
@@ -319,7 +324,7 @@ class Performer:
 
     def _find_package(self, part: Substitution) -> str:
         message = "FindPackage finds no folder by itself; use FindPackageShare or FindPackagePrefix"
-        raise _Failure("bad-substitution", text=part.text, message=message)
+        raise _Failure(BadSubstitution(part.text, message))
 
     def _written(self, part: Substitution) -> str:
         text = self._word(part, 0)
