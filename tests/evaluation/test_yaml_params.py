@@ -1,4 +1,7 @@
+import gc
+import weakref
 from contextlib import suppress
+from traceback import walk_tb
 
 import pytest
 from hypothesis import given, settings
@@ -61,3 +64,21 @@ def test_values_and_places_are_pyyamls_whichever_parser_makes_the_nodes(
     slow = yaml_params._load(text)
     assert isinstance(fast, YamlValue) and isinstance(slow, YamlValue)
     assert (fast.value, fast.keys, fast.twice) == (slow.value, slow.keys, slow.twice)
+
+
+def test_a_remembered_error_keeps_nothing_of_who_asked_and_does_not_grow() -> None:
+    class Local:
+        pass
+
+    def ask() -> tuple[weakref.ref[Local], int]:
+        local = Local()
+        try:
+            load_yaml("[only: here")
+        except YamlError as error:
+            return weakref.ref(local), len(list(walk_tb(error.__traceback__)))
+        raise AssertionError
+
+    answers = [ask() for _ in range(3)]
+    gc.collect()
+    assert [local() for local, _ in answers] == [None] * 3
+    assert len({frames for _, frames in answers}) == 1

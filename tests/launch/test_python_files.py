@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from pathlib import Path
 
 from hypothesis import HealthCheck, given, settings
@@ -83,3 +85,17 @@ def test_strange_texts() -> None:
     deep = "Node(name=" + "[" * 80 + "'x'" + "]" * 80 + ")"
     _read(deep)
     _read(Path(__file__).read_text(encoding="utf-8"))
+
+
+def test_what_is_remembered_of_a_mistake_keeps_nothing_of_who_asked() -> None:
+    class Local:
+        pass
+
+    def ask() -> weakref.ref[Local]:
+        local = Local()
+        read_ros2_python(Text.of("/a.launch.py", "x = (only here"))
+        return weakref.ref(local)
+
+    local = ask()
+    gc.collect()
+    assert local() is None

@@ -82,16 +82,17 @@ def load_yaml(text: str) -> YamlValue:
     The result is remembered and shared: nobody may change it.
     """
     loaded = _long(text) if len(text) > _MANY_CHARACTERS else _short(text)
-    if isinstance(loaded, YamlError):
-        raise loaded
+    if isinstance(loaded, tuple):
+        raise YamlError(*loaded)
     return loaded
 
 
-def _load(text: str) -> YamlValue | YamlError:
+def _load(text: str) -> YamlValue | tuple[str, int | None]:
+    """The value, or what a `YamlError` is made of. A remembered exception would hold the frames of all who called."""
     try:
         return _parse(text)
     except YamlError as error:
-        return error
+        return error.message, error.offset
 
 
 _MANY_CHARACTERS = 20_000

@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from preflight_analysis.documents.change import Change
@@ -28,15 +29,27 @@ _TOKEN = re.compile(
 )
 
 
+@dataclass(frozen=True, slots=True)
+class _Mistake:
+    """Why a text is no Python. Not the exception: a remembered one holds the frames of all who called then."""
+
+    message: str
+    line: int | None = None
+    column: int | None = None
+    """From 1 on; None where it is the whole text."""
+
+
 @lru_cache(maxsize=8)
-def _parsed(text: str) -> ast.Module | Exception:
+def _parsed(text: str) -> ast.Module | _Mistake:
     """The syntax tree, or why there is none. One text is asked for several times, and the trees are not changed."""
     if len(text) > MAX_CHARACTERS:
-        return ValueError(f"files of more than {MAX_CHARACTERS:,} characters are not read as Python")
+        return _Mistake(f"files of more than {MAX_CHARACTERS:,} characters are not read as Python")
     try:
         return ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        return error
+    except SyntaxError as error:
+        return _Mistake(error.msg or "invalid syntax", error.lineno or 1, error.offset or 1)
+    except (ValueError, RecursionError, MemoryError) as error:
+        return _Mistake(str(error) or type(error).__name__)
 
 
 class PythonSource:
@@ -52,12 +65,11 @@ class PythonSource:
         parsed = _parsed(text)
         if isinstance(parsed, ast.Module):
             self.module = parsed
-        elif isinstance(parsed, SyntaxError):
-            line = max((parsed.lineno or 1) - 1, 0)
-            start = lines.line_start(line) + max((parsed.offset or 1) - 1, 0)
-            self.problem = (parsed.msg or "invalid syntax", Span(min(start, len(text)), min(start + 1, len(text))))
         else:
-            self.problem = (str(parsed) or type(parsed).__name__, Span(0, min(1, len(text))))
+            start = 0
+            if parsed.line is not None and parsed.column is not None:
+                start = lines.line_start(max(parsed.line - 1, 0)) + max(parsed.column - 1, 0)
+            self.problem = (parsed.message, Span(min(start, len(text)), min(start + 1, len(text))))
 
     @cached_property
     def pieces(self) -> tuple[ast.AST, ...]:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Generator
-from typing import Any
+from concurrent.futures import Future
+from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest
 from pygls.protocol import LanguageServerProtocol
 from pygls.protocol.language_server import lsp_method
+
+if TYPE_CHECKING:
+    from pygls.protocol.json_rpc import MessageCallback, MessageHandler, MsgId
 
 WATCH = "rosPreflight/watch"
 """Our own request to watch the running system, `{"uri", "watch": bool}` → `{"watching": bool, "message": string |
@@ -70,6 +74,22 @@ class PreflightProtocol(LanguageServerProtocol):
         if "jsonrpc" in data and not isinstance(data.get("id"), str | int | None):
             raise JsonRpcInvalidRequest("an id is a number or a text")
         return super().structure_message(data)
+
+    def _execute_handler(
+        self,
+        msg_id: MsgId,
+        handler: MessageHandler,
+        callback: MessageCallback,
+        args: tuple[Any, ...] | None = None,
+        kwargs: dict[str, Any] | None = None,
+    ) -> None:
+        """Handle a message, and forget it: pygls keeps a future of each notification for ever."""
+
+        def ended(future: Future[Any]) -> None:
+            self._request_futures.pop(msg_id, None)
+            callback(future)
+
+        super()._execute_handler(msg_id, handler, ended, args, kwargs)
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
