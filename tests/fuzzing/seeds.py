@@ -59,7 +59,7 @@ EVENTS: tuple[dict[str, Any], ...] = (
 )
 GRAPH = {
     "nodes": ["/node_py", "/n"],
-    "ends": [["publisher", "/n", "/t", "std_msgs/msg/String", {"reliability": "reliable"}]],
+    "endpoints": [["publisher", "/n", "/t", "std_msgs/msg/String", {"reliability": "reliable"}]],
     "lifecycle": {"/n": "inactive"},
 }
 XML = (

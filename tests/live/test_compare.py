@@ -7,9 +7,9 @@ from dataclasses import replace
 from preflight_analysis.live.compare import compare
 from preflight_analysis.live.model import (
     Expected,
-    ExpectedEnd,
+    ExpectedEndpoint,
     ExpectedNode,
-    LiveEnd,
+    LiveEndpoint,
     LiveNode,
     Observation,
 )
@@ -19,16 +19,16 @@ from preflight_analysis.tracing.interface import Role
 STRING = "std_msgs/String"
 
 
-def node(name: str, *ends: ExpectedEnd, complete: bool = True) -> ExpectedNode:
+def node(name: str, *ends: ExpectedEndpoint, complete: bool = True) -> ExpectedNode:
     return ExpectedNode(name, ends, complete, None)
 
 
-def end(role: Role, name: str, type_: str | None = STRING, *, certain: bool = True) -> ExpectedEnd:
-    return ExpectedEnd(role, name, type_, certain=certain)
+def endpoint(role: Role, name: str, type_: str | None = STRING, *, certain: bool = True) -> ExpectedEndpoint:
+    return ExpectedEndpoint(role, name, type_, certain=certain)
 
 
 def live(nodes: dict[str, list[tuple[Role, str, str | None]]], generation: int = 1) -> Observation:
-    ends = tuple(LiveEnd(role, owner, name, kind) for owner, found in nodes.items() for role, name, kind in found)
+    ends = tuple(LiveEndpoint(role, owner, name, kind) for owner, found in nodes.items() for role, name, kind in found)
     return Observation(generation, {name: LiveNode(name) for name in nodes}, ends)
 
 
@@ -46,15 +46,15 @@ def test_of_a_node_of_which_nothing_is_known_only_the_presence_is_judged() -> No
 
 
 def test_what_may_be_missing_is_for_information() -> None:
-    source_only = node("/a", end("publisher", "/x", certain=False), complete=False)
+    source_only = node("/a", endpoint("publisher", "/x", certain=False), complete=False)
     assert told([source_only], live({"/a": []})) == [
         "(/a does not publish /x (std_msgs/String); it may not do so in each case)"
     ]
-    on_demand = node("/a", replace(end("publisher", "/x", certain=False), on_demand=True))
+    on_demand = node("/a", replace(endpoint("publisher", "/x", certain=False), on_demand=True))
     assert told([on_demand], live({"/a": []})) == []
     assert told([on_demand], live({"/a": [("publisher", "/x", STRING)]})) == []
     assert told([replace(node("/a"), certain=False)], live({})) == ["(/a is not running, which may be right)"]
-    assert told([replace(node("/a"), ends_itself=True)], live({})) == ["(/a is not running, which may be right)"]
+    assert told([replace(node("/a"), exits=True)], live({})) == ["(/a is not running, which may be right)"]
 
 
 def test_why_a_node_that_is_missing_ended_in_the_sandbox_is_told() -> None:
@@ -64,7 +64,7 @@ def test_why_a_node_that_is_missing_ended_in_the_sandbox_is_told() -> None:
 
 def test_a_node_that_died_is_no_node_with_missing_ends() -> None:
     dead = Observation(1, {"/a": LiveNode("/a", dead="connection refused")}, ())
-    expected = node("/a", end("publisher", "/x"))
+    expected = node("/a", endpoint("publisher", "/x"))
     found = compare(Expected(1, (expected,)), dead)
     assert [message(i) for i in found.issues] == ["/a is registered and does not answer: connection refused"]
     assert (found.nodes, found.topics) == ({"/a": "dead"}, {"/x": "dead"})
@@ -72,9 +72,9 @@ def test_a_node_that_died_is_no_node_with_missing_ends() -> None:
 
 def test_a_node_that_lacks_something_is_not_as_expected() -> None:
     """What counts is seen at the node, what is for information is not."""
-    lacking = node("/a", end("subscriber", "/x"))
-    doubtful = node("/b", end("subscriber", "/x", certain=False), complete=False)
-    whole = node("/c", end("publisher", "/x"))
+    lacking = node("/a", endpoint("subscriber", "/x"))
+    doubtful = node("/b", endpoint("subscriber", "/x", certain=False), complete=False)
+    whole = node("/c", endpoint("publisher", "/x"))
     there = live({"/a": [], "/b": [], "/c": [("publisher", "/x", STRING)]})
     found = compare(Expected(1, (lacking, doubtful, whole)), there)
     assert found.nodes == {"/a": "differs", "/b": "present", "/c": "present"}
@@ -82,7 +82,7 @@ def test_a_node_that_lacks_something_is_not_as_expected() -> None:
 
 
 def test_a_lifecycle_node_that_is_not_active_need_not_have_its_ends() -> None:
-    camera = node("/camera", end("publisher", "/image"))
+    camera = node("/camera", endpoint("publisher", "/image"))
     seen = replace(live({"/camera": []}, 2), nodes={"/camera": LiveNode("/camera", lifecycle="unconfigured")})
     assert told([camera], seen) == [
         "(/camera does not publish /image (std_msgs/String); the lifecycle node is unconfigured)"
@@ -128,8 +128,8 @@ def test_what_each_node_has_is_not_extra() -> None:
 
 def test_anonymous_names_are_found_again_in_topics() -> None:
     expected = [
-        node("/x_ANON1", end("publisher", "/x_ANON1/out"), end("subscriber", "/in")),
-        node("/x_ANON2", end("publisher", "/x_ANON2/out")),
+        node("/x_ANON1", endpoint("publisher", "/x_ANON1/out"), endpoint("subscriber", "/in")),
+        node("/x_ANON2", endpoint("publisher", "/x_ANON2/out")),
         node("/ns/y_ANON1"),
     ]
     running = {
@@ -146,9 +146,10 @@ def test_anonymous_names_are_found_again_in_topics() -> None:
 
 
 def test_ends_of_nodelets_are_those_of_their_manager() -> None:
-    manager = node("/manager", end("service", "/manager/load_nodelet", "nodelet/NodeletLoad"))
+    manager = node("/manager", endpoint("service", "/manager/load_nodelet", "nodelet/NodeletLoad"))
     nodelet = replace(
-        node("/filter", end("publisher", "/out"), end("publisher", "/manager/bond", "bond/Status")), by="/manager"
+        node("/filter", endpoint("publisher", "/out"), endpoint("publisher", "/manager/bond", "bond/Status")),
+        by="/manager",
     )
     load: tuple[Role, str, str | None] = ("service", "/manager/load_nodelet", "nodelet/NodeletLoad")
     bond: tuple[Role, str, str | None] = ("publisher", "/manager/bond", "bond/Status")
@@ -165,7 +166,7 @@ def test_actions_of_ros1_are_one_thing() -> None:
                   ("goal", "cancel", "status", "feedback", "result"))  # fmt: skip
     expected = node(
         "/a",
-        ExpectedEnd("action_client", "/go", "pkg/GoAction", parts=tuple((r, f"/go/{t}") for r, t in parts)),  # type: ignore[misc]
+        ExpectedEndpoint("action_client", "/go", "pkg/GoAction", parts=tuple((r, f"/go/{t}") for r, t in parts)),  # type: ignore[misc]
     )
     types = {"cancel": "actionlib_msgs/GoalID", "status": "actionlib_msgs/GoalStatusArray"}
     own = {t: f"pkg/GoAction{t.capitalize()}" for t in ("goal", "feedback", "result")}
@@ -186,8 +187,8 @@ def test_actions_of_ros1_are_one_thing() -> None:
 
 def test_types_of_ros2_are_those_of_each_end() -> None:
     expected = [
-        node("/a", end("publisher", "/x", "std_msgs/msg/String")),
-        node("/b", end("subscriber", "/x", "std_msgs/String"), end("client", "/s", None)),
+        node("/a", endpoint("publisher", "/x", "std_msgs/msg/String")),
+        node("/b", endpoint("subscriber", "/x", "std_msgs/String"), endpoint("client", "/s", None)),
     ]
     right = {
         "/a": [("publisher", "/x", "std_msgs/msg/String")],
@@ -202,11 +203,11 @@ def test_types_of_ros2_are_those_of_each_end() -> None:
 
 
 def test_qos_and_nodes_of_one_name_are_compared() -> None:
-    expected = node("/a", ExpectedEnd("publisher", "/x", None, {"reliability": "reliable", "depth": 10}))
+    expected = node("/a", ExpectedEndpoint("publisher", "/x", None, {"reliability": "reliable", "depth": 10}))
     found = Observation(
         2,
         {"/a": LiveNode("/a", count=2)},
-        (LiveEnd("publisher", "/a", "/x", "std_msgs/msg/String", {"reliability": "best_effort"}),),
+        (LiveEndpoint("publisher", "/a", "/x", "std_msgs/msg/String", {"reliability": "best_effort"}),),
     )
     assert told([expected], found) == [
         "/a runs 2 times",
@@ -215,7 +216,7 @@ def test_qos_and_nodes_of_one_name_are_compared() -> None:
 
 
 def test_a_topic_that_two_ends_want_of_two_types_may_have_either() -> None:
-    expected = [node("/a", end("publisher", "/x")), node("/b", end("subscriber", "/x", "std_msgs/Int32"))]
+    expected = [node("/a", endpoint("publisher", "/x")), node("/b", endpoint("subscriber", "/x", "std_msgs/Int32"))]
     running = live({"/a": [("publisher", "/x", STRING)], "/b": [("subscriber", "/x", STRING)]})
     assert told(expected, running) == []
 

@@ -144,4 +144,4 @@ def test_a_large_system_is_seen() -> None:
         observer.close()
         master.shutdown()
     assert len(found.nodes) == 500
-    assert len(found.ends) == 500
+    assert len(found.endpoints) == 500

@@ -34,7 +34,7 @@ HOSTILE = {
 def of_ros2(nodes: Sequence[str], lifecycle: str = "active") -> Observation:
     told = {
         "nodes": nodes,
-        "ends": [["publisher", each, each, each, {each: each}] for each in nodes],
+        "endpoints": [["publisher", each, each, each, {each: each}] for each in nodes],
         "lifecycle": dict.fromkeys(nodes, lifecycle),
     }
     return said(json.dumps(told), "domain 0")
@@ -69,7 +69,7 @@ def test_each_is_reported_as_it_can_be_shown(generation: int, tmp_path: Path) ->
         with master(given) as observer:
             live = observer.observe()
     expected = sorted(HOSTILE[each] for each in given)
-    assert sorted(live.nodes) == sorted(end.name for end in live.ends) == expected
+    assert sorted(live.nodes) == sorted(endpoint.name for endpoint in live.endpoints) == expected
     found = compare(Expected(generation, (ExpectedNode("/n", (), True, None),)), live)
     assert sorted(issue.node for issue in found.issues if issue.kind == "extra") == expected
     told = dumps_json(event_json(State(found)))
@@ -89,7 +89,7 @@ def xmlrpc_takes(name: str) -> bool:
 def test_ordinary_names_stay_what_they_are() -> None:
     live = of_ros2(["/robot/camera_1", "/" + "n" * 255])
     assert list(live.nodes) == ["/robot/camera_1", "/" + "n" * 255]
-    assert [dict(end.qos) for end in live.ends] == [{name: name} for name in live.nodes]
+    assert [dict(endpoint.qos) for endpoint in live.endpoints] == [{name: name} for name in live.nodes]
 
 
 def test_nodes_that_look_the_same_are_one_twice() -> None:
@@ -99,14 +99,14 @@ def test_nodes_that_look_the_same_are_one_twice() -> None:
 
 @pytest.mark.parametrize("generation", [1, 2])
 def test_more_than_can_be_compared_is_said(generation: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(names, "MOST_ENDS", 20)
+    monkeypatch.setattr(names, "MOST_ENDPOINTS", 20)
     few, many = ([f"/n{number}" for number in range(count)] for count in (20, 21))
     if generation == 2:
-        assert len(of_ros2(few).ends) == 20
+        assert len(of_ros2(few).endpoints) == 20
         with pytest.raises(CannotObserveError, match="21 nodes with 21 ends"):
             of_ros2(many)
     else:
         with master(few) as observer:
-            assert len(observer.observe().ends) == 20
+            assert len(observer.observe().endpoints) == 20
         with master(many) as observer, pytest.raises(CannotObserveError, match="21 nodes with 21 ends"):
             observer.observe()

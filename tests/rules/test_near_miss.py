@@ -17,7 +17,7 @@ from preflight_analysis.tracing.interface import Endpoint
 WORDS = ("camera", "front", "image", "raw", "points", "cmd", "vel", "cmdvel", "odom", "c_am", "came", "scan", "scan1")
 TYPES = ("sensor_msgs/Image", "sensor_msgs/Image", "geometry_msgs/Twist", "std_msgs/String", None, "*")
 
-End = tuple[bool, str, Any, Endpoint, bool]
+EndpointRef = tuple[bool, str, Any, Endpoint, bool]
 
 
 def _name(made: random.Random) -> str:
@@ -25,7 +25,7 @@ def _name(made: random.Random) -> str:
     return "/" + "/".join(segments)
 
 
-def _end(made: random.Random, nodes: list[Any]) -> End:
+def _end(made: random.Random, nodes: list[Any]) -> EndpointRef:
     node, name = made.choice(nodes), _name(made)
     given = made.choice((name, name[1:], name.rpartition("/")[2], "~" + name[1:]))
     if made.random() < 0.3:
@@ -37,7 +37,7 @@ def _end(made: random.Random, nodes: list[Any]) -> End:
     return providers, name, node, endpoint, made.random() < 0.2
 
 
-def _channels(ends: list[End]) -> dict[str, Channel]:
+def _channels(ends: list[EndpointRef]) -> dict[str, Channel]:
     sides: dict[str, tuple[list[Connection], list[Connection]]] = {}
     for providers, name, node, endpoint, remapped in ends:
         remap: Any = SimpleNamespace() if remapped else None

@@ -13,7 +13,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.snapshot.difference import difference
 from preflight_analysis.snapshot.files import NotASnapshotError, from_yaml, is_snapshot, to_yaml
 from preflight_analysis.snapshot.make import snapshot_of
-from preflight_analysis.snapshot.model import End, NodeSnapshot, Snapshot
+from preflight_analysis.snapshot.model import EndpointSnapshot, NodeSnapshot, Snapshot
 from preflight_analysis.snapshot.portable import Portable
 from preflight_analysis.snapshot.report import to_json, to_markdown, to_text
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
@@ -25,14 +25,14 @@ CAMERA = NodeSnapshot(
     "$(find cam)/launch/camera.launch",
     "trace",
     "spinning",
-    {"publisher": {"/image": End("sensor_msgs/msg/Image", {"reliability": "best_effort", "depth": 5})}},
+    {"publisher": {"/image": EndpointSnapshot("sensor_msgs/msg/Image", {"reliability": "best_effort", "depth": 5})}},
     {"rate": 10, "names": ["a", "b"]},
 )
 VIEW = NodeSnapshot(
     {"package": "view", "executable": "view"},
     interface="trace",
     outcome="spinning",
-    ends={"subscriber": {"/image": End("sensor_msgs/msg/Image", {"reliability": "reliable"})}},
+    endpoints={"subscriber": {"/image": EndpointSnapshot("sensor_msgs/msg/Image", {"reliability": "reliable"})}},
 )
 ROBOT = Snapshot("$(find robot)/launch/robot.launch", 2, {"sim": "true"}, {"/camera": CAMERA, "/view": VIEW})
 
@@ -53,7 +53,11 @@ def test_the_same_is_the_same() -> None:
 
 def test_types_qos_and_parameters_that_changed() -> None:
     changed = with_camera(
-        ends={"publisher": {"/image": End("sensor_msgs/msg/CompressedImage", {"reliability": "reliable", "depth": 5})}},
+        endpoints={
+            "publisher": {
+                "/image": EndpointSnapshot("sensor_msgs/msg/CompressedImage", {"reliability": "reliable", "depth": 5})
+            }
+        },
         parameters={"rate": 10.0, "names": ["a", "b"], "frame": ""},
         facts={**CAMERA.facts, "respawn": True},
     )
@@ -85,9 +89,9 @@ def test_nodes_that_came_and_went() -> None:
 @pytest.mark.parametrize(
     "other",
     [
-        {"interface": "none", "outcome": "not-run", "ends": {}},
-        {"interface": "source", "outcome": "not-run", "ends": {}},
-        {"interface": "source", "outcome": "not-run", "ends": {"publisher": {"/image": End(None)}}},
+        {"interface": "none", "outcome": "not-run", "endpoints": {}},
+        {"interface": "source", "outcome": "not-run", "endpoints": {}},
+        {"interface": "source", "outcome": "not-run", "endpoints": {"publisher": {"/image": EndpointSnapshot(None)}}},
     ],
 )
 def test_what_a_side_cannot_know_is_no_difference(other: dict[str, Any]) -> None:
@@ -100,16 +104,16 @@ def test_what_a_side_cannot_know_is_no_difference(other: dict[str, Any]) -> None
 
 def test_what_only_the_source_tells_counts_against_a_run() -> None:
     """A run that reached the event loop is a witness that there is no more; two sources are alike."""
-    more = {"publisher": {**CAMERA.ends["publisher"], "/info": End("a/msg/B")}}
-    read = with_camera(interface="source", outcome="not-run", ends=more)
+    more = {"publisher": {**CAMERA.endpoints["publisher"], "/info": EndpointSnapshot("a/msg/B")}}
+    read = with_camera(interface="source", outcome="not-run", endpoints=more)
     assert told(ROBOT, read)[1] == "  + publishes /info  a/msg/B"
     less = with_camera(interface="source", outcome="not-run")
     assert told(read, less)[1] == "  - publishes /info  a/msg/B"
 
 
 def test_a_run_that_ended_otherwise_is_a_difference() -> None:
-    assert told(ROBOT, with_camera(outcome="exited 3", ends={}))[1] == "  ~ outcome  spinning -> exited 3"
-    assert not difference(ROBOT, with_camera(outcome="exited 3", ends={})).links
+    assert told(ROBOT, with_camera(outcome="exited 3", endpoints={}))[1] == "  ~ outcome  spinning -> exited 3"
+    assert not difference(ROBOT, with_camera(outcome="exited 3", endpoints={})).links
 
 
 def test_errors_and_parameters_of_no_node_are_told() -> None:
@@ -145,7 +149,7 @@ _VALUE = st.recursive(
 _NAME = _TEXT.filter(bool)
 
 
-_END = st.builds(End, st.none() | _TEXT, st.fixed_dictionaries({"depth": st.integers()}))
+_END = st.builds(EndpointSnapshot, st.none() | _TEXT, st.fixed_dictionaries({"depth": st.integers()}))
 
 
 @settings(deadline=None, derandomize=True, max_examples=100, suppress_health_check=[HealthCheck.too_slow])
@@ -155,9 +159,9 @@ _END = st.builds(End, st.none() | _TEXT, st.fixed_dictionaries({"depth": st.inte
     st.dictionaries(_NAME, _END, max_size=3),
 )
 def test_written_and_read_again_is_the_same(
-    values: dict[str, Any], texts: dict[str, str], ends: dict[str, End]
+    values: dict[str, Any], texts: dict[str, str], ends: dict[str, EndpointSnapshot]
 ) -> None:
-    node = replace(CAMERA, parameters=values, remaps=texts, env=texts, ends={"client": ends} if ends else {})
+    node = replace(CAMERA, parameters=values, remaps=texts, env=texts, endpoints={"client": ends} if ends else {})
     snapshot = replace(ROBOT, args=texts, nodes={"/camera": node}, parameters=values, unknown=tuple(texts))
     text = to_yaml(snapshot)
     assert is_snapshot(text)

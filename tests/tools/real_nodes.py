@@ -67,7 +67,7 @@ class Row:
         )
 
 
-End = tuple[str, str, str | None]
+EndpointRef = tuple[str, str, str | None]
 """Side, name, type."""
 
 
@@ -101,7 +101,7 @@ def rows(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, displa
         theirs = {(side, name, kind) for sides in shown for side in _SIDES for name, kind in sides.get(side, ())}
         # A master has one type for each topic, which any of its ends may have told.
         masters = {name: kind for side, name, kind in theirs if side != "services" and types[name] & {kind, "*"}}
-        ours: dict[End, bool] = {}
+        ours: dict[EndpointRef, bool] = {}
         for node in nodes:
             for side in _SIDES:
                 for end in node[side]:
@@ -166,12 +166,12 @@ def _outcome(node: dict[str, Any]) -> str:
     return str(node["outcome"]) if source in ("trace", "similar") else f"{node['outcome']}, known from {source}"
 
 
-def _counted(ours: set[End], theirs: set[End], sides: tuple[str, ...]) -> tuple[int, int]:
+def _counted(ours: set[EndpointRef], theirs: set[EndpointRef], sides: tuple[str, ...]) -> tuple[int, int]:
     real = {end for end in theirs if end[0] in sides and not _common(end)}
     return len(real & ours), len(real)
 
 
-def _common(end: End) -> bool:
+def _common(end: EndpointRef) -> bool:
     """Whether every node has it; it is compared, but not counted."""
     side, name, _ = end
     return (side == "publishers" and name == "/rosout") or (
@@ -179,7 +179,7 @@ def _common(end: End) -> bool:
     )
 
 
-def _said(what: str, end: End) -> str:
+def _said(what: str, end: EndpointRef) -> str:
     side, name, kind = end
     return f"{what}: {side.removesuffix('s')} `{name}` ({kind})"
 

@@ -264,7 +264,7 @@ def test_watch_expects_each_node_with_its_own_ends(kilted: RclHarness) -> None:
     analysis = kilted.check(launched(kilted, CHILD))
     assert analysis.graph is not None
     expected = expected_of(analysis.graph, analysis.documents)
-    assert {node.name: [end.name for end in node.ends] for node in expected.nodes} == {
+    assert {node.name: [end.name for end in node.endpoints] for node in expected.nodes} == {
         "/n": ["/chatter"],
         "/n/costmap/costmap": ["/n/costmap/map"],
     }

@@ -39,7 +39,7 @@ class Related:
     location: Location
 
 
-class End(NamedTuple):
+class EndpointRef(NamedTuple):
     """What a node has to do with a topic, service or action, all by their final names."""
 
     kind: Literal["topic", "service", "action"]
@@ -67,5 +67,5 @@ class Finding:
     stops_launch: bool = False
     launch_order: int = field(default=0, compare=False)
     """Of one that stops the launcher: its place in the order in which the launcher would meet them."""
-    ends: tuple[End, ...] = field(default=(), compare=False)
+    endpoints: tuple[EndpointRef, ...] = field(default=(), compare=False)
     """Of one about connections: the ends that it speaks of, for a picture of the graph."""

@@ -55,7 +55,7 @@ def moves_actions(distro: str | None) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class ActionEnd:
+class ActionEndpoint:
     """A client or server of an action, and the ends of topics and services that it is made of. `names` are theirs
     below the name of the action, in the same order; the first one is that of the goals."""
 
@@ -64,7 +64,7 @@ class ActionEnd:
     names: tuple[str, ...]
 
 
-def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[ActionEnd, ...]:
+def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[ActionEndpoint, ...]:
     """The actions among the endpoints of a node: those that all their parts show, and those that are declared.
 
     A declared one whose type says that it is ROS 2's is, whatever the `generation`.
@@ -73,15 +73,15 @@ def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[Acti
     by_name: dict[tuple[str, str], Endpoint] = {}
     for endpoint in endpoints:
         by_name.setdefault((endpoint.role, endpoint.name), endpoint)
-    found: dict[tuple[str, str], ActionEnd] = {}
+    found: dict[tuple[str, str], ActionEndpoint] = {}
     for endpoint in by_name.values():
         name, slash, last = endpoint.name.rpartition("/")
         if last == "goal" and slash and name and endpoint.role in ("publisher", "subscriber"):
             role: Role = "action_client" if endpoint.role == "publisher" else "action_server"
-            seen = [by_name.get((_side(role, topic), f"{name}/{topic}")) for topic in TOPICS]
-            end = _recognised(role, name, [topic for topic in seen if topic is not None])
-            if end is not None:
-                found[role, name] = end
+            seen = [by_name.get((_topic_role(role, topic), f"{name}/{topic}")) for topic in TOPICS]
+            action = _recognised(role, name, [topic for topic in seen if topic is not None])
+            if action is not None:
+                found[role, name] = action
     for endpoint in endpoints:
         if endpoint.role in ("action_client", "action_server"):
             of_ros2 = generation == 2 or "/action/" in (endpoint.type or "")
@@ -91,16 +91,16 @@ def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[Acti
     return tuple(found.values())
 
 
-def topic_ends(role: Role, name: str) -> tuple[tuple[Role, str], ...]:
+def topic_endpoints(role: Role, name: str) -> tuple[tuple[Role, str], ...]:
     """The ends of the five topics of an action's client or server: roles and names."""
-    return tuple((_side(role, topic), f"{name}/{topic}") for topic in TOPICS)
+    return tuple((_topic_role(role, topic), f"{name}/{topic}") for topic in TOPICS)
 
 
-def _side(role: Role, topic: str) -> Role:
+def _topic_role(role: Role, topic: str) -> Role:
     return "publisher" if (topic in _FROM_CLIENT) == (role == "action_client") else "subscriber"
 
 
-def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEnd | None:
+def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEndpoint | None:
     if len(topics) != len(TOPICS):
         return None
     type_ = (topics[0].type or "").removesuffix("Goal")
@@ -118,24 +118,27 @@ def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEnd | No
         inferred=any(topic.inferred for topic in topics),
         similar=any(topic.similar for topic in topics),
     )
-    return ActionEnd(endpoint, tuple(topics), TOPICS)
+    return ActionEndpoint(endpoint, tuple(topics), TOPICS)
 
 
-def _declared(endpoint: Endpoint) -> ActionEnd:
+def _declared(endpoint: Endpoint) -> ActionEndpoint:
     type_ = endpoint.type if endpoint.type != "*" else None
     if type_ is not None and not type_.endswith("Action"):
         type_ += "Action"  # `pkg/Fetch`, the name of the file, is meant for the same
         endpoint = replace(endpoint, type=type_)
     parts = tuple(
         _part(
-            endpoint, _side(endpoint.role, topic), topic, _COMMON.get(topic) if type_ is None else _type(type_, topic)
+            endpoint,
+            _topic_role(endpoint.role, topic),
+            topic,
+            _COMMON.get(topic) if type_ is None else _type(type_, topic),
         )
         for topic in TOPICS
     )
-    return ActionEnd(endpoint, parts, TOPICS)
+    return ActionEndpoint(endpoint, parts, TOPICS)
 
 
-def _declared_ros2(endpoint: Endpoint) -> ActionEnd:
+def _declared_ros2(endpoint: Endpoint) -> ActionEndpoint:
     type_ = endpoint.type if endpoint.type != "*" else None
     if type_ is not None and "/action/" not in type_:
         type_ = "/action/".join(type_.split("/", 1))  # `pkg/Fetch` is meant for the same
@@ -145,7 +148,7 @@ def _declared_ros2(endpoint: Endpoint) -> ActionEnd:
         _part(endpoint, roles[name], name, _COMMON_ROS2.get(name) or (type_ + _OWN_ROS2[name] if type_ else None))
         for name in _PARTS_ROS2
     )
-    return ActionEnd(endpoint, parts, _PARTS_ROS2)
+    return ActionEndpoint(endpoint, parts, _PARTS_ROS2)
 
 
 def _part(endpoint: Endpoint, role: Role, name: str, type_: str | None) -> Endpoint:

@@ -11,7 +11,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.remaps import source_for
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
-from preflight_analysis.graph.actions import ActionEnd, actions_of, moves_actions
+from preflight_analysis.graph.actions import ActionEndpoint, actions_of, moves_actions
 from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.processes import each_node
@@ -124,7 +124,7 @@ def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Re
 
 
 def _connect_action(
-    node: LaunchNode, action: ActionEnd, remaps: Mapping[str, tuple[Remap, str]], *, as_a_whole: bool
+    node: LaunchNode, action: ActionEndpoint, remaps: Mapping[str, tuple[Remap, str]], *, as_a_whole: bool
 ) -> tuple[list[Connection], list[Connection]]:
     """The action and what it is made of. It is none any more, but topics and services, where remaps move those apart.
 
@@ -137,15 +137,15 @@ def _connect_action(
         remap = next((r for r, target in remaps.values() if target == base), None)
     elif base in remaps and as_a_whole:
         remap, base = remaps[base]
-    ends: list[tuple[str, Remap | None]] = []
+    moved_names: list[tuple[str, Remap | None]] = []
     for part in action.names:
         moved = remaps.get(f"{base}/{part}")
-        ends.append((moved[1], moved[0]) if moved is not None else (f"{base}/{part}", remap))
-    full, remap = ends[0][0].removesuffix(f"/{action.names[0]}"), ends[0][1]
-    together = [name for name, _ in ends] == [f"{full}/{part}" for part in action.names]
+        moved_names.append((moved[1], moved[0]) if moved is not None else (f"{base}/{part}", remap))
+    full, remap = moved_names[0][0].removesuffix(f"/{action.names[0]}"), moved_names[0][1]
+    together = [name for name, _ in moved_names] == [f"{full}/{part}" for part in action.names]
     parts = [
         Connection(name, node, end, moved_by, full if together else None)
-        for (name, moved_by), end in zip(ends, action.parts, strict=True)
+        for (name, moved_by), end in zip(moved_names, action.parts, strict=True)
     ]
     return [Connection(full, node, endpoint, remap)] if together else [], parts
 

@@ -25,11 +25,11 @@ _KEYS = {
 
 def graph_json(graph: Graph) -> dict[str, Any]:
     """The contract's object. Names are final ones, after namespaces and remaps."""
-    ends: dict[int, list[Connection]] = {id(node): [] for node in graph.tree.nodes}
+    connections: dict[int, list[Connection]] = {id(node): [] for node in graph.tree.nodes}
     for channels in (graph.topics, graph.services, graph.actions):
         for channel in channels.values():
             for connection in (*channel.providers, *channel.consumers):
-                ends[id(connection.node)].append(connection)
+                connections[id(connection.node)].append(connection)
     reads: dict[int, list[ParamRead]] = {id(node): [] for node in graph.tree.nodes}
     for read in graph.param_reads:
         reads[id(read.node)].append(read)
@@ -40,7 +40,7 @@ def graph_json(graph: Graph) -> dict[str, Any]:
                 "name": node.name,
                 "package": node.package,
                 "executable": node.executable,
-                **interface_json(interface, ends[id(node)], reads[id(node)]),
+                **interface_json(interface, connections[id(node)], reads[id(node)]),
                 **_frames(frames_of(node, interface)),
             }
             for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True)

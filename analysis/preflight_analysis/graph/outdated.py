@@ -104,8 +104,8 @@ def _reported(endpoints: Iterable[Endpoint], params: Iterable[ParamUse], node: L
     """All that is said by these, an action both as such and by its topics."""
     endpoints = tuple(endpoints)
     actions = actions_of(endpoints)
-    ends = (*endpoints, *(a.endpoint for a in actions), *(p for a in actions for p in a.parts))
-    return {_key(end, node) for end in ends} | {_key(use, node) for use in params}
+    endpoints = (*endpoints, *(a.endpoint for a in actions), *(p for a in actions for p in a.parts))
+    return {_key(end, node) for end in endpoints} | {_key(use, node) for use in params}
 
 
 def _other_type(item: AnnotatedItem, seen: Sequence[tuple[LaunchNode, Interface]]) -> str | None:
@@ -115,8 +115,8 @@ def _other_type(item: AnnotatedItem, seen: Sequence[tuple[LaunchNode, Interface]
         return None
     found: set[str] = set()
     for node, interface in seen:
-        ends = (*interface.endpoints, *(action.endpoint for action in actions_of(interface.endpoints)))
-        types = {e.type for e in ends if _key(e, node) == _key(what, node) and not e.assumed}
+        endpoints = (*interface.endpoints, *(action.endpoint for action in actions_of(interface.endpoints)))
+        types = {e.type for e in endpoints if _key(e, node) == _key(what, node) and not e.assumed}
         found |= {type_ for type_ in types if type_ is not None}
     plain = {type_.removesuffix("Action") for type_ in found} if what.role.startswith("action") else found
     known = str(what.type).removesuffix("Action") if what.role.startswith("action") else what.type

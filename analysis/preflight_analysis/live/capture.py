@@ -18,7 +18,7 @@ from preflight_analysis.graph.annotations import CLASSES, worth_writing
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.live.compare import matched
-from preflight_analysis.live.model import LiveEnd, Observation, is_builtin
+from preflight_analysis.live.model import LiveEndpoint, Observation, is_builtin
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome
 from preflight_analysis.tracing.nodelets import nodelet_of
 from preflight_analysis.tracing.request import split_args
@@ -37,18 +37,18 @@ def capture(graph: Graph, chosen: Iterable[LaunchNode], live: Observation) -> li
     """The interfaces of the chosen ones of a launch's nodes."""
     nodes = graph.tree.nodes
     running_as, _ = matched((node.name for node in nodes), live)
-    ends: dict[str, list[LiveEnd]] = {}
-    for end in live.ends:
-        if not is_builtin(live.generation, end.role, end.name):
-            ends.setdefault(end.node, []).append(end)
-    return [_captured(node, nodes, running_as.get(node.name), ends, live) for node in chosen]
+    endpoints: dict[str, list[LiveEndpoint]] = {}
+    for endpoint in live.endpoints:
+        if not is_builtin(live.generation, endpoint.role, endpoint.name):
+            endpoints.setdefault(endpoint.node, []).append(endpoint)
+    return [_captured(node, nodes, running_as.get(node.name), endpoints, live) for node in chosen]
 
 
 def _captured(
     node: LaunchNode,
     nodes: Sequence[LaunchNode],
     name: str | None,
-    ends: Mapping[str, Sequence[LiveEnd]],
+    endpoints: Mapping[str, Sequence[LiveEndpoint]],
     live: Observation,
 ) -> Captured:
     if name is None:
@@ -62,8 +62,8 @@ def _captured(
         return Captured(node, None, reason)
     sources = {target: source for source, (_, target) in effective_remaps(node, live.generation).items()}
     found = (
-        Endpoint(end.role, _as_given(end.name, name, node, sources), end.type)
-        for end in sorted(ends.get(name, ()), key=lambda end: (end.role, end.name))
+        Endpoint(endpoint.role, _as_given(endpoint.name, name, node, sources), endpoint.type)
+        for endpoint in sorted(endpoints.get(name, ()), key=lambda endpoint: (endpoint.role, endpoint.name))
     )
     return Captured(node, Interface("annotation", Outcome("not-run"), tuple(found)))
 

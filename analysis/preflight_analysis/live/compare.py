@@ -16,10 +16,10 @@ from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.live.model import (
     Comparison,
     Expected,
-    ExpectedEnd,
+    ExpectedEndpoint,
     ExpectedNode,
     Issue,
-    LiveEnd,
+    LiveEndpoint,
     LiveNode,
     Observation,
     State,
@@ -69,7 +69,7 @@ class _States:
         states[name] = max(states.get(name, state), state, key=_WORSE.index)
 
 
-_LiveEnds = dict[tuple[Role, str], list[LiveEnd]]
+_LiveEndpoints = dict[tuple[Role, str], list[LiveEndpoint]]
 
 
 def compare(expected: Expected, live: Observation) -> Comparison:
@@ -78,9 +78,9 @@ def compare(expected: Expected, live: Observation) -> Comparison:
     issues: list[Issue] = []
     running_as, tokens = matched((node.name for node in expected.nodes), live)
     nodes = [_with_tokens(node, tokens) for node in expected.nodes]
-    ends: dict[str, _LiveEnds] = defaultdict(lambda: defaultdict(list))
-    for end in live.ends:
-        ends[end.node][end.role, end.name].append(end)
+    endpoints: dict[str, _LiveEndpoints] = defaultdict(lambda: defaultdict(list))
+    for endpoint in live.endpoints:
+        endpoints[endpoint.node][endpoint.role, endpoint.name].append(endpoint)
 
     owned: dict[str, list[ExpectedNode]] = defaultdict(list)
     for node in nodes:
@@ -91,18 +91,22 @@ def compare(expected: Expected, live: Observation) -> Comparison:
         state = _state(issue, running)
         states.nodes[node.name] = state
         if state in ("missing", "dead", "unsure"):
-            for expected_end in node.ends:
-                states.say(expected_end.role, expected_end.name, state if expected_end.certain else "unsure")
+            for expected_endpoint in node.endpoints:
+                states.say(
+                    expected_endpoint.role, expected_endpoint.name, state if expected_endpoint.certain else "unsure"
+                )
         if state == "present":
             if node.by is not None:
                 owned[node.by].append(node)
-                owned[node.name].append(replace(node, ends=tuple(_of_loader(node.ends)), complete=False, by=None))
+                owned[node.name].append(
+                    replace(node, endpoints=tuple(_of_loader(node.endpoints)), complete=False, by=None)
+                )
             else:
                 owned[node.name].append(node)
     for owner, of_owner in owned.items():
         if states.nodes.get(owner) == "present":
             inactive = live.nodes[owner].inactive
-            issues += _of_ends(owner, of_owner, ends[owner], expected.generation, states, inactive)
+            issues += _of_endpoints(owner, of_owner, endpoints[owner], expected.generation, states, inactive)
     issues += _wrong_topics(nodes, live, states) if expected.generation == 1 else ()
     for name, running in live.nodes.items():
         if running.inactive is not None and states.nodes.get(name) == "present":
@@ -166,11 +170,15 @@ def _with_tokens(node: ExpectedNode, tokens: Mapping[str, str]) -> ExpectedNode:
     def actual(name: str) -> str:
         return _ANONYMOUS.sub(lambda match: tokens.get(match[0], match[0]), name)
 
-    ends = tuple(
-        replace(end, name=actual(end.name), parts=tuple((role, actual(name)) for role, name in end.parts))
-        for end in node.ends
+    endpoints = tuple(
+        replace(
+            endpoint, name=actual(endpoint.name), parts=tuple((role, actual(name)) for role, name in endpoint.parts)
+        )
+        for endpoint in node.endpoints
     )
-    return replace(node, name=actual(node.name), ends=ends, by=actual(node.by) if node.by is not None else None)
+    return replace(
+        node, name=actual(node.name), endpoints=endpoints, by=actual(node.by) if node.by is not None else None
+    )
 
 
 # Nodes
@@ -178,10 +186,10 @@ def _with_tokens(node: ExpectedNode, tokens: Mapping[str, str]) -> ExpectedNode:
 
 def _of_node(node: ExpectedNode, running: LiveNode | None) -> Issue | None:
     if running is None:
-        sure = node.certain and not node.ends_itself
+        sure = node.certain and not node.exits
         return Issue("missing", "node", node.name, actual=node.reason, counts=sure, place=node.place)
     if running.dead is not None:
-        return Issue("dead", "node", node.name, actual=running.dead, counts=not node.ends_itself, place=node.place)
+        return Issue("dead", "node", node.name, actual=running.dead, counts=not node.exits, place=node.place)
     if running.count > 1:
         return Issue("twice", "node", node.name, actual=str(running.count), place=node.place)
     return None
@@ -212,46 +220,64 @@ def _extra_nodes(expected: Expected, live: Observation, known: set[str], states:
 # Ends
 
 
-def _of_loader(ends: Iterable[ExpectedEnd]) -> Iterator[ExpectedEnd]:
+def _of_loader(endpoints: Iterable[ExpectedEndpoint]) -> Iterator[ExpectedEndpoint]:
     """Of a nodelet's ends those that the process which loads it makes itself."""
-    return (end for end in ends if end.name.endswith(("/bond", "/load_nodelet")))
+    return (endpoint for endpoint in endpoints if endpoint.name.endswith(("/bond", "/load_nodelet")))
 
 
-def _of_ends(
+def _of_endpoints(
     owner: str,
     nodes: Sequence[ExpectedNode],
-    ends: _LiveEnds,
+    endpoints: _LiveEndpoints,
     generation: int,
     states: _States,
     inactive: str | None,
 ) -> Iterator[Issue]:
     """The ends of a node that runs, and of what it runs for others. `inactive`: the state of a lifecycle node that is
     not active."""
-    left = {key: list(found) for key, found in ends.items() if not is_builtin(generation, *key)}
-    wanted: list[tuple[ExpectedNode, ExpectedEnd]] = []
+    left = {key: list(found) for key, found in endpoints.items() if not is_builtin(generation, *key)}
+    wanted: list[tuple[ExpectedNode, ExpectedEndpoint]] = []
     for node in nodes:
-        of_owner = node.ends if node.by is None else [e for e in node.ends if e not in tuple(_of_loader(node.ends))]
-        wanted += ((node, end) for end in of_owner if end.role in _SEEN_ROLES[generation])
-    for _, end in wanted:
-        for key in end.parts or ((end.role, end.name),):
+        of_owner = (
+            node.endpoints
+            if node.by is None
+            else [e for e in node.endpoints if e not in tuple(_of_loader(node.endpoints))]
+        )
+        wanted += ((node, endpoint) for endpoint in of_owner if endpoint.role in _SEEN_ROLES[generation])
+    for _, endpoint in wanted:
+        for key in endpoint.parts or ((endpoint.role, endpoint.name),):
             left.pop(key, None)
     complete = all(node.complete for node in nodes)
-    extra = list(_extra_ends(left, generation))
+    extra = list(_extra_endpoints(left, generation))
     missing: list[Issue] = []
-    for node, end in wanted:
-        there = [ends.get(key, []) for key in end.parts or ((end.role, end.name),)]
+    for node, endpoint in wanted:
+        there = [endpoints.get(key, []) for key in endpoint.parts or ((endpoint.role, endpoint.name),)]
         if not all(there):
-            sure = end.certain and inactive is None
-            states.say(end.role, end.name, "missing" if sure else "unsure")
-            if end.on_demand:
+            sure = endpoint.certain and inactive is None
+            states.say(endpoint.role, endpoint.name, "missing" if sure else "unsure")
+            if endpoint.on_demand:
                 continue
             missing.append(
-                Issue("missing", end.role, node.name, end.name, expected=end.type, similar=_similar(end, extra),
-                      counts=sure, place=end.place, source=end.source, inactive=inactive)
-            )  # fmt: skip
+                Issue(
+                    "missing",
+                    endpoint.role,
+                    node.name,
+                    endpoint.name,
+                    expected=endpoint.type,
+                    similar=_similar(endpoint, extra),
+                    counts=sure,
+                    place=endpoint.place,
+                    source=endpoint.source,
+                    inactive=inactive,
+                )
+            )
             continue
-        issue = _different(node.name, end, there[0], generation)
-        states.say(end.role, end.name, "wrong-type" if issue is not None and issue.kind == "wrong-type" else "present")
+        issue = _different(node.name, endpoint, there[0], generation)
+        states.say(
+            endpoint.role,
+            endpoint.name,
+            "wrong-type" if issue is not None and issue.kind == "wrong-type" else "present",
+        )
         if issue is not None:
             yield issue
     yield from missing
@@ -263,43 +289,62 @@ def _of_ends(
             yield Issue("extra", found.role, owner, found.name, actual=found.type, counts=False, place=place)
 
 
-def _similar(end: ExpectedEnd, extra: Sequence[LiveEnd]) -> str | None:
+def _similar(endpoint: ExpectedEndpoint, extra: Sequence[LiveEndpoint]) -> str | None:
     """The end that the node has instead, if one is like it."""
-    alike = [e.name for e in extra if e.role == end.role and (end.type in (None, "*", e.type) or e.type is None)]
-    return nearest(end.name, alike) or (alike[0] if len(alike) == 1 else None)
+    alike = [
+        e.name for e in extra if e.role == endpoint.role and (endpoint.type in (None, "*", e.type) or e.type is None)
+    ]
+    return nearest(endpoint.name, alike) or (alike[0] if len(alike) == 1 else None)
 
 
-def _extra_ends(left: _LiveEnds, generation: int) -> Iterator[LiveEnd]:
+def _extra_endpoints(left: _LiveEndpoints, generation: int) -> Iterator[LiveEndpoint]:
     """What is there and was not expected; an action of ROS 1 as such."""
-    ends = [end for found in left.values() for end in found]
+    endpoints = [endpoint for found in left.values() for endpoint in found]
     if generation == 1:
-        endpoints = [Endpoint(end.role, end.name, end.type) for end in ends]
+        plain = [Endpoint(endpoint.role, endpoint.name, endpoint.type) for endpoint in endpoints]
         of_actions: set[tuple[str, str]] = set()
-        for action in actions_of(endpoints):
+        for action in actions_of(plain):
             of_actions.update((topic.role, topic.name) for topic in action.parts)
-            yield LiveEnd(action.endpoint.role, ends[0].node, action.endpoint.name, action.endpoint.type)
-        ends = [end for end in ends if (end.role, end.name) not in of_actions]
-    yield from sorted(ends, key=lambda end: (end.name, end.role))
+            yield LiveEndpoint(action.endpoint.role, endpoints[0].node, action.endpoint.name, action.endpoint.type)
+        endpoints = [endpoint for endpoint in endpoints if (endpoint.role, endpoint.name) not in of_actions]
+    yield from sorted(endpoints, key=lambda endpoint: (endpoint.name, endpoint.role))
 
 
-def _different(node: str, end: ExpectedEnd, there: Sequence[LiveEnd], generation: int) -> Issue | None:
+def _different(node: str, endpoint: ExpectedEndpoint, there: Sequence[LiveEndpoint], generation: int) -> Issue | None:
     """The type and QoS of an end that is there. The types of topics of ROS 1 are compared by topic."""
     types = {each.type for each in there if each.type is not None}
-    wanted = end.type
-    if wanted is not None and end.parts:
+    wanted = endpoint.type
+    if wanted is not None and endpoint.parts:
         wanted += "Goal"
-    by_topic = generation == 1 and end.role in ("publisher", "subscriber")
+    by_topic = generation == 1 and endpoint.role in ("publisher", "subscriber")
     if wanted not in (None, "*") and types and not by_topic and _plain(wanted) not in map(_plain, types):
         actual = " | ".join(sorted(types))
-        actual = actual.removesuffix("Goal") if end.parts else actual
-        return Issue("wrong-type", end.role, node, end.name, end.type, actual, place=end.place, source=end.source)
+        actual = actual.removesuffix("Goal") if endpoint.parts else actual
+        return Issue(
+            "wrong-type",
+            endpoint.role,
+            node,
+            endpoint.name,
+            endpoint.type,
+            actual,
+            place=endpoint.place,
+            source=endpoint.source,
+        )
     for policy in _COMPARED_QOS:
-        asked = end.qos.get(policy)
+        asked = endpoint.qos.get(policy)
         found = {each.qos[policy] for each in there if policy in each.qos}
         if asked is not None and found and asked not in found:
             actual = f"{policy} {' | '.join(sorted(map(str, found)))}"
-            return Issue("wrong-qos", end.role, node, end.name, f"{policy} {asked}", actual, place=end.place,
-                         source=end.source)  # fmt: skip
+            return Issue(
+                "wrong-qos",
+                endpoint.role,
+                node,
+                endpoint.name,
+                f"{policy} {asked}",
+                actual,
+                place=endpoint.place,
+                source=endpoint.source,
+            )
     return None
 
 
@@ -311,22 +356,31 @@ def _plain(name: str | None) -> str:
 
 def _wrong_topics(nodes: Iterable[ExpectedNode], live: Observation, states: _States) -> Iterator[Issue]:
     """A master has one type for each topic, that of whom it heard of last: not all ends need to have it."""
-    actual = {end.name: end.type for end in live.ends if end.role in ("publisher", "subscriber")}
-    there = {(end.node, end.role, end.name) for end in live.ends}
-    wanted: dict[str, list[tuple[ExpectedNode, ExpectedEnd]]] = defaultdict(list)
+    actual = {
+        endpoint.name: endpoint.type for endpoint in live.endpoints if endpoint.role in ("publisher", "subscriber")
+    }
+    there = {(endpoint.node, endpoint.role, endpoint.name) for endpoint in live.endpoints}
+    wanted: dict[str, list[tuple[ExpectedNode, ExpectedEndpoint]]] = defaultdict(list)
     for node in nodes:
-        for end in node.ends:
+        for endpoint in node.endpoints:
             owner = node.by or node.name
-            if end.role in ("publisher", "subscriber") and (owner, end.role, end.name) in there:
-                wanted[end.name].append((node, end))
+            if endpoint.role in ("publisher", "subscriber") and (owner, endpoint.role, endpoint.name) in there:
+                wanted[endpoint.name].append((node, endpoint))
     for topic, found in wanted.items():
-        types = {end.type for _, end in found} - {None}
+        types = {endpoint.type for _, endpoint in found} - {None}
         kind = actual.get(topic)
         if kind is None or not types or types & {kind, "*"}:
             continue
         states.say("publisher", topic, "wrong-type")
-        node, end = min((each for each in found if each[1].type), key=lambda each: each[1].role != "publisher")
+        node, endpoint = min((each for each in found if each[1].type), key=lambda each: each[1].role != "publisher")
         wanted_types = " | ".join(sorted(map(str, types)))
         yield Issue(
-            "wrong-type", end.role, node.name, topic, wanted_types, kind, place=end.place, source=end.source
-        )  # fmt: skip
+            "wrong-type",
+            endpoint.role,
+            node.name,
+            topic,
+            wanted_types,
+            kind,
+            place=endpoint.place,
+            source=endpoint.source,
+        )

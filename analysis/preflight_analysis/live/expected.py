@@ -9,9 +9,9 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Place
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.graph.actions import topic_ends
+from preflight_analysis.graph.actions import topic_endpoints
 from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.live.model import Expected, ExpectedEnd, ExpectedNode
+from preflight_analysis.live.model import Expected, ExpectedEndpoint, ExpectedNode
 from preflight_analysis.rules.places import connection_location, node_location
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.nodelets import nodelet_of
@@ -24,13 +24,13 @@ _HIDDEN = "/_action/"
 
 def expected_of(graph: Graph, documents: Mapping[str, Document]) -> Expected:
     """What is to be expected of a running system. `documents` has the texts that places are counted in."""
-    ends: dict[int, list[Connection]] = defaultdict(list)
+    endpoints: dict[int, list[Connection]] = defaultdict(list)
     for channels in (graph.topics, graph.services, graph.actions):
         for channel in channels.values():
             for connection in (*channel.providers, *channel.consumers):
-                ends[id(connection.node)].append(connection)
+                endpoints[id(connection.node)].append(connection)
     nodes = [
-        _node(node, interface, ends[id(node)], graph.tree.generation, documents)
+        _node(node, interface, endpoints[id(node)], graph.tree.generation, documents)
         for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True)
         if node.kind not in _NO_NODES
     ]
@@ -52,7 +52,7 @@ def _node(
     return ExpectedNode(
         node.name,
         tuple(
-            _end(connection, generation, documents)
+            _endpoint(connection, generation, documents)
             for connection in connections
             if connection.action is None and not connection.endpoint.builtin and _HIDDEN not in connection.name
         ),
@@ -65,19 +65,19 @@ def _node(
     )
 
 
-def _end(connection: Connection, generation: int, documents: Mapping[str, Document]) -> ExpectedEnd:
-    end = connection.endpoint
-    is_action = end.role in ("action_client", "action_server")
-    return ExpectedEnd(
-        end.role,
+def _endpoint(connection: Connection, generation: int, documents: Mapping[str, Document]) -> ExpectedEndpoint:
+    endpoint = connection.endpoint
+    is_action = endpoint.role in ("action_client", "action_server")
+    return ExpectedEndpoint(
+        endpoint.role,
         connection.name,
-        end.type,
-        end.qos,
-        not end.uncertain,
-        end.on_demand,
-        topic_ends(end.role, connection.name) if is_action and generation == 1 else (),
+        endpoint.type,
+        endpoint.qos,
+        not endpoint.uncertain,
+        endpoint.on_demand,
+        topic_endpoints(endpoint.role, connection.name) if is_action and generation == 1 else (),
         _place(connection_location(connection), documents),
-        Place(end.source_file, end.source_line) if end.source_file and end.source_line else None,
+        Place(endpoint.source_file, endpoint.source_line) if endpoint.source_file and endpoint.source_line else None,
     )
 
 

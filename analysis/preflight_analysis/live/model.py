@@ -37,7 +37,7 @@ class LiveNode:
 
 
 @dataclass(frozen=True, slots=True)
-class LiveEnd:
+class LiveEndpoint:
     """An end of a topic, service or action under its final name. `type` None: not known, or, of a topic of ROS 1, not
     known to the master."""
 
@@ -54,13 +54,13 @@ class Observation:
 
     generation: int
     nodes: Mapping[str, LiveNode]
-    ends: tuple[LiveEnd, ...]
+    endpoints: tuple[LiveEndpoint, ...]
     run: str | None = None
     """What tells one run of the system from the next: the `run_id` of a master of ROS 1."""
 
 
 @dataclass(frozen=True, slots=True)
-class ExpectedEnd:
+class ExpectedEndpoint:
     """`certain`: whether the node makes it in any case; one that is found by reading the source, or after a made-up
     answer, may well be missing, and one that is made on demand is when nobody asks for it. `parts`: of an action of
     ROS 1, its topics by role."""
@@ -80,17 +80,17 @@ class ExpectedEnd:
 
 @dataclass(frozen=True, slots=True)
 class ExpectedNode:
-    """A node that the launch starts. `complete`: all its ends are known, so that another one is extra. `ends_itself`:
+    """A node that the launch starts. `complete`: all its ends are known, so that another one is extra. `exits`:
     it has done its work and ends, so that it need not be there. `reason`: why it ended in the sandbox. `by` of a
     nodelet: the node that makes its ends."""
 
     name: str
-    ends: tuple[ExpectedEnd, ...]
+    endpoints: tuple[ExpectedEndpoint, ...]
     complete: bool
     place: Place | None
     certain: bool = True
     """Whether it is sure to be started under this name."""
-    ends_itself: bool = False
+    exits: bool = False
     reason: str | None = None
     by: str | None = None
 

@@ -11,12 +11,12 @@ import re
 from collections.abc import Sized
 from functools import lru_cache
 
-from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation
+from preflight_analysis.live.model import CannotObserveError, LiveEndpoint, LiveNode, Observation
 
 LONGEST = 300
 """Characters of a name."""
 MOST_NODES = 10_000
-MOST_ENDS = 50_000
+MOST_ENDPOINTS = 50_000
 """Of a robot with 1,000 nodes of ROS 2 there are some 15,000."""
 _NOT_SHOWN = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ud800-\udfff\ufeff]")
 """Control characters, of a terminal's too, those that change the direction of text or are nowhere to be seen, and
@@ -30,12 +30,12 @@ def shown(name: str) -> str:
     return name if len(name) <= LONGEST else name[: LONGEST - 1] + "…"
 
 
-def check_number(place: str, nodes: Sized, ends: Sized) -> None:
+def check_number(place: str, nodes: Sized, endpoints: Sized) -> None:
     """Raises `CannotObserveError` where there are more than can be compared in a reasonable time."""
-    if len(nodes) > MOST_NODES or len(ends) > MOST_ENDS:
+    if len(nodes) > MOST_NODES or len(endpoints) > MOST_ENDPOINTS:
         raise CannotObserveError(
-            f"{place} has {len(nodes)} nodes with {len(ends)} ends; "
-            f"up to {MOST_NODES} nodes and {MOST_ENDS} ends are compared"
+            f"{place} has {len(nodes)} nodes with {len(endpoints)} ends; "
+            f"up to {MOST_NODES} nodes and {MOST_ENDPOINTS} ends are compared"
         )
 
 
@@ -48,11 +48,11 @@ def with_shown_names(live: Observation) -> Observation:
         count = node.count + (before.count if before is not None else 0)
         dead, lifecycle = (shown(each) if each is not None else None for each in (node.dead, node.lifecycle))
         nodes[name] = LiveNode(name, dead, count, lifecycle)
-    ends = tuple(_end(end) for end in live.ends)
-    return Observation(live.generation, nodes, ends, shown(live.run) if live.run is not None else None)
+    endpoints = tuple(_endpoint(endpoint) for endpoint in live.endpoints)
+    return Observation(live.generation, nodes, endpoints, shown(live.run) if live.run is not None else None)
 
 
-def _end(end: LiveEnd) -> LiveEnd:
-    kind = shown(end.type) if end.type is not None else None
-    qos = {shown(policy): shown(value) if isinstance(value, str) else value for policy, value in end.qos.items()}
-    return LiveEnd(end.role, shown(end.node), shown(end.name), kind, qos)
+def _endpoint(endpoint: LiveEndpoint) -> LiveEndpoint:
+    kind = shown(endpoint.type) if endpoint.type is not None else None
+    qos = {shown(policy): shown(value) if isinstance(value, str) else value for policy, value in endpoint.qos.items()}
+    return LiveEndpoint(endpoint.role, shown(endpoint.node), shown(endpoint.name), kind, qos)

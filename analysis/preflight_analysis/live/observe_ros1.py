@@ -23,7 +23,7 @@ from urllib.parse import urlsplit
 from xml.parsers.expat import ExpatError
 
 from preflight_analysis.live.bounded import BoundedSocket, Transport
-from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation, is_builtin
+from preflight_analysis.live.model import CannotObserveError, LiveEndpoint, LiveNode, Observation, is_builtin
 from preflight_analysis.live.names import check_number, with_shown_names
 from preflight_analysis.tracing.interface import Role
 
@@ -102,12 +102,12 @@ class Ros1Observer:
             if any(nodes[n].dead is None for n in of) and not is_builtin(1, "service", name)
         ]
         service_types = dict(zip(alive, self._pool.map(partial(self._service_type, until), alive), strict=True))
-        ends = [
-            *_ends("publisher", publishers, types),
-            *_ends("subscriber", subscribers, types),
-            *_ends("service", services, service_types),
+        endpoints = [
+            *_endpoints("publisher", publishers, types),
+            *_endpoints("subscriber", subscribers, types),
+            *_endpoints("service", services, service_types),
         ]
-        return with_shown_names(Observation(1, nodes, tuple(ends), self._run(until)))
+        return with_shown_names(Observation(1, nodes, tuple(endpoints), self._run(until)))
 
     def _run(self, until: float) -> str | None:
         """roslaunch gives each run of a master an id."""
@@ -159,10 +159,10 @@ def _side(given: Any) -> dict[str, list[str]]:
     return {str(name): [str(node) for node in nodes] for name, nodes in given}
 
 
-def _ends(role: Role, side: Mapping[str, Iterable[str]], types: Mapping[str, str | None]) -> list[LiveEnd]:
+def _endpoints(role: Role, side: Mapping[str, Iterable[str]], types: Mapping[str, str | None]) -> list[LiveEndpoint]:
     # The master writes `*` where nobody told a type.
     known = {name: kind for name, kind in types.items() if kind not in (None, "", "*")}
-    return [LiveEnd(role, node, name, known.get(name)) for name, nodes in side.items() for node in nodes]
+    return [LiveEndpoint(role, node, name, known.get(name)) for name, nodes in side.items() for node in nodes]
 
 
 def _probe(until: float, address: str, service: str) -> str | None:

@@ -16,7 +16,7 @@ from typing import Any, cast, get_args
 
 from preflight_analysis.environment.ament import ament_prefixes, python_folders, rclpy_interpreter
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.live.model import CannotObserveError, LiveEnd, LiveNode, Observation
+from preflight_analysis.live.model import CannotObserveError, LiveEndpoint, LiveNode, Observation
 from preflight_analysis.live.names import check_number, with_shown_names
 from preflight_analysis.tracing.interface import Role
 
@@ -123,15 +123,15 @@ def said(line: str, place: str) -> Observation:
     if error := observed.get("error"):
         raise CannotObserveError(f"rclpy does not work: {error}")
     counts = Counter(str(name) for name in observed["nodes"])
-    check_number(place, counts, observed["ends"])
-    ends = [
-        LiveEnd(cast(Role, role), str(node), str(name), str(kind), dict(qos))
-        for role, node, name, kind, qos in observed["ends"]
+    check_number(place, counts, observed["endpoints"])
+    endpoints = [
+        LiveEndpoint(cast(Role, role), str(node), str(name), str(kind), dict(qos))
+        for role, node, name, kind, qos in observed["endpoints"]
         if role in _ROLES
     ]
     lifecycle = {str(name): str(state) for name, state in observed["lifecycle"].items()}
     nodes = {name: LiveNode(name, count=count, lifecycle=lifecycle.get(name)) for name, count in counts.items()}
-    return with_shown_names(Observation(2, nodes, tuple(ends)))
+    return with_shown_names(Observation(2, nodes, tuple(endpoints)))
 
 
 def _lacking(of_workspace: str | None) -> str:

@@ -1,7 +1,7 @@
 """Shows the graph of a ROS 2 domain, for `observe_ros2.py`, which starts this with the user's interpreter.
 
 Standard library and rclpy only, from Python 3.8 on. A line of JSON each time the graph is not what it was:
-`{"nodes": [name, ...], "ends": [[role, node, name, type, qos], ...], "lifecycle": {name: state}}`, or `{"error":
+`{"nodes": [name, ...], "endpoints": [[role, node, name, type, qos], ...], "lifecycle": {name: state}}`, or `{"error":
 sentence}` as the last one. It ends with its standard input, so that none is left behind.
 """
 
@@ -54,7 +54,7 @@ def _graph(node: Any, action: Any) -> dict[str, Any]:
     own = (node.get_name(), node.get_namespace())
     pairs: list[tuple[str, str]] = [tuple(pair)[:2] for pair in node.get_node_names_and_namespaces()]
     pairs = [pair for pair in pairs if pair != own and pair[0] not in _NOBODY]
-    ends: list[list[Any]] = []
+    endpoints: list[list[Any]] = []
 
     for topic, _ in node.get_topic_names_and_types():
         for role, ask_topic in (
@@ -64,7 +64,7 @@ def _graph(node: Any, action: Any) -> dict[str, Any]:
             for info in ask_topic(topic):
                 if info.node_name not in _NOBODY and (info.node_name, info.node_namespace) != own:
                     owner = _full(info.node_name, info.node_namespace)
-                    ends.append([role, owner, topic, info.topic_type, _qos(info.qos_profile)])
+                    endpoints.append([role, owner, topic, info.topic_type, _qos(info.qos_profile)])
     for pair in sorted(set(pairs)):
         for role, ask in (
             ("service", node.get_service_names_and_types_by_node),
@@ -74,9 +74,9 @@ def _graph(node: Any, action: Any) -> dict[str, Any]:
         ):
             with contextlib.suppress(Exception):  # it left meanwhile: a class of its own in each distribution
                 found = ask(*pair)
-                ends.extend([role, _full(*pair), name, kind, {}] for name, kinds in found for kind in kinds)
-    unique = {json.dumps(end, sort_keys=True): end for end in ends if _PART_OF_ACTION not in end[2]}
-    return {"nodes": sorted(_full(*pair) for pair in pairs), "ends": [unique[key] for key in sorted(unique)]}
+                endpoints.extend([role, _full(*pair), name, kind, {}] for name, kinds in found for kind in kinds)
+    unique = {json.dumps(end, sort_keys=True): end for end in endpoints if _PART_OF_ACTION not in end[2]}
+    return {"nodes": sorted(_full(*pair) for pair in pairs), "endpoints": [unique[key] for key in sorted(unique)]}
 
 
 class _Lifecycle:
@@ -86,11 +86,11 @@ class _Lifecycle:
         self._rclpy, self._node = rclpy, node
         self._clients: dict[str, Any] = {}
 
-    def states(self, ends: list[list[Any]]) -> dict[str, str]:
-        """The state of each node that has one and answers; `ends` as they are told."""
+    def states(self, endpoints: list[list[Any]]) -> dict[str, str]:
+        """The state of each node that has one and answers; `endpoints` as they are told."""
         owners = {
             owner
-            for role, owner, name, kind, _ in ends
+            for role, owner, name, kind, _ in endpoints
             if role == "service" and kind == _GET_STATE and name == owner + "/get_state"
         }
         for owner in set(self._clients) - owners:
@@ -145,7 +145,7 @@ def main() -> None:
             if now_names != names or time.monotonic() - whole > WHOLE_SECONDS:
                 names, whole = now_names, time.monotonic()
                 now = _graph(node, action)
-                now["lifecycle"] = lifecycle.states(now["ends"])
+                now["lifecycle"] = lifecycle.states(now["endpoints"])
                 if now != last:
                     _say(now)
                     last = now

@@ -53,9 +53,9 @@ def nodl(interfaces: Sequence[Interface], generation: int) -> str:
         parts = {id(topic) for action in actions for topic in action.parts}
         of_actions = {(action.endpoint.role, action.endpoint.name) for action in actions}
         plain = [e for e in interface.endpoints if id(e) not in parts and (e.role, e.name) not in of_actions]
-        for end in (*plain, *(action.endpoint for action in actions)):
-            if not end.builtin:
-                endpoints.setdefault((end.role, end.name), end)
+        for endpoint in (*plain, *(action.endpoint for action in actions)):
+            if not endpoint.builtin:
+                endpoints.setdefault((endpoint.role, endpoint.name), endpoint)
         for use in interface.params:
             if not use.builtin and use.access in ("get", "has"):
                 known = params.get(use.name)
@@ -69,8 +69,8 @@ def nodl(interfaces: Sequence[Interface], generation: int) -> str:
             continue
         about = {"type": type_, "default_value": json_value(use.default)}
         data.setdefault("parameters", {})[name[1:].lstrip("/")] = about
-    for (role, name), end in sorted(endpoints.items()):
-        entry = _end(end, generation)
+    for (role, name), endpoint in sorted(endpoints.items()):
+        entry = _endpoint(endpoint, generation)
         if isinstance(entry, str):
             left_out.append(f"{role.replace('_', ' ')} {name}: {entry}")
         else:
@@ -82,19 +82,19 @@ def nodl(interfaces: Sequence[Interface], generation: int) -> str:
     return "\n".join(lines) + "\n" + body
 
 
-def _end(end: Endpoint, generation: int) -> dict[str, Any] | str:
+def _endpoint(endpoint: Endpoint, generation: int) -> dict[str, Any] | str:
     """The entry of an endpoint, or why there can be none."""
-    name = f"~/{end.name[1:].lstrip('/')}" if end.name.startswith("~") else end.name
-    type_ = end.type or ""
-    if generation == 2 and end.role.startswith("action"):
+    name = f"~/{endpoint.name[1:].lstrip('/')}" if endpoint.name.startswith("~") else endpoint.name
+    type_ = endpoint.type or ""
+    if generation == 2 and endpoint.role.startswith("action"):
         type_ = type_.removesuffix("Action")
     if not _TYPE.match(type_):
         return "type not known"
     if not _NAME.match(name):
         return "no name of ROS 2"
     entry: dict[str, Any] = {"name": name, "type": type_}
-    if end.role in ("publisher", "subscriber"):
-        entry["qos"] = _qos_1(end.qos) if generation == 1 else _qos_2(end.qos)
+    if endpoint.role in ("publisher", "subscriber"):
+        entry["qos"] = _qos_1(endpoint.qos) if generation == 1 else _qos_2(endpoint.qos)
     return entry
 
 

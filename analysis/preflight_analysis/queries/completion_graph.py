@@ -16,7 +16,7 @@ from preflight_analysis.queries.param_texts import default_text
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
-_SHOWN_ENDS = 5
+_SHOWN_ENDPOINTS = 5
 _ROLES = {
     "publisher": "publishes",
     "subscriber": "subscribes",
@@ -91,30 +91,35 @@ def remap_targets(analysis: Analysis, file: str, place: Place, element: Element,
     namespace = next((n.namespace for n, _ in _interfaces(analysis, graph, file, node)), "/") if node else "/"
     found: list[tuple[bool, str, Item]] = []
     for channel in (*graph.topics.values(), *graph.services.values(), *graph.actions.values()):
-        ends = (*channel.providers, *channel.consumers)
-        if not any(not end.endpoint.builtin and not _made_here(end, file, element) for end in ends):
+        connections = (*channel.providers, *channel.consumers)
+        if not any(
+            not connection.endpoint.builtin and not _made_here(connection, file, element) for connection in connections
+        ):
             continue
         name = channel.name
         if before and not before.startswith("/") and name.startswith(namespace):
             name = name[len(namespace) :]
         there = channel.types
-        item = Item("endpoint", name, name, _ends(ends), ", ".join(there))
+        item = Item("endpoint", name, name, _connections(connections), ", ".join(there))
         found.append((types.isdisjoint(there), name, item))
     yield from (item for _, _, item in sorted(found, key=lambda each: each[:2]))
 
 
-def _ends(ends: Sequence[Connection]) -> str:
-    lines = [f"- {code(end.node.name)} {_ROLES[end.endpoint.role]}" for end in ends[:_SHOWN_ENDS]]
-    if len(ends) > _SHOWN_ENDS:
-        lines.append(f"- … and {len(ends) - _SHOWN_ENDS} more")
+def _connections(connections: Sequence[Connection]) -> str:
+    lines = [
+        f"- {code(connection.node.name)} {_ROLES[connection.endpoint.role]}"
+        for connection in connections[:_SHOWN_ENDPOINTS]
+    ]
+    if len(connections) > _SHOWN_ENDPOINTS:
+        lines.append(f"- … and {len(connections) - _SHOWN_ENDPOINTS} more")
     return "\n".join(lines)
 
 
-def _made_here(end: Connection, file: str, element: Element) -> bool:
+def _made_here(connection: Connection, file: str, element: Element) -> bool:
     """Whether the name is only there because this very remap has it, half-typed as it may be."""
-    if end.remap is None:
+    if connection.remap is None:
         return False
-    place = end.remap.origin[-1]
+    place = connection.remap.origin[-1]
     return place.file == file and place.span.start == element.span.start
 
 

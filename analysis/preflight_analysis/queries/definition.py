@@ -52,7 +52,7 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     action = action_at(launch_file, offset) if launch_file else None
     if action is not None and action.kind in ("remap", "set_remap"):
         value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
-        if targets := _targets(_other_ends(context, analysis, action), context.location(file, value)):
+        if targets := _targets(_other_endpoints(context, analysis, action), context.location(file, value)):
             return targets
     for finding in findings:
         if finding.location.file == file and finding.location.span.contains(offset) and finding.related:
@@ -101,7 +101,7 @@ def _of_symbol(context: QueryContext, symbol: NamedSymbol) -> tuple[Target, ...]
         case "param":
             return _targets(_readers(context, symbol), source)
         case "topic":
-            return _targets(_own_ends(context, symbol), source)
+            return _targets(_own_endpoints(context, symbol), source)
         case "machine":
             machines = (tree.machines.get(name) for tree in context.trees for name in symbol.names)
             return _targets((m.origin[-1] for m in machines if m is not None), source)
@@ -148,22 +148,22 @@ def _readers(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
                 yield place
 
 
-def _own_ends(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
+def _own_endpoints(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
     """From the name that a remap replaces, to where the nodes themselves give it."""
     source = context.location(context.path, symbol.span)
     for analysis in context.analyses:
-        for end, _ in connections(analysis.graph, symbol.names) if analysis.graph else ():
-            if end.remap is not None and end.remap.source_location == source:
-                place = made_at(context, end.endpoint)
+        for connection, _ in connections(analysis.graph, symbol.names) if analysis.graph else ():
+            if connection.remap is not None and connection.remap.source_location == source:
+                place = made_at(context, connection.endpoint)
                 if place is not None:
                     yield place
 
 
-def _other_ends(context: QueryContext, analysis: Analysis, action: Action) -> Iterator[Location]:
+def _other_endpoints(context: QueryContext, analysis: Analysis, action: Action) -> Iterator[Location]:
     """The nodes that meet the remapped ones under the new name, in their sources where that is known."""
     mine = tuple(remaps_of(analysis.tree, context.path, action))
     own = {id(node) for node, _ in mine}
     met = frozenset(names.resolve(remap.target, node.name) for node, remap in mine)
-    for end, _ in connections(analysis.graph, met) if analysis.graph else ():
-        if id(end.node) not in own:
-            yield made_at(context, end.endpoint) or end.node.location
+    for connection, _ in connections(analysis.graph, met) if analysis.graph else ():
+        if id(connection.node) not in own:
+            yield made_at(context, connection.endpoint) or connection.node.location

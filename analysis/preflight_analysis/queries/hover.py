@@ -225,7 +225,7 @@ def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
     for (source, target), nodes in _grouped(named):
         lines = [f"{code(source)} → {code(target)} for {', '.join(code(n) for n in nodes)}"]
         if analysis.graph is not None:
-            lines += _ends(analysis.graph, target)
+            lines += _connections(analysis.graph, target)
         yield "\n".join(lines)
 
 
@@ -236,13 +236,13 @@ def _grouped(pairs: Iterable[tuple[tuple[str, str], str]]) -> Iterator[tuple[tup
     yield from groups.items()
 
 
-def _ends(graph: Graph, name: str) -> Iterator[str]:
+def _connections(graph: Graph, name: str) -> Iterator[str]:
     for kind, channels in (("topic", graph.topics), ("service", graph.services), ("action", graph.actions)):
         channel = channels.get(name)
         if channel is not None:
             verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
-            for verb, ends in zip(verbs, (channel.providers, channel.consumers), strict=True):
-                nodes = ", ".join(sorted({code(c.node.name) for c in ends})) or "nobody"
+            for verb, connections in zip(verbs, (channel.providers, channel.consumers), strict=True):
+                nodes = ", ".join(sorted({code(c.node.name) for c in connections})) or "nobody"
                 yield f"- {kind} {code(name)} {verb} {nodes}"
 
 
@@ -283,14 +283,14 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
     lines += ["", _outcome(analysis, interface)]
     if interface is not None and graph is not None and interface.known:
         for title, channels, side in _SIDES:
-            ends = [
+            connections = [
                 c
                 for channel in getattr(graph, channels).values()
                 for c in getattr(channel, side)
                 if c.node.origin is node.origin and not c.endpoint.builtin and c.action is None
             ]
-            if ends:
-                lines += ["", title, *(_connection(c, interface) for c in sorted(ends, key=lambda c: c.name))]
+            if connections:
+                lines += ["", title, *(_connection(c, interface) for c in sorted(connections, key=lambda c: c.name))]
         reads = [p for p in interface.params if not p.builtin]
         if reads and analysis.tree.generation == 1:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]

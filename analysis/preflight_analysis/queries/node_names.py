@@ -45,7 +45,7 @@ def mentions_of(context: QueryContext, trees: Iterable[LaunchTree], wanted: froz
             for node in _above(full, wanted):
                 if param.owner is None or names.is_global(context.text(param.name_location or param.origin[-1])):
                     yield _of_param(context, param, full, node)
-        for place, full in remap_ends(tree):
+        for place, full in remap_names(tree):
             for node in _above(full, wanted):
                 yield NodeMention(place, _moved(_part(context.text(place), full, node), place.span.start))
         for owner in tree.nodes:
@@ -59,7 +59,7 @@ def mentions_of(context: QueryContext, trees: Iterable[LaunchTree], wanted: froz
                     yield NodeMention(place, _moved(_part(context.text(place), full, full), place.span.start))
 
 
-def remap_ends(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
+def remap_names(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
     """Both ends of each remap and what they stand for, once for each node that it reaches; private names left out."""
     for node in tree.nodes:
         for remap in node.remaps:

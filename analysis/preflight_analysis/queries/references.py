@@ -164,8 +164,8 @@ def connections(graph: Graph, wanted: frozenset[str]) -> Iterator[tuple[Connecti
     for channels in (graph.topics, graph.services, graph.actions):
         for name in wanted:
             if (channel := channels.get(name)) is not None:
-                yield from ((end, True) for end in channel.providers)
-                yield from ((end, False) for end in channel.consumers)
+                yield from ((connection, True) for connection in channel.providers)
+                yield from ((connection, False) for connection in channel.consumers)
 
 
 def made_at(context: QueryContext, what: Endpoint | ParamUse) -> Location | None:

@@ -14,7 +14,7 @@ from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.launch.references import NOT_ARGUMENTS
 from preflight_analysis.queries import shared_arguments
-from preflight_analysis.queries.node_names import mentions_of, remap_ends, tags_of
+from preflight_analysis.queries.node_names import mentions_of, remap_names, tags_of
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import NamedSymbol, symbol_at
 
@@ -163,7 +163,7 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
     for mention in mentions_of(context, trees, wanted):
         mixed.setdefault(mention.value, set()).add(mention.span)
     for tree in trees:
-        for value, full in remap_ends(tree):
+        for value, full in remap_names(tree):
             if value in mixed and not any(_is_below(full, node) for node in wanted):
                 mixed[value].add(None)  # for another node that the remap reaches it means something else
     for value, spans in mixed.items():

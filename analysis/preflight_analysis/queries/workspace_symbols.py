@@ -72,7 +72,14 @@ def _topics(analyses: Iterable[Analysis], named: Callable[[str], bool]) -> Itera
     seen: set[tuple[str, Location]] = set()
     for analysis in analyses:
         for name, channel in analysis.graph.topics.items() if analysis.graph else ():
-            end = next((end for end in (*channel.providers, *channel.consumers) if not end.endpoint.builtin), None)
-            if end is not None and named(name) and (name, end.node.location) not in seen:
-                seen.add((name, end.node.location))
-                yield WorkspaceSymbol(name, "topic", ", ".join(channel.types), end.node.location)
+            connection = next(
+                (
+                    connection
+                    for connection in (*channel.providers, *channel.consumers)
+                    if not connection.endpoint.builtin
+                ),
+                None,
+            )
+            if connection is not None and named(name) and (name, connection.node.location) not in seen:
+                seen.add((name, connection.node.location))
+                yield WorkspaceSymbol(name, "topic", ", ".join(channel.types), connection.node.location)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.near_miss import NearMiss, dangling_consumers, fixes, near_misses, nodes_looked_at, weight
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -27,24 +27,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity=severity,
             confidence=confidence,
             related=(
-                related_end(pair.other, "offers" if pair.other is pair.provider else "is a client of"),
+                related_endpoint(pair.other, "offers" if pair.other is pair.provider else "is a client of"),
                 *include_chain(pair.site.node.origin),
             ),
             fixes=_fixes(context, pair),
-            ends=ends_of(pair.consumer, pair.provider),
+            endpoints=endpoints_of(pair.consumer, pair.provider),
         )
     explained = {id(pair.consumer) for pair in near}
-    for end in dangling_consumers(context, "actions"):
-        if id(end) not in explained and not graph.blind:
-            sure = graph.complete and not end.endpoint.uncertain
-            kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
+    for connection in dangling_consumers(context, "actions"):
+        if id(connection) not in explained and not graph.blind:
+            sure = graph.complete and not connection.endpoint.uncertain
+            kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
             yield rule.finding(
-                f"{nodes_looked_at(graph)} offers action '{end.name}'{kind}, of which {end.node.name} is a client",
-                connection_location(end),
+                f"{nodes_looked_at(graph)} offers action '{connection.name}'{kind}, "
+                f"of which {connection.node.name} is a client",
+                connection_location(connection),
                 severity="hint",
                 confidence="likely" if sure else "possible",
-                related=include_chain(end.node.origin),
-                ends=ends_of(end),
+                related=include_chain(connection.node.origin),
+                endpoints=endpoints_of(connection),
             )
 
 

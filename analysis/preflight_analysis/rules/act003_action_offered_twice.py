@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -24,8 +24,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             "every goal",
             connection_location(servers[-1]),
             confidence="possible" if any(c.endpoint.speculative for c in servers) else "likely",
-            related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
-            ends=ends_of(*servers),
+            related=(*(related_endpoint(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+            endpoints=endpoints_of(*servers),
         )
 
 

@@ -40,11 +40,11 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
     return tuple(_idle(graph)) if graph is not None else ()
 
 
-def meant_ends(context: Context) -> frozenset[int]:
+def meant_endpoints(context: Context) -> frozenset[int]:
     """The ids of the connections that an idle remap was most likely meant to bring together: that they dangle is told
     with it, once."""
     found = [i for i in context.once(idle_remaps) if i.meant is not None and i.partner is not None]
-    return frozenset(id(end) for idle in found for end in (idle.meant, idle.partner))
+    return frozenset(id(connection) for idle in found for connection in (idle.meant, idle.partner))
 
 
 def _idle(graph: Graph) -> Iterator[IdleRemap]:
@@ -68,13 +68,13 @@ def _idle(graph: Graph) -> Iterator[IdleRemap]:
     if not reached:
         return
     wanted = {id(each.nodes[0]) for each in reached.values()}
-    ends: dict[int, list[Connection]] = {}
+    connections: dict[int, list[Connection]] = {}
     for channel in (*graph.topics.values(), *graph.services.values()):
-        for end in (*channel.providers, *channel.consumers):
-            if id(end.node) in wanted and end.remap is None and not end.endpoint.builtin:
-                ends.setdefault(id(end.node), []).append(end)
+        for connection in (*channel.providers, *channel.consumers):
+            if id(connection.node) in wanted and connection.remap is None and not connection.endpoint.builtin:
+                connections.setdefault(id(connection.node), []).append(connection)
     for each in reached.values():
-        meant, partner = _meant(graph, each.remap, each.nodes[0], ends.get(id(each.nodes[0]), ()))
+        meant, partner = _meant(graph, each.remap, each.nodes[0], connections.get(id(each.nodes[0]), ()))
         yield IdleRemap(each.remap, tuple(each.nodes), meant, partner)
 
 
@@ -129,7 +129,7 @@ def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
 
 
 def _meant(
-    graph: Graph, remap: Remap, node: LaunchNode, ends: Iterable[Connection]
+    graph: Graph, remap: Remap, node: LaunchNode, connections: Iterable[Connection]
 ) -> tuple[Connection | None, Connection | None]:
     """The end that the remap was meant for, and whom it would then meet.
 
@@ -138,35 +138,35 @@ def _meant(
     """
     full, target = names.resolve(remap.source, node.name), names.resolve(remap.target, node.name)
     lone: list[tuple[Connection, Connection | None]] = []
-    for end in ends:
-        channels: Mapping[str, Channel] = graph.topics if end.endpoint.role in _TOPIC_ROLES else graph.services
-        if _facing(channels[end.name], end):
+    for connection in connections:
+        channels: Mapping[str, Channel] = graph.topics if connection.endpoint.role in _TOPIC_ROLES else graph.services
+        if _facing(channels[connection.name], connection):
             continue
-        lone.append((end, _partner(channels.get(target), end)))
-    typos = [(end, partner) for end, partner in lone if _is_slip(full, end)]
+        lone.append((connection, _partner(channels.get(target), connection)))
+    typos = [(connection, partner) for connection, partner in lone if _is_slip(full, connection)]
     if len(typos) == 1:
         return typos[0]
-    fitting = [(end, partner) for end, partner in lone if partner is not None]
+    fitting = [(connection, partner) for connection, partner in lone if partner is not None]
     return fitting[0] if len(fitting) == 1 else (None, None)
 
 
-def _is_slip(full: str, end: Connection) -> bool:
+def _is_slip(full: str, connection: Connection) -> bool:
     """Whether the names are a typo apart, or only their namespaces differ: a missing `~`, a slash too many."""
-    alike = likeness(full, end.name)
-    return (alike is not None and alike[0] == "typo") or full.rpartition("/")[2] == end.name.rpartition("/")[2]
+    alike = likeness(full, connection.name)
+    return (alike is not None and alike[0] == "typo") or full.rpartition("/")[2] == connection.name.rpartition("/")[2]
 
 
-def _partner(channel: Channel | None, end: Connection) -> Connection | None:
-    """The first end of another node in `channel` that `end` could talk to."""
+def _partner(channel: Channel | None, connection: Connection) -> Connection | None:
+    """The first end of another node in `channel` that `connection` could talk to."""
     if channel is None:
         return None
-    for other in _facing(channel, end):
-        same = end.endpoint.type not in (None, "*") and end.endpoint.type == other.endpoint.type
-        if same and other.node is not end.node and not other.endpoint.builtin:
+    for other in _facing(channel, connection):
+        same = connection.endpoint.type not in (None, "*") and connection.endpoint.type == other.endpoint.type
+        if same and other.node is not connection.node and not other.endpoint.builtin:
             return other
     return None
 
 
-def _facing(channel: Channel, end: Connection) -> tuple[Connection, ...]:
-    """The ends of the channel that one like `end` talks to."""
-    return channel.consumers if end.endpoint.role in ("publisher", "service") else channel.providers
+def _facing(channel: Channel, connection: Connection) -> tuple[Connection, ...]:
+    """The ends of the channel that one like `connection` talks to."""
+    return channel.consumers if connection.endpoint.role in ("publisher", "service") else channel.providers

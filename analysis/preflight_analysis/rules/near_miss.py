@@ -127,34 +127,34 @@ class _Index:
             leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
             if not channel.providers or not channel.consumers:
                 side = "providers" if channel.providers else "consumers"
-                ends = channel.providers or channel.consumers
-                self._lone.update((side, end.endpoint.type, leaf) for end in ends)
+                connections = channel.providers or channel.consumers
+                self._lone.update((side, connection.endpoint.type, leaf) for connection in connections)
             if channel.providers:
                 consumed_by = tuple(map(self._node, channel.consumers))
-                key = channel.name, _dangles(channel), consumed_by, *(map(self._end, channel.providers))
+                key = channel.name, _dangles(channel), consumed_by, *(map(self._key, channel.providers))
                 self._channels[key] = channel
-                for type_ in {_known_type(end) for end in channel.providers}:
+                for type_ in {_known_type(connection) for connection in channel.providers}:
                     self._provided[type_, leaf] += 1
                     for pool in ((), (type_,), (type_, numbers), (type_, leaf)):
                         if pool in self.pools:
                             self.pools[pool].append(key)
 
-    def _end(self, end: Connection) -> Hashable:
-        given = end.endpoint
-        return self._node(end), end.remap is None, given.name, given.type, given.builtin
+    def _key(self, connection: Connection) -> Hashable:
+        given = connection.endpoint
+        return self._node(connection), connection.remap is None, given.name, given.type, given.builtin
 
-    def _node(self, end: Connection) -> tuple[str, int]:
+    def _node(self, connection: Connection) -> tuple[str, int]:
         """The node's name, and a number where several have it."""
-        found = self._nodes.get(id(end.node))
+        found = self._nodes.get(id(connection.node))
         if found is None:
-            name = end.node.name
-            found = self._nodes[id(end.node)] = name, self._names[name]
+            name = connection.node.name
+            found = self._nodes[id(connection.node)] = name, self._names[name]
             self._names[name] += 1
         return found
 
     def seeker(self, consumer: Connection) -> Hashable:
         """The end as `Nearest` knows it."""
-        return consumer.name, self._end(consumer)
+        return consumer.name, self._key(consumer)
 
     def rate(self, seeker: Hashable, candidate: Hashable) -> Hit | None:
         """How well a channel fits an end."""
@@ -211,14 +211,19 @@ def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
 
 def dangling_consumers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
-    return [end for ends in context.once(_all_lone_consumers)[kind] for end in ends]
+    return [connection for connections in context.once(_all_lone_consumers)[kind] for connection in connections]
 
 
 def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     channels = context.graph.channels(kind) if context.graph is not None else {}
     found = zip(channels, context.once(_all_lone_providers)[kind], strict=True)
-    return [end for name, ends in found if ends and not _read_otherwise(name, channels) for end in ends]
+    return [
+        connection
+        for name, connections in found
+        if connections and not _read_otherwise(name, channels)
+        for connection in connections
+    ]
 
 
 _Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
@@ -264,11 +269,11 @@ def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
     return any(channel.consumers and channel.providers for channel in others if channel is not None)
 
 
-def by_type(ends: Iterable[Connection]) -> Mapping[str | None, list[Connection]]:
+def by_type(connections: Iterable[Connection]) -> Mapping[str | None, list[Connection]]:
     """The ends by their types."""
     found: dict[str | None, list[Connection]] = {}
-    for end in ends:
-        found.setdefault(end.endpoint.type, []).append(end)
+    for connection in connections:
+        found.setdefault(connection.endpoint.type, []).append(connection)
     return found
 
 
@@ -283,12 +288,14 @@ def lone_of_type(consumer: Connection, dangling: Mapping[str | None, list[Connec
 
 def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
     """How severe a near miss is and how sure: without evidence beside a like name it is but a hint."""
-    ends = (near.consumer.endpoint, near.provider.endpoint)
-    speculative = any(end.uncertain for end in ends)
+    connections = (near.consumer.endpoint, near.provider.endpoint)
+    speculative = any(connection.uncertain for connection in connections)
     sure = graph.complete and near.same_type and not speculative
     alike = near.likeness == "typo" or (near.provider_dangles and graph.likely_complete and not _of_another_node(near))
     evidence = near.same_type and alike
-    severity: Severity = "info" if any(end.assumed or end.on_demand for end in ends) else "warning"
+    severity: Severity = (
+        "info" if any(connection.assumed or connection.on_demand for connection in connections) else "warning"
+    )
     return severity if evidence else "hint", "likely" if sure else "possible"
 
 
@@ -319,24 +326,27 @@ def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
             return (corrected,)
     # A remap at a publisher that others listen to would only move the gap to them.
     movable = (near.consumer, *((near.provider,) if near.provider_dangles else ()))
-    ends = [end for end in movable if end.remap is None]
-    found = [_insert_remap(context, end, _partner(near, end).name, end is ends[0]) for end in ends]
+    connections = [connection for connection in movable if connection.remap is None]
+    found = [
+        _insert_remap(context, connection, _partner(near, connection).name, connection is connections[0])
+        for connection in connections
+    ]
     return tuple(fix for fix in found if fix is not None)
 
 
-def _known_type(end: Connection) -> str | None:
-    return None if end.endpoint.type == "*" else end.endpoint.type
+def _known_type(connection: Connection) -> str | None:
+    return None if connection.endpoint.type == "*" else connection.endpoint.type
 
 
-def _partner(near: NearMiss, end: Connection) -> Connection:
-    return near.provider if end is near.consumer else near.consumer
+def _partner(near: NearMiss, connection: Connection) -> Connection:
+    return near.provider if connection is near.consumer else near.consumer
 
 
 def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, Evidence, int]]:
     """Which of the channel's offering ends the wanting one may have been meant for, how they are alike and how far they
     are apart."""
     dangles = _dangles(channel)
-    if any(end.node is consumer.node for end in channel.consumers):
+    if any(connection.node is consumer.node for connection in channel.consumers):
         return  # it knows that name
     alike: list[tuple[Literal["typo", "words"], int] | None] = []
     for number, provider in enumerate(channel.providers):
@@ -348,7 +358,7 @@ def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, E
         if (known and mine != theirs) or not (known or dangles):
             continue
         if known and dangles and consumer.name.endswith(channel.name.rpartition("/")[2]):
-            short, long = sorted((consumer, provider), key=lambda end: len(end.name))
+            short, long = sorted((consumer, provider), key=lambda connection: len(connection.name))
             how_far = len(long.name) - len(short.name)
             if _is_slash(short, long):
                 yield number, "slash", how_far
@@ -394,7 +404,7 @@ def _says_enough(name: str, other: str, type_: str) -> bool:
     return short.count("/") >= 2 and long.endswith(short)
 
 
-def _correct_remap(context: Context, end: Connection, remap: Remap, new: str) -> Fix | None:
+def _correct_remap(context: Context, connection: Connection, remap: Remap, new: str) -> Fix | None:
     document = context.documents.get(remap.target_location.file)
     if document is None:
         return None
@@ -402,7 +412,7 @@ def _correct_remap(context: Context, end: Connection, remap: Remap, new: str) ->
     written = document.text[span.start : span.end]
     if "$(" in written or "&" in written or not written:
         return None
-    text = _in_style_of(written, end.name, new)
+    text = _in_style_of(written, connection.name, new)
     return Fix(f"Replace '{written}' by '{text}'", (Edit(remap.target_location, text),), True)
 
 
@@ -418,14 +428,14 @@ def _in_style_of(written: str, full: str, new: str) -> str:
     return new
 
 
-def _insert_remap(context: Context, end: Connection, target: str, preferred: bool) -> Fix | None:
-    location: Location = connection_location(end)
+def _insert_remap(context: Context, connection: Connection, target: str, preferred: bool) -> Fix | None:
+    location: Location = connection_location(connection)
     document = context.documents.get(location.file)
     if document is None:
         return None
-    source = end.endpoint.name
-    namespace = names.parent(end.node.name)
+    source = connection.endpoint.name
+    namespace = names.parent(connection.node.name)
     relative = not source.startswith("/") and target.startswith(namespace)
     written = target[len(namespace) :] if relative else target
-    edit = insert_child(end.node.action, document, f'<remap from="{source}" to="{written}"/>')
-    return Fix(f"Remap '{source}' to '{written}' in {end.node.name}", (edit,), preferred)
+    edit = insert_child(connection.node.action, document, f'<remap from="{source}" to="{written}"/>')
+    return Fix(f"Remap '{source}' to '{written}' in {connection.node.name}", (edit,), preferred)

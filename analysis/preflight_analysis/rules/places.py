@@ -7,7 +7,7 @@ from typing import Literal
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import End, Related
+from preflight_analysis.findings.finding import EndpointRef, Related
 from preflight_analysis.graph.model import Connection, ParamRead
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
@@ -38,15 +38,15 @@ def connection_location(connection: Connection) -> Location:
     return connection.remap.target_location if connection.remap is not None else node_location(connection.node)
 
 
-def related_end(connection: Connection, verb: str) -> Related:
+def related_endpoint(connection: Connection, verb: str) -> Related:
     """The other end, `verb` says what it does: `publishes`, `subscribes to`, ..."""
     known = _how_known(connection.endpoint)
     return Related(f"{connection.node.name} {verb} {connection.name}{known}", connection_location(connection))
 
 
-def ends_of(*connections: Connection) -> tuple[End, ...]:
+def endpoints_of(*connections: Connection) -> tuple[EndpointRef, ...]:
     """The ends as a finding names them."""
-    return tuple(End(_KINDS[c.endpoint.role], c.name, c.node.name) for c in connections)
+    return tuple(EndpointRef(_KINDS[c.endpoint.role], c.name, c.node.name) for c in connections)
 
 
 def related_param_read(read: ParamRead) -> Related:

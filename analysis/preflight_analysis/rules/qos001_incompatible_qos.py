@@ -5,7 +5,7 @@ from itertools import chain
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -48,13 +48,13 @@ def _finding(rule: Rule, channel: Channel, provider: Connection, consumer: Conne
         connection_location(consumer),
         severity="warning" if assumed else None,
         confidence="likely" if assumed else "certain",
-        related=(related_end(provider, "publishes"), *include_chain(consumer.node.origin)),
-        ends=ends_of(consumer, provider),
+        related=(related_endpoint(provider, "publishes"), *include_chain(consumer.node.origin)),
+        endpoints=endpoints_of(consumer, provider),
     )
 
 
-def _settings(end: Connection) -> str:
-    return repr(sorted(end.endpoint.qos.items()))
+def _settings(connection: Connection) -> str:
+    return repr(sorted(connection.endpoint.qos.items()))
 
 
 def _problem(provider: Connection, consumer: Connection) -> str | None:

@@ -14,7 +14,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.clipping import SHORT, clipped
-from preflight_analysis.findings.finding import Confidence, End, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Confidence, EndpointRef, Finding, Fix, Related, Severity
 from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
@@ -113,7 +113,7 @@ class Rule(RuleDescription):
         related: Iterable[Related] = (),
         fixes: Iterable[Fix] = (),
         stops_launch: bool = False,
-        ends: Iterable[End] = (),
+        endpoints: Iterable[EndpointRef] = (),
     ) -> Finding:
         """A finding of this rule. What the messages say is clipped: names may be as long as a file."""
         return Finding(
@@ -127,7 +127,7 @@ class Rule(RuleDescription):
             tuple(f if len(f.title) <= SHORT else replace(f, title=clipped(f.title)) for f in fixes),
             (),
             stops_launch,
-            ends=tuple(ends),
+            endpoints=tuple(endpoints),
         )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.idle_remaps import meant_ends
+from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import (
     by_type,
     dangling_consumers,
@@ -16,7 +16,7 @@ from preflight_analysis.rules.near_miss import (
     weight,
 )
 from preflight_analysis.rules.nearest import numbers_in, share_words
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -26,7 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
-    remapped = context.once(meant_ends)
+    remapped = context.once(meant_endpoints)
     near = [pair for pair in near_misses(context, "services") if id(pair.consumer) not in remapped]
     for pair in near:
         severity, confidence = weight(graph, pair)
@@ -37,52 +37,53 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity=severity,
             confidence=confidence,
             related=(
-                related_end(pair.other, "offers" if pair.other is pair.provider else "calls"),
+                related_endpoint(pair.other, "offers" if pair.other is pair.provider else "calls"),
                 *include_chain(pair.site.node.origin),
             ),
             fixes=fixes(context, pair),
-            ends=ends_of(pair.consumer, pair.provider),
+            endpoints=endpoints_of(pair.consumer, pair.provider),
         )
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(dangling_providers(context, "services")) if answers else {}
     explained = {id(pair.consumer) for pair in near} | remapped
-    for end in dangling_consumers(context, "services"):
-        if id(end) not in explained:
-            sure = graph.complete and not end.endpoint.uncertain
-            kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
-            meant = _meant(end, answers.get(id(end.node), ()), unused)
+    for connection in dangling_consumers(context, "services"):
+        if id(connection) not in explained:
+            sure = graph.complete and not connection.endpoint.uncertain
+            kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
+            meant = _meant(connection, answers.get(id(connection.node), ()), unused)
             if graph.blind and meant is None:
                 continue
             hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
-            related = [related_end(meant, "offers")] if meant is not None else []
+            related = [related_endpoint(meant, "offers")] if meant is not None else []
             yield rule.finding(
-                f"{nodes_looked_at(graph)} offers service '{end.name}'{kind}, which {end.node.name} calls{hint}",
-                connection_location(end),
+                f"{nodes_looked_at(graph)} offers service '{connection.name}'{kind}, "
+                f"which {connection.node.name} calls{hint}",
+                connection_location(connection),
                 severity="hint" if meant is None else "warning",
                 confidence="likely" if sure else "possible",
-                related=(*related, *include_chain(end.node.origin)),
-                ends=ends_of(end),
+                related=(*related, *include_chain(connection.node.origin)),
+                endpoints=endpoints_of(connection),
             )
 
 
 def _meant(
-    end: Connection, answers: Iterable[str], unused: Mapping[str | None, Sequence[Connection]]
+    connection: Connection, answers: Iterable[str], unused: Mapping[str | None, Sequence[Connection]]
 ) -> Connection | None:
     """For a client that its node was seen to wait for before it did anything else: the one service of its type that
     nobody calls and that has a word in common."""
-    given = {end.name, end.endpoint.name, names.resolve(end.endpoint.name, end.node.name)}
+    given = {connection.name, connection.endpoint.name, names.resolve(connection.endpoint.name, connection.node.name)}
     if not any(answer.startswith(f"it waits for the service {name}, ") for name in given for answer in answers):
         return None
     alike = [
         offer
-        for offer in unused.get(end.endpoint.type, ())
-        if end.endpoint.type
-        and offer.node is not end.node
+        for offer in unused.get(connection.endpoint.type, ())
+        if connection.endpoint.type
+        and offer.node is not connection.node
         and not offer.endpoint.uncertain
-        and share_words(offer.name, end.name)
-        and numbers_in(offer.name) == numbers_in(end.name)
+        and share_words(offer.name, connection.name)
+        and numbers_in(offer.name) == numbers_in(connection.name)
     ]
     return alike[0] if len(alike) == 1 else None
 

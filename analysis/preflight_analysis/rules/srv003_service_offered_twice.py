@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -31,15 +31,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             found.setdefault(key, []).append((channel.name, servers))
     for (location, nodes), offered in found.items():
         names, servers = [name for name, _ in offered], offered[0][1]
-        sure = not any(c.endpoint.uncertain for _, ends in offered for c in ends)
+        sure = not any(c.endpoint.uncertain for _, connections in offered for c in connections)
         subject = f"service {quoted(names)} is" if len(names) == 1 else f"services {quoted(names)} are"
         yield rule.finding(
             f"{subject} offered by {' and '.join(nodes)}: {said}",
             location,
             severity="info" if any(c.endpoint.assumed for c in servers) else None,
             confidence="likely" if sure else "possible",
-            related=(*(related_end(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
-            ends=ends_of(*(c for _, ends in offered for c in ends)),
+            related=(*(related_endpoint(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+            endpoints=endpoints_of(*(c for _, connections in offered for c in connections)),
         )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.rules.idle_remaps import meant_ends
+from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import (
     NearMiss,
     by_type,
@@ -16,7 +16,7 @@ from preflight_analysis.rules.near_miss import (
     topic_near_misses,
     weight,
 )
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -26,7 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     # Where a remap that has no effect was meant for the end, TOP004 says so, with the better fix.
-    remapped = context.once(meant_ends)
+    remapped = context.once(meant_endpoints)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
     dangling, whole = by_type(context.once(dangling_topic_providers)), nodes_looked_at(graph)
@@ -38,18 +38,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity=severity,
             confidence=confidence,
             related=(
-                related_end(pair.other, "publishes" if pair.other is pair.provider else "subscribes to"),
+                related_endpoint(pair.other, "publishes" if pair.other is pair.provider else "subscribes to"),
                 *include_chain(pair.site.node.origin),
             ),
             fixes=fixes(context, pair),
-            ends=ends_of(pair.consumer, pair.provider),
+            endpoints=endpoints_of(pair.consumer, pair.provider),
         )
     explained = {id(pair.consumer) for pair in near} | remapped
-    for end in dangling_consumers(context, "topics"):
-        if id(end) not in explained and not graph.blind:
-            sure = graph.complete and not end.endpoint.uncertain
-            lone = lone_of_type(end, dangling)
-            yield context.kept.get(_hint, (end.name, end.node.name), rule, whole, end, lone, sure)
+    for connection in dangling_consumers(context, "topics"):
+        if id(connection) not in explained and not graph.blind:
+            sure = graph.complete and not connection.endpoint.uncertain
+            lone = lone_of_type(connection, dangling)
+            yield context.kept.get(_hint, (connection.name, connection.node.name), rule, whole, connection, lone, sure)
 
 
 def _near_message(graph: Graph, pair: NearMiss) -> str:
@@ -65,20 +65,20 @@ def _near_message(graph: Graph, pair: NearMiss) -> str:
     )
 
 
-def _hint(rule: Rule, whole: str, end: Connection, lone: Connection | None, sure: bool) -> Finding:
-    kind = f" ({end.endpoint.type})" if end.endpoint.type else ""
-    message = f"{whole} publishes '{end.name}'{kind}, to which {end.node.name} subscribes"
-    related = include_chain(end.node.origin)
+def _hint(rule: Rule, whole: str, connection: Connection, lone: Connection | None, sure: bool) -> Finding:
+    kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
+    message = f"{whole} publishes '{connection.name}'{kind}, to which {connection.node.name} subscribes"
+    related = include_chain(connection.node.origin)
     if lone is not None:
         message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
-        related = (related_end(lone, "publishes"), *related)
+        related = (related_endpoint(lone, "publishes"), *related)
     return rule.finding(
         message,
-        connection_location(end),
+        connection_location(connection),
         severity="hint",
         confidence="likely" if sure else "possible",
         related=related,
-        ends=ends_of(end),
+        endpoints=endpoints_of(connection),
     )
 
 

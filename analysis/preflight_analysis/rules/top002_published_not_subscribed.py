@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.idle_remaps import meant_ends
+from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import dangling_topic_providers, topic_near_misses
-from preflight_analysis.rules.places import connection_location, ends_of
+from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -16,25 +16,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None or graph.blind:
         return
-    reported = {id(pair.provider) for pair in context.once(topic_near_misses)} | context.once(meant_ends)
+    reported = {id(pair.provider) for pair in context.once(topic_near_misses)} | context.once(meant_endpoints)
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     at: dict[tuple[Location, str], list[Connection]] = {}
-    for end in context.once(dangling_topic_providers):
-        if id(end) not in reported:
-            at.setdefault((connection_location(end), end.node.name), []).append(end)
+    for connection in context.once(dangling_topic_providers):
+        if id(connection) not in reported:
+            at.setdefault((connection_location(connection), connection.node.name), []).append(connection)
     for (location, node), dangling in at.items():
-        sure = graph.complete and not any(end.endpoint.uncertain for end in dangling)
+        sure = graph.complete and not any(connection.endpoint.uncertain for connection in dangling)
         yield context.kept.get(_finding, (location, node), rule, location, tuple(dangling), sure)
 
 
-def _finding(rule: Rule, location: Location, ends: tuple[Connection, ...], sure: bool) -> Finding:
-    topics, node = quoted(sorted({end.name for end in ends})), ends[0].node
+def _finding(rule: Rule, location: Location, connections: tuple[Connection, ...], sure: bool) -> Finding:
+    topics, node = quoted(sorted({connection.name for connection in connections})), connections[0].node
     return rule.finding(
         f"no node of this launch subscribes to {topics}, published by {node.name}",
         location,
         confidence="likely" if sure else "possible",
         related=include_chain(node.origin),
-        ends=ends_of(*ends),
+        endpoints=endpoints_of(*connections),
     )
 
 

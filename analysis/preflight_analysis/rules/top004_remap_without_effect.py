@@ -8,7 +8,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import IdleRemap, idle_remaps
-from preflight_analysis.rules.places import ends_of, related_end
+from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -43,17 +43,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             remap.source_location,
             confidence="likely" if idle.partner is not None and not meant.endpoint.uncertain else "possible",
             related=(
-                *((related_end(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
+                *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
                 *include_chain(remap.origin),
             ),
             fixes=_fix(context, idle, meant),
-            ends=ends_of(meant, *((idle.partner,) if idle.partner else ())),
+            endpoints=endpoints_of(meant, *((idle.partner,) if idle.partner else ())),
         )
 
 
-def _given(end: Connection) -> str:
+def _given(connection: Connection) -> str:
     """A name as the node gave it: what a `from` in its tag would say."""
-    return end.endpoint.name
+    return connection.endpoint.name
 
 
 def _fix(context: Context, idle: IdleRemap, meant: Connection) -> tuple[Fix, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_transform
@@ -32,38 +32,47 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for channel in context.graph.topics.values():
         if len(channel.providers) < 2 or is_transform(channel.name):
             continue
-        ends = list({c.node.name: c for c in channel.providers if not (c.endpoint.builtin or c.action)}.values())
-        latched = [end for end in ends if end.endpoint.qos.get("latch") is True and not _is_shared(end)]
-        if channel.name == "/clock" and len(ends) > 1:
-            yield _finding(rule, channel, ends, "warning", "time jumps between them")
+        connections = list({c.node.name: c for c in channel.providers if not (c.endpoint.builtin or c.action)}.values())
+        latched = [
+            connection
+            for connection in connections
+            if connection.endpoint.qos.get("latch") is True and not _is_shared(connection)
+        ]
+        if channel.name == "/clock" and len(connections) > 1:
+            yield _finding(rule, channel, connections, "warning", "time jumps between them")
         elif len(latched) > 1:
             severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
             consequence = "each latches its last message, and a new subscriber gets both in any order"
             yield _finding(rule, channel, latched, severity, consequence)
-        elif len(ends) > 1 and (stream := _one_stream(ends)) is not None:
-            yield _finding(rule, channel, ends, stream, "a subscriber gets the messages of both in turn")
+        elif len(connections) > 1 and (stream := _one_stream(connections)) is not None:
+            yield _finding(rule, channel, connections, stream, "a subscriber gets the messages of both in turn")
 
 
-def _one_stream(ends: list[Connection]) -> Severity | None:
+def _one_stream(connections: list[Connection]) -> Severity | None:
     """How severe it is that these publish on one topic, None where they may."""
-    types = {end.endpoint.type for end in ends}
+    types = {connection.endpoint.type for connection in connections}
     return _STREAMS.get(types.pop() or "") if len(types) == 1 else None
 
 
-def _is_shared(end: Connection) -> bool:
-    return (end.endpoint.type or "").startswith(_SHARED)
+def _is_shared(connection: Connection) -> bool:
+    return (connection.endpoint.type or "").startswith(_SHARED)
 
 
-def _finding(rule: Rule, channel: Channel, ends: list[Connection], severity: Severity, consequence: str) -> Finding:
-    ends = sorted(ends, key=lambda end: end.remap is not None)
-    sure = not any(end.endpoint.uncertain for end in ends)
+def _finding(
+    rule: Rule, channel: Channel, connections: list[Connection], severity: Severity, consequence: str
+) -> Finding:
+    connections = sorted(connections, key=lambda connection: connection.remap is not None)
+    sure = not any(connection.endpoint.uncertain for connection in connections)
     return rule.finding(
-        f"'{channel.name}' is published by {' and '.join(end.node.name for end in ends)}: {consequence}",
-        connection_location(ends[-1]),
-        severity="info" if any(end.endpoint.assumed for end in ends) else severity,
+        f"'{channel.name}' is published by {' and '.join(c.node.name for c in connections)}: {consequence}",
+        connection_location(connections[-1]),
+        severity="info" if any(connection.endpoint.assumed for connection in connections) else severity,
         confidence="likely" if sure else "possible",
-        related=(*(related_end(end, "publishes") for end in ends[:-1]), *include_chain(ends[-1].node.origin)),
-        ends=ends_of(*ends),
+        related=(
+            *(related_endpoint(connection, "publishes") for connection in connections[:-1]),
+            *include_chain(connections[-1].node.origin),
+        ),
+        endpoints=endpoints_of(*connections),
     )
 
 

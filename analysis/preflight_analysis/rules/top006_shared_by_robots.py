@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_transform, may_dangle
@@ -42,36 +42,39 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 break
 
 
-def _twins(channel: Channel, ends: tuple[Connection, ...]) -> dict[_Kind, _Pair]:
+def _twins(channel: Channel, connections: tuple[Connection, ...]) -> dict[_Kind, _Pair]:
     """Nodes that are started in two namespaces, of which none is in the other, while the topic is in neither."""
     first: dict[_Kind, Connection] = {}
     found: dict[_Kind, _Pair] = {}
-    for end in ends:
-        namespace, kind = end.node.namespace, (end.node.package, end.node.executable)
-        known = may_dangle(channel.name, end.endpoint) or (end.endpoint.type or "").startswith(_SHARED)
-        if namespace == "/" or known or end.action is not None or channel.name.startswith(namespace):
+    for connection in connections:
+        namespace, kind = connection.node.namespace, (connection.node.package, connection.node.executable)
+        known = may_dangle(channel.name, connection.endpoint) or (connection.endpoint.type or "").startswith(_SHARED)
+        if namespace == "/" or known or connection.action is not None or channel.name.startswith(namespace):
             continue
-        other = first.setdefault(kind, end)
+        other = first.setdefault(kind, connection)
         apart = not namespace.startswith(other.node.namespace) and not other.node.namespace.startswith(namespace)
         if apart and kind not in found:
-            found[kind] = other, end
+            found[kind] = other, connection
     return found
 
 
 def _same(pair: _Pair, mine: Connection, theirs: Connection) -> bool:
     """Whether these are of the same two robots."""
-    return {end.node.namespace for end in pair} == {mine.node.namespace, theirs.node.namespace}
+    return {connection.node.namespace for connection in pair} == {mine.node.namespace, theirs.node.namespace}
 
 
 def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hearing: _Pair) -> Finding:
     mine, theirs = saying
-    listener = next(end for end in hearing if end.node.namespace == mine.node.namespace)
+    listener = next(connection for connection in hearing if connection.node.namespace == mine.node.namespace)
     names = f"{theirs.node.name} as well as {mine.node.name}"
-    ends = (*saying, *hearing)
+    connections = (*saying, *hearing)
     # A name like `/fleet/poses` that the code itself has is rather meant so than `/cmd_vel`.
-    meant = channel.name.count("/") > 1 and not any(end.remap for end in ends)
-    assumed = any(end.endpoint.assumed for end in ends)
-    related = [related_end(mine, "publishes"), *(related_end(end, "subscribes") for end in hearing)]
+    meant = channel.name.count("/") > 1 and not any(connection.remap for connection in connections)
+    assumed = any(connection.endpoint.assumed for connection in connections)
+    related = [
+        related_endpoint(mine, "publishes"),
+        *(related_endpoint(connection, "subscribes") for connection in hearing),
+    ]
     return rule.finding(
         f"{listener.node.name} hears {names}: '{channel.name}' is outside of their namespaces, so both robots share it",
         connection_location(theirs),
@@ -79,15 +82,17 @@ def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hear
         confidence="possible" if meant else "likely",
         related=(*related, *include_chain(theirs.node.origin)),
         fixes=_fixes(context, theirs),
-        ends=ends_of(*ends),
+        endpoints=endpoints_of(*connections),
     )
 
 
-def _fixes(context: Context, end: Connection) -> tuple[Fix, ...]:
+def _fixes(context: Context, connection: Connection) -> tuple[Fix, ...]:
     """The target of the remap without its slash."""
-    if end.remap is None or not end.remap.target.startswith("/"):
+    if connection.remap is None or not connection.remap.target.startswith("/"):
         return ()
-    return rename(context, end.remap.target_location, end.remap.target, end.remap.target.lstrip("/"))
+    return rename(
+        context, connection.remap.target_location, connection.remap.target, connection.remap.target.lstrip("/")
+    )
 
 
 RULE = Rule(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.places import connection_location, ends_of, related_end
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Rule
 
@@ -25,8 +25,10 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
     for channel in channels.values():
         # Of those that are alike the first one is told; a topic that all nodes share has many.
         providers: dict[tuple[str | None, str | None, bool], Connection] = {}
-        for end in channel.providers:
-            providers.setdefault((end.endpoint.type, end.endpoint.md5, end.action is None), end)
+        for connection in channel.providers:
+            providers.setdefault(
+                (connection.endpoint.type, connection.endpoint.md5, connection.action is None), connection
+            )
         for consumer in channel.consumers:
             reported: set[tuple[str | None, str]] = set()
             for provider in providers.values():
@@ -48,10 +50,10 @@ def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs:
                     severity="info" if consumer.endpoint.assumed or provider.endpoint.assumed else None,
                     confidence=_confidence(graph, consumer, provider),
                     related=(
-                        related_end(other, verbs.provides if other is provider else verbs.consumes),
+                        related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
                         *include_chain(site.node.origin),
                     ),
-                    ends=ends_of(consumer, provider),
+                    endpoints=endpoints_of(consumer, provider),
                 )
 
 
@@ -72,12 +74,12 @@ def _difference(consumer: Connection, provider: Connection) -> str | None:
     return None
 
 
-def _confidence(graph: Graph, *ends: Connection) -> Confidence:
+def _confidence(graph: Graph, *connections: Connection) -> Confidence:
     """Types that a run showed are certain; those of an annotation are the user's word, source code is only read."""
-    if any(end.endpoint.assumed for end in ends):
+    if any(connection.endpoint.assumed for connection in connections):
         return "possible"
-    for end in ends:
-        index = next(i for i, node in enumerate(graph.tree.nodes) if node is end.node)
-        if end.endpoint.speculative or graph.interfaces[index].source != "trace":
+    for connection in connections:
+        index = next(i for i, node in enumerate(graph.tree.nodes) if node is connection.node)
+        if connection.endpoint.speculative or graph.interfaces[index].source != "trace":
             return "likely"
     return "certain"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from preflight_analysis.snapshot.files import node_json
-from preflight_analysis.snapshot.model import GROUPS, End, NodeSnapshot, Snapshot
+from preflight_analysis.snapshot.model import GROUPS, EndpointSnapshot, NodeSnapshot, Snapshot
 
 Kind = Literal["added", "removed", "changed"]
 CHANNELS = (
@@ -63,7 +63,7 @@ class Difference:
         return not self.changes and not self.links
 
 
-_Ends = dict[str, Mapping[str, End]]
+_Endpoints = dict[str, Mapping[str, EndpointSnapshot]]
 
 
 def difference(before: Snapshot, after: Snapshot) -> Difference:
@@ -72,7 +72,7 @@ def difference(before: Snapshot, after: Snapshot) -> Difference:
     changes += _of_names("error", None, dict.fromkeys(before.errors), dict.fromkeys(after.errors))
     changes += _of_names("unknown", None, dict.fromkeys(before.unknown), dict.fromkeys(after.unknown))
     changes += _of_names("parameter", None, before.parameters, after.parameters)
-    links: dict[Kind, dict[str, _Ends]] = {"removed": {}, "added": {}}
+    links: dict[Kind, dict[str, _Endpoints]] = {"removed": {}, "added": {}}
     not_compared: dict[str, str] = {}
     for name in sorted({*before.nodes, *after.nodes}):
         old, new = before.nodes.get(name), after.nodes.get(name)
@@ -82,7 +82,7 @@ def difference(before: Snapshot, after: Snapshot) -> Difference:
             kind: Kind = "removed" if new is None else "added"
             shown = node_json(there)
             changes.append(Change(kind, "node", name, None, *((shown, None) if new is None else (None, shown))))
-            links[kind][name] = dict(there.ends)
+            links[kind][name] = dict(there.endpoints)
             continue
         changes += _of_node(name, old, new)
         reason = _why_not(old, new)
@@ -105,7 +105,7 @@ def _of_node(name: str, old: NodeSnapshot, new: NodeSnapshot) -> Iterator[Change
             before, after = befores.get(of), afters.get(of)
             if before is None or after is None:
                 kind: Kind = "removed" if after is None else "added"
-                yield Change(kind, role, name, of, _end_json(before), _end_json(after))
+                yield Change(kind, role, name, of, _endpoint_json(before), _endpoint_json(after))
             elif differ := _differs(before, after, old.interface == new.interface):
                 yield Change("changed", role, name, of, *differ)
     yield from _of_names("parameter", name, old.parameters, new.parameters)
@@ -139,11 +139,11 @@ def _witness(side: NodeSnapshot, other: NodeSnapshot) -> bool:
     return side.known and (side.sure or alike)
 
 
-def _believed(old: NodeSnapshot, new: NodeSnapshot) -> tuple[_Ends, _Ends]:
+def _believed(old: NodeSnapshot, new: NodeSnapshot) -> tuple[_Endpoints, _Endpoints]:
     """The ends of both sides, with what a side that is no witness lacks taken from the other."""
-    was, becomes = dict(old.ends), dict(new.ends)
+    was, becomes = dict(old.endpoints), dict(new.endpoints)
     for role in GROUPS.values():
-        of_old, of_new = old.ends.get(role, {}), new.ends.get(role, {})
+        of_old, of_new = old.endpoints.get(role, {}), new.endpoints.get(role, {})
         if not _witness(old, new):
             was[role] = {**of_new, **of_old}
         if not _witness(new, old):
@@ -168,10 +168,12 @@ def _why_not(old: NodeSnapshot, new: NodeSnapshot) -> str | None:
     return None
 
 
-def _differs(before: End, after: End, alike: bool) -> tuple[dict[str, Any], dict[str, Any]] | None:
+def _differs(
+    before: EndpointSnapshot, after: EndpointSnapshot, alike: bool
+) -> tuple[dict[str, Any], dict[str, Any]] | None:
     """What is not the same of an end's type and QoS. What one side does not know is no difference, unless both know by
     the same means."""
-    old, new = _end_json(before) or {}, _end_json(after) or {}
+    old, new = _endpoint_json(before) or {}, _endpoint_json(after) or {}
     keys = [key for key in {**old, **new} if alike or (old.get(key) is not None and new.get(key) is not None)]
     changed = [key for key in keys if not _equal(old.get(key), new.get(key))]
     if not changed:
@@ -179,17 +181,17 @@ def _differs(before: End, after: End, alike: bool) -> tuple[dict[str, Any], dict
     return {key: old.get(key) for key in changed}, {key: new.get(key) for key in changed}
 
 
-def _end_json(end: End | None) -> dict[str, Any] | None:
-    return None if end is None else {"type": end.type, **end.qos}
+def _endpoint_json(endpoint: EndpointSnapshot | None) -> dict[str, Any] | None:
+    return None if endpoint is None else {"type": endpoint.type, **endpoint.qos}
 
 
-def _links(nodes: Mapping[str, _Ends]) -> set[tuple[str, str, str, str]]:
+def _links(nodes: Mapping[str, _Endpoints]) -> set[tuple[str, str, str, str]]:
     found: set[tuple[str, str, str, str]] = set()
     for what, providing, consuming in CHANNELS:
         sides: dict[str, tuple[list[str], list[str]]] = {}
-        for node, ends in nodes.items():
+        for node, endpoints in nodes.items():
             for role, side in ((providing, 0), (consuming, 1)):
-                for name in ends.get(role, ()):
+                for name in endpoints.get(role, ()):
                     sides.setdefault(name, ([], []))[side].append(node)
         found.update(
             (what, name, a, b) for name, (providers, consumers) in sides.items() for a in providers for b in consumers

@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.snapshot.model import GROUPS, SCHEMA, End, NodeSnapshot, Snapshot
+from preflight_analysis.snapshot.model import GROUPS, SCHEMA, EndpointSnapshot, NodeSnapshot, Snapshot
 
 _INTRODUCTION = """\
 # What this launch configuration is expected to start, and who talks to whom then.
@@ -117,9 +117,9 @@ def node_json(node: NodeSnapshot) -> dict[str, Any]:
         "interface": node.interface,
         **({"outcome": node.outcome} if node.outcome != "not-run" else {}),
         **{
-            group: {name: {"type": end.type, **end.qos} for name, end in node.ends[role].items()}
+            group: {name: {"type": endpoint.type, **endpoint.qos} for name, endpoint in node.endpoints[role].items()}
             for group, role in GROUPS.items()
-            if node.ends.get(role)
+            if node.endpoints.get(role)
         },
         **_given(
             parameters=dict(node.parameters),
@@ -150,18 +150,18 @@ def _dump(data: Mapping[str, Any]) -> str:
 
 
 def _node(data: Mapping[str, Any], name: str) -> NodeSnapshot:
-    ends: dict[str, dict[str, End]] = {}
+    endpoints: dict[str, dict[str, EndpointSnapshot]] = {}
     for group, role in GROUPS.items():
         found = _mapping(data, group, f"{name} ")
         if found:
-            ends[role] = {str(of): _end(said, f"{name} {group} {of}") for of, said in found.items()}
+            endpoints[role] = {str(of): _endpoint(said, f"{name} {group} {of}") for of, said in found.items()}
     reads = _mapping(data, "reads", f"{name} ")
     return NodeSnapshot(
         {str(key): value for key, value in data.items() if key not in _NODE_KEYS},
         data.get("from"),
         str(data.get("interface", "none")),
         str(data.get("outcome", "not-run")),
-        ends,
+        endpoints,
         {str(key): value for key, value in _mapping(data, "parameters", f"{name} ").items()},
         {str(key): _mapping(reads, key, f"{name} reads ") for key in reads},
         {str(key): str(value) for key, value in _mapping(data, "remaps", f"{name} ").items()},
@@ -169,14 +169,14 @@ def _node(data: Mapping[str, Any], name: str) -> NodeSnapshot:
     )
 
 
-def _end(said: Any, where: str) -> End:
+def _endpoint(said: Any, where: str) -> EndpointSnapshot:
     """A type, or a mapping with the type and the QoS."""
     if said is None or isinstance(said, str):
-        return End(said)
+        return EndpointSnapshot(said)
     if not isinstance(said, Mapping):
         raise NotASnapshotError(f"has no type at {where}")
     type_ = said.get("type")
-    return End(None if type_ is None else str(type_), {str(k): v for k, v in said.items() if k != "type"})
+    return EndpointSnapshot(None if type_ is None else str(type_), {str(k): v for k, v in said.items() if k != "type"})
 
 
 def _mapping(data: Mapping[Any, Any], key: Any, where: str) -> Mapping[Any, Any]:

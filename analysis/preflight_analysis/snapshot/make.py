@@ -10,7 +10,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.model import Connection, Graph, ParamRead
-from preflight_analysis.snapshot.model import GROUPS, End, NodeSnapshot, Snapshot
+from preflight_analysis.snapshot.model import GROUPS, EndpointSnapshot, NodeSnapshot, Snapshot
 from preflight_analysis.snapshot.portable import Portable
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.workspace.workspace import Analysis
@@ -25,10 +25,10 @@ def snapshot_of(analysis: Analysis, graph: Graph) -> Snapshot:
     """What is to be kept of an analysed launch file and of `graph`, that of its nodes."""
     tree = graph.tree
     portable = Portable(analysis.environment, tree.generation)
-    ends, reads = _by_node(graph)
+    endpoints, reads = _by_node(graph)
     own, shared = _parameters(tree)
     found = [
-        (node, _node(node, interface, ends[id(node)], reads[id(node)], own.get(node.name, ()), portable))
+        (node, _node(node, interface, endpoints[id(node)], reads[id(node)], own.get(node.name, ()), portable))
         for node, interface in zip(tree.nodes, graph.interfaces, strict=True)
     ]
     nodes: dict[str, NodeSnapshot] = {}
@@ -61,17 +61,17 @@ def _written(location: Location, analysis: Analysis) -> str:
 
 
 def _by_node(graph: Graph) -> tuple[dict[int, list[Connection]], dict[int, list[ParamRead]]]:
-    ends: dict[int, list[Connection]] = {id(node): [] for node in graph.tree.nodes}
+    endpoints: dict[int, list[Connection]] = {id(node): [] for node in graph.tree.nodes}
     for channels in (graph.topics, graph.services, graph.actions):
         for channel in channels.values():
             for connection in (*channel.providers, *channel.consumers):
                 if not connection.endpoint.builtin and connection.action is None:
-                    ends[id(connection.node)].append(connection)
+                    endpoints[id(connection.node)].append(connection)
     reads: dict[int, list[ParamRead]] = {id(node): [] for node in graph.tree.nodes}
     for read in graph.param_reads:
         if not read.use.builtin and read.use.access not in ("set", "delete"):
             reads[id(read.node)].append(read)
-    return ends, reads
+    return endpoints, reads
 
 
 def _parameters(tree: LaunchTree) -> tuple[dict[str, list[Param]], list[Param]]:
@@ -121,7 +121,7 @@ def _node(
         portable.text(node.location.file),
         interface.source,
         _outcome(interface.outcome),
-        {role: ends for role in GROUPS.values() if (ends := _ends(role, connections))},
+        {role: endpoints for role in GROUPS.values() if (endpoints := _endpoints(role, connections))},
         {name: values[name] for name in sorted(values)},
         _reads(reads, portable),
         {remap.source: remap.target for remap in sorted(node.remaps, key=lambda each: each.source)},
@@ -135,7 +135,7 @@ def _outcome(outcome: Outcome) -> str:
     )
 
 
-def _ends(role: str, connections: Iterable[Connection]) -> dict[str, End]:
+def _endpoints(role: str, connections: Iterable[Connection]) -> dict[str, EndpointSnapshot]:
     """The ends of one role by name. Two of one name and of different types count as one of both."""
     types: dict[str, set[str]] = {}
     qos: dict[str, Mapping[str, Any]] = {}
@@ -146,7 +146,7 @@ def _ends(role: str, connections: Iterable[Connection]) -> dict[str, End]:
                 of_name.add(connection.endpoint.type)
             qos.setdefault(connection.name, json_value(dict(connection.endpoint.qos)))
     return {
-        name: End(
+        name: EndpointSnapshot(
             " | ".join(sorted(types[name])) or None,
             {key: value for key, value in sorted(qos[name].items()) if value is not None},
         )

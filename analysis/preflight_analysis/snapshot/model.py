@@ -21,7 +21,7 @@ SURE_OUTCOMES = ("spinning", "exited")
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class EndpointSnapshot:
     """One end of a topic, service or action under its final name. `type` None: not known."""
 
     type: str | None
@@ -39,7 +39,7 @@ class NodeSnapshot:
     """What its ends are known by, as in `graph --format json`."""
     outcome: str = "not-run"
     """How its run ended; an exit code other than 0 follows."""
-    ends: Mapping[str, Mapping[str, End]] = field(default_factory=dict)
+    endpoints: Mapping[str, Mapping[str, EndpointSnapshot]] = field(default_factory=dict)
     """By role, by final name; without those that every node has by its client library."""
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """What the launch files set, without the node's name."""

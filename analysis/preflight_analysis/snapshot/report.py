@@ -136,7 +136,7 @@ def _describe(change: Change) -> str:
     if change.what in GROUPS.values():
         if change.kind == "changed":
             return f"{words}  {', '.join(_steps(change))}"
-        return f"{words}  {_end(change.before or change.after)}"
+        return f"{words}  {_endpoint(change.before or change.after)}"
     if change.what in ("error", "unknown"):
         return words
     if change.kind == "changed":
@@ -149,9 +149,9 @@ def _steps(change: Change) -> Iterator[str]:
     return (f"{key} {_value(change.before[key])} -> {_value(change.after[key])}" for key in change.before)
 
 
-def _end(end: Mapping[str, Any]) -> str:
-    qos = ", ".join(f"{key} {_value(value)}" for key, value in end.items() if key != "type")
-    return f"{end['type'] or 'type not known'}{f' ({qos})' if qos else ''}"
+def _endpoint(endpoint: Mapping[str, Any]) -> str:
+    qos = ", ".join(f"{key} {_value(value)}" for key, value in endpoint.items() if key != "type")
+    return f"{endpoint['type'] or 'type not known'}{f' ({qos})' if qos else ''}"
 
 
 def _about(node: Mapping[str, Any]) -> str:
@@ -181,7 +181,7 @@ def _row(change: Change) -> str:
         words, cells = change.what, (change.name or "" if change.kind == kind else "" for kind in ("removed", "added"))
     elif change.what in GROUPS.values():
         whole = change.kind != "changed"
-        cells = ((_end(side) if whole else _qos(side)) if side else "" for side in (change.before, change.after))
+        cells = ((_endpoint(side) if whole else _qos(side)) if side else "" for side in (change.before, change.after))
     else:
         present = ((change.before, change.kind != "added"), (change.after, change.kind != "removed"))
         cells = (_value(side) if there else "" for side, there in present)

@@ -55,7 +55,7 @@ class Collector:
         """There may be a node whose name is not known."""
         self._unknown_nodes = True
 
-    def end(self, endpoint: Endpoint) -> None:
+    def add_endpoint(self, endpoint: Endpoint) -> None:
         """One end that is made."""
         if is_name(endpoint.name) and len(self._endpoints) < _MAX_FOUND:
             self._endpoints.setdefault((endpoint.role, endpoint.name, endpoint.type), endpoint)

@@ -51,7 +51,9 @@ class CppAnalysis:
         if (nodelet := nodelet_of(package, executable, args)) is not None:
             self._nodelet(files, nodelet.plugin, calls)
             if nodelet.manager is not None and (calls.collected.endpoints or calls.collected.params):
-                calls.collected.end(Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad"))
+                calls.collected.add_endpoint(
+                    Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad")
+                )
         elif (program := files.executable(package, executable)) is not None:
             calls.includes = program.includes
             interpret_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)

@@ -109,7 +109,7 @@ class RclcppCalls(Parameters):
         node = node_of(owner)
         role, kind = METHODS.get(name, ("publisher", ""))
         if node is not None and kind and (type_ := self._first(types, kind)) is not None:
-            self._end(role, node.name(value_at(args, 0)), type_, _qos(args[1:]) if kind == "msg" else {}, place)
+            self._endpoint(role, node.name(value_at(args, 0)), type_, _qos(args[1:]) if kind == "msg" else {}, place)
 
     # Objects.
 
@@ -154,9 +154,9 @@ class RclcppCalls(Parameters):
             return Unmade(type_)
         if name in LOADERS:
             self._any_parameter(place)  # what it loads declares its own
-        elif ends := FIXED.get(name):
-            for role, topic, kind in ends:
-                self._end(role, first_node(given).name(topic), kind, {}, place)
+        elif endpoints := FIXED.get(name):
+            for role, topic, kind in endpoints:
+                self._endpoint(role, first_node(given).name(topic), kind, {}, place)
             if name == "diagnostic_updater::Updater":
                 self._declare(first_node(given), "diagnostic_updater.period", 1.0, True, place)
                 self._declare(first_node(given), "diagnostic_updater.use_fqn", False, True, place)
@@ -185,7 +185,7 @@ class RclcppCalls(Parameters):
     def _services(self, services: Sequence[tuple[str, str]], node: NodeObject, place: Place) -> None:
         """The services that a node of the class has by itself."""
         for service, kind in services if not self._in_dead_code else ():
-            self.collected.end(
+            self.collected.add_endpoint(
                 Endpoint("service", node.name(service), kind, None, {}, place.file, place.line, builtin=True)
             )
 
@@ -258,7 +258,9 @@ class RclcppCalls(Parameters):
             text = next((v for v in values(args) if isinstance(v, str)), UNKNOWN)
             message = value_at(args, 0)
             type_ = self._type(message.type, "msg") if isinstance(message, Unmade) else None
-            self._end("subscriber", first_node(values(args)).name(text), type_ or self._first(types, "msg"), {}, place)
+            self._endpoint(
+                "subscriber", first_node(values(args)).name(text), type_ or self._first(types, "msg"), {}, place
+            )
             return UNKNOWN
         if name == "rclcpp::init_and_remove_ros_arguments":
             return value_at(args, 1)
@@ -328,12 +330,12 @@ class RclcppCalls(Parameters):
         if name in METHODS:
             role, kind = METHODS[name]
             type_ = self._first(types, kind) or (self._heard(args) if role == "subscriber" else None)
-            self._end(role, node.name(first), type_, _qos(args[1:]) if kind == "msg" else {}, place)
+            self._endpoint(role, node.name(first), type_, _qos(args[1:]) if kind == "msg" else {}, place)
             return Unmade(CppType("rclcpp::Publisher")) if role == "publisher" else UNKNOWN
         if name in GENERIC:
             type_text = value_at(args, 1)
             known = type_text if isinstance(type_text, str) and _TYPE_TEXT.match(type_text) else None
-            self._end(GENERIC[name], node.name(first), known, rclcpp_qos.of(value_at(args, 2)), place)
+            self._endpoint(GENERIC[name], node.name(first), known, rclcpp_qos.of(value_at(args, 2)), place)
             return UNKNOWN
         if name in DECLARE:
             return self._declare_call(node, types, args, place)
@@ -371,7 +373,7 @@ class RclcppCalls(Parameters):
         if at is None:
             return  # made without a name, or of one that is not known
         qos = _qos(args[at + 1 :]) if kind == "msg" else {}
-        self._end(role, first_node(values(args)).name(args[at].value), self._first(types, kind), qos, place)
+        self._endpoint(role, first_node(values(args)).name(args[at].value), self._first(types, kind), qos, place)
 
     def _image(self, role: Role, with_info: bool, args: Sequence[Argument], place: Place) -> None:
         """By the transport that is known: each has a topic of its own below the image's."""
@@ -384,18 +386,18 @@ class RclcppCalls(Parameters):
         transport = texts[1] if len(texts) > 1 else "raw"
         if role == "subscriber" and transport != "raw":
             kind = "sensor_msgs/msg/CompressedImage" if transport == "compressed" else None
-            self._end(role, node.name(f"{topic}/{transport}"), kind, qos, place)
+            self._endpoint(role, node.name(f"{topic}/{transport}"), kind, qos, place)
         else:
-            self._end(role, node.name(topic), IMAGE, qos, place)
+            self._endpoint(role, node.name(topic), IMAGE, qos, place)
         if with_info:
             info = f"{topic.rpartition('/')[0]}/camera_info" if "/" in topic else "camera_info"
-            self._end(role, node.name(info), INFO, qos, place)
+            self._endpoint(role, node.name(info), INFO, qos, place)
 
     # Endpoints.
 
-    def _end(self, role: Role, name: Any, type_: str | None, qos: Mapping[str, Any], place: Place) -> None:
+    def _endpoint(self, role: Role, name: Any, type_: str | None, qos: Mapping[str, Any], place: Place) -> None:
         if not self._in_dead_code:
-            self.collected.end(Endpoint(role, name, type_, None, qos, place.file, place.line))
+            self.collected.add_endpoint(Endpoint(role, name, type_, None, qos, place.file, place.line))
 
     def _first(self, types: Sequence[CppType], kind: str) -> str | None:
         return self._type(types[0], kind) if types else None

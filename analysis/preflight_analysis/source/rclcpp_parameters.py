@@ -228,8 +228,8 @@ def _described(args: Sequence[Argument], type_: CppType | None) -> ParamUse:
     ranges = [each for name in RANGES.values() if isinstance(about.get(name), list) for each in about[name]]
     found = None
     if len(ranges) == 1 and isinstance(ranges[0], Instance):
-        ends = [ranges[0].names.get(field, 0) for field in ("from_value", "to_value", "step")]
-        found = Range(*ends) if all(isinstance(end, (int, float)) for end in ends) else None
+        bounds = [ranges[0].names.get(field, 0) for field in ("from_value", "to_value", "step")]
+        found = Range(*bounds) if all(isinstance(bound, (int, float)) for bound in bounds) else None
     dynamic = about.get("dynamic_typing", False) is not False
     return replace(use, dynamic=dynamic, read_only=about.get("read_only") is True, range=found)
 

@@ -103,17 +103,17 @@ class RclpyCalls:
             role, kind, (type_name, end_name, qos_name) = _METHODS[method]
             qos = _qos(given(_QOS_AT[method], qos_name)) if method in _QOS_AT else {}
             type_ = _type(given(0, type_name), kind)
-            self.collected.end(Endpoint(role, given(1, end_name), type_, None, qos, file, line))
+            self.collected.add_endpoint(Endpoint(role, given(1, end_name), type_, None, qos, file, line))
             return Imported(f"rclpy.{method}()")
-        if end := _WITH_NODE.get(name):
-            role, kind, (type_name, end_name) = end
-            self.collected.end(
+        if factory := _WITH_NODE.get(name):
+            role, kind, (type_name, end_name) = factory
+            self.collected.add_endpoint(
                 Endpoint(role, given(2, end_name), _type(given(1, type_name), kind), None, {}, file, line)
             )
             return Imported(f"{name}()")
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
-                self.collected.end(Endpoint(role, topic, type_, None, {}, file, line))
+                self.collected.add_endpoint(Endpoint(role, topic, type_, None, {}, file, line))
             return Imported(f"{name}()")
         if name in _DESCRIBING:
             return Instance(Class(name.rpartition(".")[2], {}, ()), dict(kwargs))
@@ -220,9 +220,9 @@ def _described(use: ParamUse, descriptor: Any) -> ParamUse:
     of_double = use.type == "double" or isinstance(use.default, float)
     ranges = about.get("floating_point_range" if of_double else "integer_range")
     if isinstance(ranges, (list, tuple)) and len(ranges) == 1 and isinstance(ranges[0], Instance):
-        ends = [ranges[0].names.get(field, 0) for field in ("from_value", "to_value", "step")]
-        if all(isinstance(end, (int, float)) for end in ends):
-            found = Range(*ends)
+        bounds = [ranges[0].names.get(field, 0) for field in ("from_value", "to_value", "step")]
+        if all(isinstance(bound, (int, float)) for bound in bounds):
+            found = Range(*bounds)
     dynamic = about.get("dynamic_typing", False) is not False
     return replace(use, range=found, dynamic=dynamic, read_only=about.get("read_only") is True)
 

@@ -238,32 +238,32 @@ class RoscppCalls:
             return {}
         if name in ("ros::V_string", "nodelet::V_string"):
             return []
-        if ends := _FIXED.get(name):
-            for role, topic, kind in ends:
-                self._end(role, topic, kind, place)
+        if endpoints := _FIXED.get(name):
+            for role, topic, kind in endpoints:
+                self._endpoint(role, topic, kind, place)
         elif fixed := _AT_HANDLE.get(name):
-            space, ends = fixed
+            space, endpoints = fixed
             within = known if handle is not None else Handle(space)
-            for role, topic, kind in ends:
-                self._end(role, within.name(topic), kind, place)
+            for role, topic, kind in endpoints:
+                self._endpoint(role, within.name(topic), kind, place)
             self._configured(type_, within)
         elif action := _ACTIONS.get(name):
-            self._end(action, known.name(_first_text(given)), self._argument_type(type_, 0), place)
+            self._endpoint(action, known.name(_first_text(given)), self._argument_type(type_, 0), place)
         elif name == "image_transport::TransportHints":
             return self._hints(given, known, place)
         elif name == "interactive_markers::InteractiveMarkerServer":
             base = value_at(args, 0)
             for role, topic, kind in _MARKERS:
-                self._end(role, f"{base}/{topic}" if isinstance(base, str) else UNKNOWN, kind, place)
+                self._endpoint(role, f"{base}/{topic}" if isinstance(base, str) else UNKNOWN, kind, place)
         elif name == "nodelet::Loader" and value_at(args, 0) is not False:
             for service, kind in _LOADER:
-                self._end("service", (known if handle is not None else Handle("~")).name(service), kind, place)
+                self._endpoint("service", (known if handle is not None else Handle("~")).name(service), kind, place)
         elif name in ("message_filters::Subscriber", "image_transport::SubscriberFilter"):
             made = _Made(type_, known)
             self._filter(made, given, place)
             return made
         elif name == "realtime_tools::RealtimePublisher" and args:
-            self._end("publisher", known.name(_first_text(given)), self._argument_type(type_, 0), place)
+            self._endpoint("publisher", known.name(_first_text(given)), self._argument_type(type_, 0), place)
         return _Made(type_, known) if name.startswith("image_transport::") else Unmade(type_)
 
     def _configured(self, type_: CppType, handle: Handle) -> None:
@@ -303,7 +303,7 @@ class RoscppCalls:
                 self._image("subscriber", transport.handle.name(_first_text(given)), given, place)
         elif given:
             handle = _handle(next((v for v in given if _is_handle(v)), None))
-            self._end("subscriber", handle.name(_first_text(given)), self._argument_type(made.type, 0), place)
+            self._endpoint("subscriber", handle.name(_first_text(given)), self._argument_type(made.type, 0), place)
 
     # Calls.
 
@@ -336,17 +336,17 @@ class RoscppCalls:
                 return self._resolved(asked)
             case "ros::topic::waitForMessage":
                 handle = _handle(next((v for v in values(args) if _is_handle(v)), None))
-                self._end("subscriber", handle.name(first), self._message(types), place)
+                self._endpoint("subscriber", handle.name(first), self._message(types), place)
                 return UNKNOWN
             case "ros::service::waitForService" | "ros::service::exists":
                 if leaf == "waitForService":
                     self.collected.await_service(Endpoint("client", first, None, None, {}, place.file, place.line))
                 return UNKNOWN
             case "ros::service::call":
-                self._end("client", first, self._service_of(value_at(args, 1)), place)
+                self._endpoint("client", first, self._service_of(value_at(args, 1)), place)
                 return UNKNOWN
             case "ros::service::createClient":
-                self._end("client", first, self._message(types), place)
+                self._endpoint("client", first, self._message(types), place)
                 return UNKNOWN
         if space == "ros::param" and leaf in _FREE_PARAMS:
             return self._param_call(_PARAMS[leaf], Handle(""), leaf == "param", types, args, place, store)
@@ -383,7 +383,7 @@ class RoscppCalls:
         if isinstance(owner, Unmade) and name == "advertise" and owner.type.name in _ANY_MESSAGE:
             handle = value_at(args, 0)
             topic = _handle(handle).name(value_at(args, 1)) if _is_handle(handle) else UNKNOWN
-            self._end("publisher", topic, None, place)
+            self._endpoint("publisher", topic, None, place)
         if (
             isinstance(owner, Unmade)
             and owner.type.name == "urdf::Model"
@@ -407,21 +407,21 @@ class RoscppCalls:
         match name:
             case "advertise":
                 if isinstance(first, _Options):
-                    self._end("publisher", handle.name(first.name), first.type, place)
+                    self._endpoint("publisher", handle.name(first.name), first.type, place)
                 else:
-                    self._end("publisher", topic, self._message(types), place, _qos(args))
+                    self._endpoint("publisher", topic, self._message(types), place, _qos(args))
             case "subscribe":
                 if isinstance(first, _Options):
-                    self._end("subscriber", handle.name(first.name), first.type, place)
+                    self._endpoint("subscriber", handle.name(first.name), first.type, place)
                 else:
-                    self._end("subscriber", topic, self._message(types) or self._heard(args), place)
+                    self._endpoint("subscriber", topic, self._message(types) or self._heard(args), place)
             case "advertiseService":
                 if isinstance(first, _Options):
-                    self._end("service", handle.name(first.name), first.type, place)
+                    self._endpoint("service", handle.name(first.name), first.type, place)
                 else:
-                    self._end("service", topic, self._served(types, args), place)
+                    self._endpoint("service", topic, self._served(types, args), place)
             case "serviceClient":
-                self._end("client", topic, self._message(types[:1]), place)
+                self._endpoint("client", topic, self._message(types[:1]), place)
             case "getNamespace" | "getUnresolvedNamespace":
                 return self._resolved(handle.space)
             case "resolveName":
@@ -438,14 +438,14 @@ class RoscppCalls:
         elif owner.type.name == "image_transport::ImageTransport":
             topic = owner.handle.name(value_at(args, 0))
             if name in ("advertise", "advertiseCamera"):
-                self._end("publisher", topic, _IMAGE, place, _qos(args))
+                self._endpoint("publisher", topic, _IMAGE, place, _qos(args))
             elif name in ("subscribe", "subscribeCamera"):
                 self._image("subscriber", topic, given[1:], place)
             if name in ("advertiseCamera", "subscribeCamera") and isinstance(topic, str):
                 info = "camera_info" if "/" not in topic else f"{topic.rpartition('/')[0]}/camera_info"
                 if topic.startswith("~") and "/" not in topic:
                     info = "~camera_info"
-                self._end("publisher" if name == "advertiseCamera" else "subscriber", info, _INFO, place)
+                self._endpoint("publisher" if name == "advertiseCamera" else "subscriber", info, _INFO, place)
         return UNKNOWN
 
     def _image(self, role: Role, topic: Any, given: Sequence[Any], place: Place) -> None:
@@ -454,9 +454,9 @@ class RoscppCalls:
         if transport is None:
             transport = self._hints((), Handle(""), place)
         if transport == "compressed" and isinstance(topic, str):
-            self._end(role, f"{topic}/compressed", "sensor_msgs/CompressedImage", place)
+            self._endpoint(role, f"{topic}/compressed", "sensor_msgs/CompressedImage", place)
         elif transport not in ("theora", "compressedDepth"):
-            self._end(role, topic, _IMAGE, place)
+            self._endpoint(role, topic, _IMAGE, place)
 
     # Parameters.
 
@@ -533,12 +533,12 @@ class RoscppCalls:
         known = isinstance(name, str) and names.is_legal(name)
         return names.canonicalize(names.resolve(name, self._node, self._remaps)) if known else UNKNOWN
 
-    def _end(
+    def _endpoint(
         self, role: Role, name: Any, type_: str | None, place: Place, qos: Mapping[str, Any] | None = None
     ) -> None:
         if self.loaded is not None and is_name(name):
             name = self.loaded.remaps.get(names.resolve(name, self._node), name)
-        self.collected.end(Endpoint(role, name, type_, None, qos or {}, place.file, place.line))
+        self.collected.add_endpoint(Endpoint(role, name, type_, None, qos or {}, place.file, place.line))
 
     def _message(self, types: Sequence[CppType]) -> str | None:
         return self._type(types[0]) if types else None

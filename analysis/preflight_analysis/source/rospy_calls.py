@@ -19,7 +19,7 @@ _TOPIC_TYPES = ("msg",)
 _SERVICE_TYPES = ("srv",)
 _TF = "tf2_msgs/TFMessage"
 
-_ENDS: Mapping[str, tuple[Role, tuple[str, str], tuple[str, ...]]] = {
+_ENDPOINTS: Mapping[str, tuple[Role, tuple[str, str], tuple[str, ...]]] = {
     "rospy.Publisher": ("publisher", ("name", "data_class"), _TOPIC_TYPES),
     "rospy.Subscriber": ("subscriber", ("name", "data_class"), _TOPIC_TYPES),
     "rospy.wait_for_message": ("subscriber", ("topic", "topic_type"), _TOPIC_TYPES),
@@ -93,15 +93,15 @@ class RospyCalls:
         def given(index: int, keyword: str) -> Any:
             return args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN)
 
-        if end := _ENDS.get(name):
-            role, (first, second), kinds = end
+        if factory := _ENDPOINTS.get(name):
+            role, (first, second), kinds = factory
             type_ = self._type(given(1, second), kinds)
             qos = {"latch": True} if role == "publisher" and kwargs.get("latch") is True else {}
-            self.collected.end(Endpoint(role, given(0, first), type_, None, qos, file, line))
+            self.collected.add_endpoint(Endpoint(role, given(0, first), type_, None, qos, file, line))
             return Imported(f"{name}()")
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
-                self.collected.end(Endpoint(role, topic, type_, None, {}, file, line))
+                self.collected.add_endpoint(Endpoint(role, topic, type_, None, {}, file, line))
             if name == "dynamic_reconfigure.Server":
                 self._configured(given(0, "type"))
             return Imported(f"{name}()")

@@ -123,18 +123,18 @@ class _Builder:
         self._graph = graph
         self._documents = documents
         self._findings: list[ViewFinding] = []
-        self._of_ends: dict[tuple[str, str, str], list[int]] = {}
+        self._of_endpoints: dict[tuple[str, str, str], list[int]] = {}
         self._of_nodes: dict[int, list[int]] = {}
         tags = _tags(graph.tree.nodes)
         for finding in findings:
-            nodes = [] if finding.ends else _nodes_at(tags, finding.location)
-            if not finding.ends and not nodes:
+            nodes = [] if finding.endpoints else _nodes_at(tags, finding.location)
+            if not finding.endpoints and not nodes:
                 continue
             index = len(self._findings)
             shown = ViewFinding(finding.rule, finding.severity, finding.message, self._place(finding.location))
             self._findings.append(shown)
-            for end in dict.fromkeys(finding.ends):
-                self._of_ends.setdefault(end, []).append(index)
+            for connection in dict.fromkeys(finding.endpoints):
+                self._of_endpoints.setdefault(connection, []).append(index)
             for node in nodes:
                 self._of_nodes.setdefault(node, []).append(index)
 
@@ -151,11 +151,11 @@ class _Builder:
         )
         for kind, named in all_channels:
             for channel in named.values():
-                ends = (*channel.providers, *channel.consumers)
-                if all(end.action is not None for end in ends):
+                connections = (*channel.providers, *channel.consumers)
+                if all(connection.action is not None for connection in connections):
                     continue
                 at = len(channels)
-                made = [self._edge(kind, end, index[id(end.node)], at) for end in ends]
+                made = [self._edge(kind, connection, index[id(connection.node)], at) for connection in connections]
                 finding_ids = tuple(dict.fromkeys(i for edge in made for i in edge.findings))
                 builtin = all(edge.builtin for edge in made)
                 channels.append(ViewChannel(kind, channel.name, channel.types, builtin, channel.external, finding_ids))
@@ -184,9 +184,9 @@ class _Builder:
             tuple(self._of_nodes.get(index, ())),
         )
 
-    def _edge(self, kind: Kind, end: Connection, node: int, channel: int) -> ViewEdge:
-        endpoint = end.endpoint
-        launch = end.remap.target_location if end.remap is not None else end.node.location
+    def _edge(self, kind: Kind, connection: Connection, node: int, channel: int) -> ViewEdge:
+        endpoint = connection.endpoint
+        launch = connection.remap.target_location if connection.remap is not None else connection.node.location
         source = (
             (Place(endpoint.source_file, endpoint.source_line),)
             if endpoint.source_file is not None and endpoint.source_line is not None
@@ -198,11 +198,11 @@ class _Builder:
             endpoint.role,
             endpoint.type,
             {policy: json_value(value) for policy, value in endpoint.qos.items() if value is not None},
-            endpoint.name if end.remap is not None else None,
+            endpoint.name if connection.remap is not None else None,
             (*source, self._place(launch)),
             endpoint.builtin,
             endpoint.uncertain,
-            tuple(self._of_ends.get((kind, end.name, end.node.name), ())),
+            tuple(self._of_endpoints.get((kind, connection.name, connection.node.name), ())),
         )
 
     def _places(self, origin: Origin) -> tuple[Place, ...]:
@@ -224,6 +224,6 @@ def _tags(nodes: Sequence[LaunchNode]) -> dict[str, dict[tuple[int, int], list[i
 
 def _nodes_at(tags: Mapping[str, Mapping[tuple[int, int], list[int]]], location: Location) -> list[int]:
     """The nodes whose tag a place lies in: a composable node's, not its container's."""
-    start, end = location.span
-    around = [extent for extent in tags.get(location.file, {}) if extent[0] <= start and end <= extent[1]]
+    start, connection = location.span
+    around = [extent for extent in tags.get(location.file, {}) if extent[0] <= start and connection <= extent[1]]
     return tags[location.file][min(around, key=lambda extent: extent[1] - extent[0])] if around else []

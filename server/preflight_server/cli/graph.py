@@ -76,8 +76,8 @@ def _lines(graph: Graph) -> Iterator[str]:
 
 def _channels(kind: str, channels: Mapping[str, Channel]) -> Iterator[str]:
     for name, channel in channels.items():
-        ends = (*channel.providers, *channel.consumers)
-        if all(c.endpoint.builtin or c.action is not None for c in ends):
+        connections = (*channel.providers, *channel.consumers)
+        if all(c.endpoint.builtin or c.action is not None for c in connections):
             continue  # an action is shown as such
         providers, consumers = (
             ", ".join(sorted({c.node.name for c in side})) or "nobody"
