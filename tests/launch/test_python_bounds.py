@@ -7,14 +7,14 @@ import time
 import pytest
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import ByteOffsets
+from preflight_analysis.evaluation.reading import read_launch
 from preflight_analysis.launch.python_tree import PythonTree
-from preflight_analysis.launch.ros2_python import read_ros2_python
 
 
 @pytest.mark.parametrize("text", ["x=" + "a." * 1_000_000, "x=a" + ".a" * 1_000_000, "x=" + "f(x y, " * 50_000])
 def test_a_long_chain_is_given_up_soon(text: str) -> None:
     begin = time.thread_time()
-    found = read_ros2_python(Text.of("/a.launch.py", text))
+    found = read_launch(Text.of("/a.launch.py", text))
     assert found.document.problems
     assert time.thread_time() - begin < 5
 
@@ -26,7 +26,7 @@ def test_calls_of_a_text_that_does_not_parse_are_read() -> None:
         "é.LaunchConfiguration('d')",
     )
     text = "x = [" + " ".join(calls)
-    named = read_ros2_python(Text.of("/a.launch.py", text)).named
+    named = read_launch(Text.of("/a.launch.py", text)).named
     assert named is not None
     assert [part.arguments for part in named] == ["a", "b", "c", "d"]
     assert [text[slice(*part.arguments_span)] for part in named] == ["a", "b", "c", "d"]

@@ -9,8 +9,8 @@ from pathlib import Path
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from preflight_analysis.documents.reading import Text
+from preflight_analysis.evaluation.reading import read_launch
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.ros2_python import read_ros2_python
 
 WHOLE = """\
 from launch import LaunchDescription
@@ -33,7 +33,7 @@ def generate_launch_description():
 
 
 def _read(text: str) -> tuple[Action, ...]:
-    found = read_ros2_python(Text.of("/a.launch.py", text))
+    found = read_launch(Text.of("/a.launch.py", text))
     assert found.partial
     assert found.root is not None
     return found.root.children

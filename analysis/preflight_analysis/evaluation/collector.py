@@ -19,7 +19,7 @@ from preflight_analysis.evaluation.tree import (
     Unknown,
     Use,
 )
-from preflight_analysis.launch.model import NODE_KINDS, Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 
 MAX_TEXT = 8_000_000
@@ -27,9 +27,6 @@ MAX_TEXT = 8_000_000
 and so on, have no end."""
 MAX_TEXTS = 128_000_000
 """Of all such values together."""
-
-
-_STARTS = NODE_KINDS | {"include", "group", "executable", "load_composable_node"}
 
 
 class Collector:
@@ -94,9 +91,8 @@ class Collector:
         return False
 
     def note_not_taken(self, action: Action, condition: ActionAttribute, value: str, origin: Origin) -> None:
-        """Note a tag that its condition leaves out, if it would start something."""
-        if action.kind in _STARTS:
-            self.not_taken.append(NotTaken(action, condition, value, origin))
+        """Note a tag that its condition leaves out, of those that would start something."""
+        self.not_taken.append(NotTaken(action, condition, value, origin))
 
     def note_unknown(self, what: str, reason: str, location: Location, param: str | None = None) -> None:
         """Note a value that cannot be known, of the parameter `param` if it is one's."""

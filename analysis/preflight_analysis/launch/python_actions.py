@@ -7,56 +7,21 @@ whatever has not the form is left out.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, ActionAttribute, Literal, Substitution, Typed, Value
+from preflight_analysis.launch.python_classes import PythonClass, PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 
 MAX_DEPTH = 120
-# The keyword that gives an attribute, where it has another name.
-_KEYWORDS = {
-    "pkg": "package",
-    "exec": "executable",
-    "default": "default_value",
-    "file": "launch_description_source",
-    "launch-prefix": "prefix",
-    "message": "msg",
-    "if": "condition",
-    "unless": "condition",
-    "target": "target_container",
-    "env": "additional_env",
-    "param": "parameters",
-    "param_dict": "parameters",
-    "remap": "remappings",
-    "argument": "arguments",
-    "choice": "choices",
-    "arg": "launch_arguments",
-    "arg_passed": "launch_arguments",
-}
-# Arguments that may be given without their keyword, in order.
-_POSITIONAL: Mapping[str, tuple[str, ...]] = {
-    "arg": ("name",),
-    "let": ("name", "value"),
-    "unlet": ("name",),
-    "set_env": ("name", "value"),
-    "unset_env": ("name",),
-    "append_env": ("name", "value", "prepend", "separator"),
-    "set_parameter": ("name", "value"),
-    "set_parameters_from_file": ("filename",),
-    "set_remap": ("src", "dst"),
-    "set_use_sim_time": ("value",),
-    "push_ros_namespace": ("namespace",),
-    "include": ("launch_description_source",),
-    "group": ("actions",),
-    "event_handler": ("event_handler",),
-}
+_NO_CLASS = PythonClass("")
 
 
-def actions_of(records: object, source: PythonSource, around: Span) -> tuple[Action, ...]:
+def actions_of(records: object, source: PythonSource, around: Span, python: PythonClasses) -> tuple[Action, ...]:
     """The actions of records. `around` is the place of those that were made elsewhere."""
-    return _Reader(source).actions(records, around, None, 0)
+    return _Reader(source, python).actions(records, around, None, 0)
 
 
 class _Parent(NamedTuple):
@@ -68,8 +33,8 @@ class _Parent(NamedTuple):
 
 
 class _Reader:
-    def __init__(self, source: PythonSource) -> None:
-        self._source = source
+    def __init__(self, source: PythonSource, python: PythonClasses) -> None:
+        self._source, self._python = source, python
         self._keys: dict[int, dict[str, tuple[ast.expr, ast.expr | None]]] = {}
         """What `_pairs` says of an argument, by the keys: looked through once, for all its children."""
 
@@ -82,10 +47,10 @@ class _Reader:
 
     def _parameter_parts(self, records: list[dict[str, Any]], parent: _Parent | None) -> dict[int, _Parent]:
         """Which item of `parameters=[...]` each dictionary or file is, where the list is written out."""
-        given = _arguments(parent.call, None).get("parameters") if parent is not None and parent.part is None else None
+        given = _keywords(parent.call).get("parameters") if parent is not None and parent.part is None else None
         if parent is None or given is None:
             return {}
-        parameters = [record for record in records if _KEYWORDS.get(record["k"]) == "parameters"]
+        parameters = [record for record in records if self._python.parameters.get(record["k"]) == "parameters"]
         items = self._source.resolved(given)
         if not isinstance(items, (ast.List, ast.Tuple)) or len(items.elts) != len(parameters):
             return {}
@@ -102,10 +67,11 @@ class _Reader:
             kind_span = head = span = source.line_span(line)
         else:
             kind_span = head = span = self._part_span(kind, record, parent) or around
-        given = _arguments(call, kind) if call is not None else {}
+        made_by = self._python.by_kind.get(kind, _NO_CLASS)
+        given = _arguments(call, made_by) if call is not None else {}
         attributes = []
         for name, value in _items(record.get("a")):
-            node = given.get(_KEYWORDS.get(name, name)) if call is not None else None
+            node = given.get(made_by.parameter(name)) if call is not None else None
             if call is None and parent is not None:
                 node = self._pair_node(kind, record, name, parent)
             attributes.append(self._attribute(name, value, node, kind_span, call))
@@ -180,7 +146,7 @@ class _Reader:
     ) -> ast.expr | None:
         if parent is None:
             return None
-        whole = parent.part or _arguments(parent.call, None).get(_KEYWORDS.get(kind, kind))
+        whole = parent.part or _keywords(parent.call).get(self._python.parameters.get(kind, kind))
         if whole is None:
             return None
         given = record.get("a")
@@ -218,11 +184,15 @@ class _Reader:
                     yield found, None
 
 
-def _arguments(call: ast.Call, kind: str | None) -> dict[str, ast.expr]:
-    given = {keyword.arg: keyword.value for keyword in call.keywords if keyword.arg is not None}
-    for name, node in zip(_POSITIONAL.get(kind or "", ()), call.args, strict=False):
+def _arguments(call: ast.Call, made_by: PythonClass) -> dict[str, ast.expr]:
+    given = _keywords(call)
+    for name, node in zip(made_by.positional, call.args, strict=False):
         given.setdefault(name, node)
     return given
+
+
+def _keywords(call: ast.Call) -> dict[str, ast.expr]:
+    return {keyword.arg: keyword.value for keyword in call.keywords if keyword.arg is not None}
 
 
 def _is_action(record: object) -> bool:

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.xml import parse_xml, without_comments
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.launch.ros2_python import read_ros2_python
 from preflight_analysis.launch.ros2_xml import read_ros2_xml
@@ -51,12 +53,14 @@ _AMENT = re.compile(r"<build_type[^<>]*>\s*ament_|<buildtool_depend[^<>]*>\s*ame
 _CATKIN = re.compile(r"<buildtool_depend[^<>]*>\s*catkin\s*<")
 
 
-def read_launch(source: Text, generation: int | None = None, undecided: int = 1) -> LaunchFile:
+def read_launch(
+    source: Text, python: Callable[[], PythonClasses], generation: int | None = None, undecided: int = 1
+) -> LaunchFile:
     """The launch file of a text, read as that generation of ROS reads it; None: as it looks, and as `undecided` where
-    nothing tells. Never raises."""
+    nothing tells. `python` is asked for Python files only. Never raises."""
     path, text = source.path, source.text
     if path.endswith(PYTHON_SUFFIX):
-        return read_ros2_python(source)
+        return read_ros2_python(source, python())
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
     document = parse_xml(path, text, source.encoding, source.lines)

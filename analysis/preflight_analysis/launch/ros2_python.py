@@ -16,6 +16,7 @@ from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
+from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource, last_name
 
 _MAX_DEPTH = 40
@@ -43,36 +44,16 @@ _TAKES_NAME = {
     "get_package_share_path": ("find-pkg-share", ("package_name",)),
     "get_package_prefix": ("find-pkg-prefix", ("package_name",)),
 }
-_ACTIONS = {
-    "DeclareLaunchArgument": ("arg", {"name": "name", "default_value": "default", "description": "description"}),
-    "Node": ("node", {"package": "pkg", "executable": "exec", "name": "name", "namespace": "namespace"}),
-    "IncludeLaunchDescription": ("include", {"launch_description_source": "file"}),
-    "GroupAction": ("group", {}),
-    "TimerAction": ("timer", {"period": "period"}),
-    "SetLaunchConfiguration": ("let", {"name": "name", "value": "value"}),
-    "SetEnvironmentVariable": ("set_env", {"name": "name", "value": "value"}),
-    "PushRosNamespace": ("push_ros_namespace", {"namespace": "namespace"}),
-    "PushROSNamespace": ("push_ros_namespace", {"namespace": "namespace"}),
-}
-_ACTIONS["LifecycleNode"] = ("lifecycle_node", {**_ACTIONS["Node"][1], "autostart": "autostart"})
-_ACTIONS["ComposableNodeContainer"] = ("node_container", _ACTIONS["Node"][1])
-_FIRST = {
-    "arg": ("name",),
-    "let": ("name", "value"),
-    "set_env": ("name", "value"),
-    "push_ros_namespace": ("namespace",),
-    "include": ("launch_description_source",),
-}
 
 
-def read_ros2_python(source: Text) -> LaunchFile:
+def read_ros2_python(source: Text, classes: PythonClasses) -> LaunchFile:
     """What the text says of the launch file. Any text gives one."""
     python = PythonSource(source.text, source.lines)
     problems = (SyntaxProblem(*python.problem),) if python.problem is not None else ()
     document = Document(source.path, source.text, source.digest, (), problems, source.lines)
     whole = Span(0, len(source.text))
-    reader = _Reader(python)
-    children = actions_of(reader.actions(), python, whole)
+    reader = _Reader(python, classes)
+    children = actions_of(reader.actions(), python, whole, classes)
     root = Action("launch", Span(0, 0), (), children, (), Value("", whole, (Literal("", whole),)), Span(0, 0), whole)
     return LaunchFile(source.path, 2, root, document, partial=True, named=tuple(_named(python)))
 
@@ -110,8 +91,8 @@ def _is_configurations(node: ast.expr) -> bool:
 
 
 class _Reader:
-    def __init__(self, source: PythonSource) -> None:
-        self._source = source
+    def __init__(self, source: PythonSource, classes: PythonClasses) -> None:
+        self._source, self._classes = source, classes
 
     @cached_property
     def _sure(self) -> set[int]:
@@ -128,7 +109,7 @@ class _Reader:
     def actions(self) -> list[dict[str, Any]]:
         """All actions that are written, each once, those within others inside of them."""
         calls = [c for piece in self._source.pieces for c in ast.walk(piece) if isinstance(c, ast.Call)]
-        known = [call for call in calls if last_name(call.func) in _ACTIONS]
+        known = [call for call in calls if last_name(call.func) in self._classes.kinds]
         known.sort(key=lambda call: (call.lineno, call.col_offset))
         inner = {id(each) for call in known for each in self._inside(call)}
         return [self._action(call, 0) for call in known if id(call) not in inner]
@@ -138,28 +119,30 @@ class _Reader:
         found: list[ast.Call] = []
         given = {k.arg: k.value for k in call.keywords}
         holder = given.get("actions", call.args[0] if call.args else None)
-        if last_name(call.func) not in ("GroupAction", "TimerAction") or holder is None:
+        if self._classes.kinds[last_name(call.func)] not in self._classes.holders or holder is None:
             return found
         holder = self._source.resolved(holder)
         for each in holder.elts if isinstance(holder, (ast.List, ast.Tuple)) else ():
             inner = self._source.resolved(each)
-            if isinstance(inner, ast.Call) and last_name(inner.func) in _ACTIONS:
+            if isinstance(inner, ast.Call) and last_name(inner.func) in self._classes.kinds:
                 found.append(inner)
         return found
 
     def _action(self, call: ast.Call, depth: int) -> dict[str, Any]:
-        kind, names = _ACTIONS[last_name(call.func)]
+        kind = self._classes.kinds[last_name(call.func)]
+        made_by = self._classes.by_kind[kind]
         given = {k.arg: k.value for k in call.keywords if k.arg is not None}
-        for name, node in zip(_FIRST.get(kind, ()), call.args, strict=False):
+        for name, node in zip(made_by.positional, call.args, strict=False):
             given.setdefault(name, node)
-        attributes = {ours: self._value(given[theirs]) for theirs, ours in names.items() if theirs in given}
+        parameters = {attribute: made_by.parameter(attribute) for attribute in made_by.unrun or ()}
+        attributes = {ours: self._value(given[theirs]) for ours, theirs in parameters.items() if theirs in given}
         if "condition" in given:
             # Taken for unknown: whether it is executed is not for us to say.
             attributes["if"] = [_unknown()]
         children: list[dict[str, Any]] = []
         if kind == "arg" and "choices" in given and id(call) in self._sure:
             children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
-        if kind in ("group", "timer") and depth < _MAX_DEPTH:
+        if kind in self._classes.holders and depth < _MAX_DEPTH:
             children = [self._action(inner, depth + 1) for inner in self._inside(call)]
         if kind == "include" and "launch_arguments" in given:
             children = self._passed(given["launch_arguments"])

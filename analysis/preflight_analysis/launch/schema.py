@@ -1,6 +1,7 @@
 """What a launch language is as data: tags, their attributes, and what the values of those are.
 
-`schema_ros1.py` and `schema_ros2.py` are made of this; validation, completion and hover read them.
+`schema_ros1.py` is made of this, and so are the actions of ROS 2 (`evaluation/ros2/actions/`); validation, completion
+and hover read them.
 """
 
 from __future__ import annotations
@@ -28,12 +29,13 @@ Kind = Literal[
     "variable",
     "machine",
     "namespace",
+    "node",
     "remap-from",
     "remap-to",
 ]
 """What an attribute's value is. `prose`: a sentence for people; `condition`: true, false, 1 or 0; `flag`: true or
 false; `choice`: one of `choices`; `executable`, `component`: a program of the package in `pkg`, or a class of it
-for a container; `argument`, `parameter`, `variable` (of the environment), `machine`: its name; `remap-from`,
+for a container; `argument`, `parameter`, `variable` (of the environment), `machine`, `node`: its name; `remap-from`,
 `remap-to`: the name of a topic, service or action."""
 
 
@@ -60,6 +62,10 @@ class Tag:
     text: bool = False
     refused: tuple[str, ...] = ()
     """Attributes and children on which roslaunch stops, where others that it does not know get a warning."""
+    named_by: tuple[str, ...] = ()
+    """The attributes that name one tag in an outline; the first that is there counts."""
+    detail: tuple[str, ...] = ()
+    """Those that say what is worth a glance beside the name; the first that is there counts."""
 
     @property
     def required(self) -> tuple[str, ...]:

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.model import LaunchFile, Substitution, action_at
 from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
 from preflight_analysis.launch.schema import Attribute, Kind, Tag
 from preflight_analysis.launch.schema_ros1 import TAGS
-from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, nested
 from preflight_analysis.queries.cursor import Place, place_at
@@ -59,7 +59,7 @@ ROS1 = Language(
     has_expressions=True,
 )
 ROS2 = Language(
-    TAGS_ROS2,
+    tags(),
     {command: (takes, doc) for command, (takes, doc, _) in SUBSTITUTIONS_ROS2.items()},
     "var",
     "find-pkg-share",

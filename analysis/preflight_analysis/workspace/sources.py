@@ -12,9 +12,9 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
+from preflight_analysis.evaluation.reading import read_launch
 from preflight_analysis.incremental.database import Cancelled, Database, Input, query
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import read_launch
 
 T = TypeVar("T")
 _TRIES = 3

@@ -10,12 +10,13 @@ import shlex
 from collections.abc import Iterator
 from typing import Any
 
+from preflight_analysis.evaluation.ros2.actions.registry import tags
+from preflight_analysis.evaluation.ros2.entity import PARAM_TYPES
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.problems import BadSubstitution, BadValue, LanguageProblem
-from preflight_analysis.launch.schema_ros2 import PARAM_TYPES, TAGS_ROS2
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 
 _TYPES = {"flag": "bool", "integer": "int", "number": "float"}
@@ -53,7 +54,7 @@ def check_values_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
 
 
 def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
-    tag = TAGS_ROS2.get(action.kind)
+    tag = tags().get(action.kind)
     if tag is None:
         return  # an unknown tag, which is reported as one
     given = {attribute.name for attribute in action.attributes}

@@ -12,6 +12,7 @@ from typing import Any
 
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 
 
@@ -81,7 +82,9 @@ class PythonRun:
 class Context:
     """The state of one launch."""
 
-    def __init__(self, environment: Mapping[str, str]) -> None:
+    def __init__(self, environment: Mapping[str, str], python: PythonClasses) -> None:
+        self.python = python
+        """What the answers of runs are read by."""
         self.scope = Scope()
         self.initial_environment = dict(environment)
         self.environment = dict(environment)

@@ -16,6 +16,7 @@ from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFound, UnreadableParameterFile
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
+from preflight_analysis.evaluation.ros2.entity import PARAM_TYPES
 from preflight_analysis.evaluation.ros2.param_files import (
     EVERY,
     FileParam,
@@ -30,7 +31,6 @@ from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.problems import BadValue
-from preflight_analysis.launch.schema_ros2 import PARAM_TYPES
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
 
 

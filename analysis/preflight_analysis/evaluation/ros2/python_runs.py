@@ -37,6 +37,7 @@ from preflight_analysis.launch.configurations import substitutions_of
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.python_actions import actions_of
+from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 
 MARK = "\0launch file "
@@ -112,7 +113,7 @@ def recorded(
         del state.unknowns[unknowns:]
     if reply is None or launch_file.root is None:
         return launch_file, None
-    children = _actions(reply.output, run.source, whole)
+    children = _actions(reply.output, run.source, whole, context.python)
     context.environment.update(_texts(reply.values.get("env")) or {})
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
@@ -179,7 +180,7 @@ def called(
         return Answer(place, text=text) if isinstance(text, str) else None
     changed, removed = _texts(reply.values.get("set")), reply.values.get("unset")
     gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
-    actions = _actions(reply.output, run.source, at)
+    actions = _actions(reply.output, run.source, at, context.python)
     return Answer(replace(place, run=run), actions, None, changed, gone, _texts(reply.values.get("env")))
 
 
@@ -275,9 +276,9 @@ def _read(output: str) -> Any:
 
 
 @lru_cache(maxsize=256)
-def _actions(output: str, source: PythonSource, around: Span) -> tuple[Action, ...]:
+def _actions(output: str, source: PythonSource, around: Span, python: PythonClasses) -> tuple[Action, ...]:
     """The actions of an answer."""
-    return actions_of(_read(output).get("actions"), source, around)
+    return actions_of(_read(output).get("actions"), source, around, python)
 
 
 def _raised(

@@ -18,7 +18,7 @@ class NotOfTypeError(ValueError):
 
 
 def coerce(text: str, type_name: str | None, *, or_text: bool = False) -> Any:
-    """The value of a text. `type_name` is one of `launch.schema_ros2.PARAM_TYPES`, None as `yaml`.
+    """The value of a text. `type_name` is one of `entity.PARAM_TYPES`, None as `yaml`.
 
     `or_text`: what cannot be coerced stays a text, since there may be substitutions in it (`can_be_str`). Raises
     `NotOfTypeError`.

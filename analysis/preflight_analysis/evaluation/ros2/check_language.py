@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
 from preflight_analysis.launch.problems import (
@@ -14,7 +15,6 @@ from preflight_analysis.launch.problems import (
     UnknownAttribute,
     UnknownElement,
 )
-from preflight_analysis.launch.schema_ros2 import TAGS_ROS2
 
 _ANNOTATIONS = ("topics", "services", "params", "actions")
 
@@ -31,7 +31,7 @@ def check_language_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
 
 
 def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
-    tag = TAGS_ROS2[action.kind]
+    tag = tags()[action.kind]
     allowed = tag.attributes
     given = {attribute.name for attribute in action.attributes}
     for attribute in action.attributes:

@@ -1,17 +1,31 @@
-"""`<for>` and `<for_each>` of a launch newer than 3.7: the variables of each round."""
+"""`<for>` and `<for_each>` of a launch newer than 3.7. The `ForLoop` and `ForEach` of Python files call a function."""
 
 from __future__ import annotations
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.evaluation.ros2.entity import action_tag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import loaded
+from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.problems import BadValue
+from preflight_analysis.launch.schema import Attribute
 
 MAX_ROUNDS = 1_000
 
 
-def rounds(performer: Performer, action: Action) -> list[dict[str, str]]:
+def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
+    """What is inside, once for each round."""
+    context = walk.context
+    for variables in _rounds(performer, action):
+        if walk.too_deep(performer.place, action):
+            return
+        before, context.round = context.round, {**context.round, **variables}
+        walk.inside(performer.place, action.children)
+        context.round = before
+
+
+def _rounds(performer: Performer, action: Action) -> list[dict[str, str]]:
     """What `$(index)` and `$(for-var)` stand for in each round, none where that is not known or wrong, which is
     noted."""
     value = action.value("len" if action.kind == "for" else "values")
@@ -52,3 +66,35 @@ def _sets(text: str) -> list[dict[str, str]] | None:
         elif values is not None:
             return None
     return found
+
+
+ENTITIES = (
+    LaunchAction(
+        kind="for",
+        tag=action_tag(
+            "Executes what is inside a number of times; `$(index NAME)` is the round. Of a launch newer than 3.7.",
+            Attribute("len", "How many times.", "integer", required=True),
+            Attribute("name", "What the round is called.", required=True),
+            named_by=("name",),
+        ),
+        python=(),
+        evaluate=evaluate,
+        offered=180,
+        holds_actions=True,
+        configures=True,
+    ),
+    LaunchAction(
+        kind="for_each",
+        tag=action_tag(
+            "Executes what is inside once for each set of values, which `$(for-var NAME)` reads. Of a launch newer "
+            "than 3.7.",
+            Attribute("values", "Maps in YAML with semicolons between: `{name: a};{name: b}`.", required=True),
+            named_by=("values",),
+        ),
+        python=(),
+        evaluate=evaluate,
+        offered=190,
+        holds_actions=True,
+        configures=True,
+    ),
+)

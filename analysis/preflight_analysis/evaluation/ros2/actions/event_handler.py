@@ -1,0 +1,39 @@
+"""`RegisterEventHandler` and `UnregisterEventHandler`, which only Python files have."""
+
+from __future__ import annotations
+
+from preflight_analysis.evaluation.ros2.entity import Part
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
+from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.python_classes import PythonClass
+
+
+def register(walk: Walk, performer: Performer, action: Action) -> None:
+    """What it has inside comes when the event does."""
+    if any(child.kind == "function" for child in action.children):
+        at = performer.place.location(action.head_span)
+        walk.state.note_unknown("an event handler", "what its function does depends on the event", at)
+    walk.events.register(performer.place, action)
+
+
+def unregister(walk: Walk, performer: Performer, action: Action) -> None:
+    """It does not come then."""
+    walk.events.unregister(performer.place, action)
+
+
+ENTITIES = (
+    LaunchAction(
+        kind="event_handler",
+        tag=None,
+        python=(PythonClass("launch.actions.RegisterEventHandler", ("event_handler",)),),
+        evaluate=register,
+    ),
+    LaunchAction(
+        kind="unregister_event_handler",
+        tag=None,
+        python=(PythonClass("launch.actions.UnregisterEventHandler", ("event_handler",)),),
+        evaluate=unregister,
+    ),
+    Part(kind="function", tag=None, python=(), of=("event_handler",)),
+)

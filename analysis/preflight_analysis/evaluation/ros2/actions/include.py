@@ -1,0 +1,187 @@
+"""`<include>`: `IncludeLaunchDescription`, of a file or of a launch description as it is."""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import lru_cache
+
+from preflight_analysis.documents.reading import Text, Unreadable
+from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.installed_paths import located
+from preflight_analysis.evaluation.files import without_dots
+from preflight_analysis.evaluation.problems import (
+    IncludeCycle,
+    IncludeNotFound,
+    Problem,
+    UnknownIncludeArgument,
+    UnreadableInclude,
+)
+from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2.context import Place
+from preflight_analysis.evaluation.ros2.declared import PASSED
+from preflight_analysis.evaluation.ros2.entity import Part, action_tag
+from preflight_analysis.evaluation.ros2.python_runs import calls_own_code
+from preflight_analysis.evaluation.ros2.required import check_required
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
+from preflight_analysis.evaluation.tree import Include, Use
+from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.python_classes import PythonClass
+from preflight_analysis.launch.read import read_launch
+from preflight_analysis.launch.schema import Attribute
+
+_FILLED_IN = re.compile(r"@[A-Za-z_]\w*@")
+
+
+def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
+    """What it passes, and what the file sets, stays set after it."""
+    state, context, place = walk.state, walk.context, performer.place
+    attribute = action.attribute("file")
+    if attribute is None:
+        return
+    file = performer.value(attribute.value)
+    origin = place.origin(action.head_span)
+    at = place.location(attribute.value.span)
+    passed = _passed(walk, performer, action)
+    if not file.known:
+        walk.names[-1] = None
+        context.cannot_follow(at)
+        state.includes.append(Include(None, origin, at, {}, len(state.nodes)))
+        state.note_unknown("<include>", "its file is not known", at)
+        return
+    path = os.path.normpath(os.path.join(state.cwd, file.text))
+    path = located(state.environment, without_dots(path) or path)
+    shown: dict[str, str | None] = {}
+    include = Include(path, origin, at, shown, len(state.nodes))
+    state.includes.append(include)
+    state.uses.append(Use("include", at, file.text, path, Location.of_file(path)))
+    if walk.too_deep(place, action):
+        return
+    found = _read(walk, place, path, at)
+    if found is None:
+        walk.names[-1] = None
+        context.cannot_follow(at)
+        return
+    context.launch_file = path
+    found, run = walk.as_run(found, origin)
+    check_required(walk, found, [name for name, _ in passed], (*place.chain, at))
+    for name, child in passed:
+        value = child.value("value")
+        result = performer.value(value) if value is not None else Resolved("", False)
+        shown[name] = result.text if result.known else None
+        context.set(name, result, place.origin(value.span if value is not None else child.kind_span))
+    below = walk.file_below(Place(path, found.document.lines, origin, run, found.partial), found)
+    if found.partial or found.document.problems:
+        context.cannot_follow(at)
+    if below is not None:
+        _report_unused(walk, place, path, passed, below)
+
+
+def evaluate_inline(walk: Walk, performer: Performer, action: Action) -> None:
+    """A launch description as an action, or included without a file."""
+    for name, child in _passed(walk, performer, action):
+        value = child.value("value")
+        if value is not None:
+            walk.context.set(name, performer.value(value), performer.place.origin(value.span))
+    if not walk.too_deep(performer.place, action):
+        walk.inside(performer.place, action.children)
+
+
+def _report_unused(walk: Walk, place: Place, path: str, passed: list[tuple[str, Action]], names: set[str]) -> None:
+    """An argument that neither the file nor what it includes has to do with: launch accepts it without a word. The
+    includer itself may use it later, as what an include sets stays set."""
+    own = walk.recorded.get(place.file) or walk.state.files.launch_file(place.file, 2)
+    used = frozenset[str]() if isinstance(own, Unreadable) else configurations_of(own).used
+    if isinstance(own, LaunchFile) and (own.partial or calls_own_code(own)):
+        return
+    for name, child in passed:
+        if name not in names and name not in used and name not in IMPLICIT:
+            value = child.value("name")
+            span = value.span if value is not None else child.kind_span
+            kind = UnknownIncludeArgument(name, tuple(sorted(names)), path)
+            walk.state.problems.append(Problem(kind, place.origin(span), False))
+
+
+def _passed(walk: Walk, performer: Performer, action: Action) -> list[tuple[str, Action]]:
+    found = []
+    for child in action.children:
+        name = child.value("name")
+        if child.kind == PASSED[action.kind] and name is not None:
+            text = performer.value(name).text
+            found.append((text, child))
+            walk.state.uses.append(Use("argument", performer.place.location(name.span), text, text))
+    return found
+
+
+def _read(walk: Walk, place: Place, path: str, at: Location) -> LaunchFile | None:
+    """The included file; what is wrong with it is noted."""
+    state, origin = walk.state, (*place.chain, at)
+    chain = [location.file for location in place.chain]
+    if path in (place.file, *chain):
+        state.problem(IncludeCycle(path, (*chain, place.file)), origin)
+        return None
+    found = state.read_launch_file(path)
+    if isinstance(found, Unreadable) and found.kind == "missing":
+        found = _configured(walk, path) or found
+    if not isinstance(found, Unreadable):
+        return found
+    if found.kind == "missing":
+        state.problem(IncludeNotFound(path, found.reason), origin)
+    else:
+        state.problem(UnreadableInclude(path, found.reason), origin)
+    state.note_unknown("<include>", f"{path} {found.reason}", at)
+    return None
+
+
+def _configured(walk: Walk, path: str) -> LaunchFile | None:
+    """A file that CMake makes of one with `.in` behind its name: that, with 0 for what the build fills in."""
+    template = walk.state.read_text(path + ".in")
+    if isinstance(template, Unreadable):
+        return None
+    names = sorted(set(_FILLED_IN.findall(template.text)))
+    if names:
+        at = Location.of_file(path + ".in")
+        walk.state.note_unknown(", ".join(names), "the build fills it in", at)
+    return read_launch(_filled_in(path, template.text), lambda: walk.context.python, 2)
+
+
+@lru_cache(maxsize=64)
+def _filled_in(path: str, template: str) -> Text:
+    """What the build makes of a template; one text for one template, so that its places are the same each time."""
+    return Text.of(path, _FILLED_IN.sub("0", template))
+
+
+ENTITIES = (
+    LaunchAction(
+        kind="include",
+        tag=action_tag(
+            "Executes another launch file. What it sets stays set after it.",
+            Attribute("file", "The launch file.", "launch-file", required=True),
+            children=("arg",),
+            named_by=("file",),
+        ),
+        python=(
+            PythonClass(
+                "launch.actions.IncludeLaunchDescription",
+                ("launch_description_source",),
+                {"file": "launch_description_source"},
+                unrun=("file",),
+            ),
+        ),
+        evaluate=evaluate,
+        offered=20,
+        starts=True,
+        configures=True,
+    ),
+    LaunchAction(
+        kind="inline",
+        tag=None,
+        python=(PythonClass("launch.LaunchDescription", ("initial_entities",)),),
+        evaluate=evaluate_inline,
+        holds_actions=True,
+        configures=True,
+    ),
+    Part(kind="arg_passed", tag=None, python=(), parameter="launch_arguments", of=("inline",)),
+)

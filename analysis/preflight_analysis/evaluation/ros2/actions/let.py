@@ -1,0 +1,54 @@
+"""`<let>`: `SetLaunchConfiguration`, and what takes it back."""
+
+from __future__ import annotations
+
+from preflight_analysis.evaluation.ros2.entity import CONFIGURATION_NAME, action_tag
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
+from preflight_analysis.evaluation.tree import Use
+from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.python_classes import PythonClass
+from preflight_analysis.launch.schema import Attribute
+
+
+def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
+    """Set it until the scope ends."""
+    name, value = action.value("name"), action.value("value")
+    if name is not None and value is not None:
+        result, set_name = performer.value(value), performer.value(name).text
+        walk.context.set(set_name, result, performer.place.origin(action.head_span))
+        location = performer.place.location(name.span)
+        shown = result.text if result.known else None
+        walk.state.uses.append(Use("declaration", location, set_name, shown))
+        walk.context.declared[location.file, set_name] = location
+
+
+def unset(walk: Walk, performer: Performer, action: Action) -> None:
+    """Forget it."""
+    name = action.value("name")
+    if name is not None:
+        walk.context.scope.configurations.pop(performer.value(name).text, None)
+
+
+ENTITIES = (
+    LaunchAction(
+        kind="let",
+        tag=action_tag(
+            "Sets a launch configuration.",
+            CONFIGURATION_NAME,
+            Attribute("value", "The value.", required=True),
+            named_by=("name",),
+            detail=("value",),
+        ),
+        python=(PythonClass("launch.actions.SetLaunchConfiguration", ("name", "value"), unrun=("name", "value")),),
+        evaluate=evaluate,
+        offered=40,
+        configures=True,
+    ),
+    LaunchAction(
+        kind="unlet",
+        tag=None,
+        python=(PythonClass("launch.actions.UnsetLaunchConfiguration", ("name",)),),
+        evaluate=unset,
+    ),
+)

@@ -1,0 +1,60 @@
+"""Actions that have to be executed for what they do: `OpaqueFunction`, `ForLoop`, classes of a file's own."""
+
+from __future__ import annotations
+
+from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.ros2.python_runs import called
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
+from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.python_classes import PythonClass
+
+
+def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
+    """What a function of the file's, or an action of its own, does with what is configured now."""
+    number, name = action.value("id"), action.value("class")
+    if number is None or name is None or walk.too_deep(performer.place, action):
+        return
+    place, context = performer.place, walk.context
+    answer = called(walk.state, context, place, number.text, name.text, "execute", action.head_span)
+    origin = place.origin(action.head_span)
+    if answer is None:
+        context.cannot_follow(origin[-1])
+        return
+    for key, text in (answer.changed or {}).items():
+        if key not in ("ros_namespace", "global_params", "ros_remaps"):
+            context.set(key, Resolved(text), origin)
+    for key in answer.removed:
+        context.scope.configurations.pop(key, None)
+    context.environment.update(answer.variables or {})
+    walk.inside(answer.place, answer.actions)
+
+
+def evaluate_coroutine(walk: Walk, performer: Performer, action: Action) -> None:
+    """Nobody awaits it here."""
+    at = performer.place.location(action.head_span)
+    walk.state.note_unknown("OpaqueCoroutine", "what it does is known only when it is launched", at)
+
+
+ENTITIES = (
+    LaunchAction(
+        kind="opaque",
+        tag=None,
+        python=(
+            PythonClass("launch.actions.OpaqueFunction"),
+            PythonClass("launch.actions.ForLoop", ("length",)),
+            PythonClass("launch.actions.ForEach", ("input_values",)),
+        ),
+        evaluate=evaluate,
+        configures=True,
+    ),
+    LaunchAction(
+        kind="opaque_coroutine",
+        tag=None,
+        python=(PythonClass("launch.actions.OpaqueCoroutine"),),
+        evaluate=evaluate_coroutine,
+    ),
+    LaunchAction(kind="unknown", tag=None, python=(), evaluate=only_read),
+    # `launch_testing` starts no node.
+    LaunchAction(kind="test", tag=None, python=(), evaluate=None),
+)

@@ -1,0 +1,78 @@
+"""What a launch file of ROS 2 is made of, as declared by the modules of `actions/`: actions, and parts of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from preflight_analysis.launch.python_classes import PythonClass
+from preflight_analysis.launch.schema import Attribute, Tag
+
+PARAM_TYPES = ("str", "bool", "float", "int", "list_of_str", "list_of_bool", "list_of_float", "list_of_int", "yaml")
+"""`launch.frontend.type_utils.get_data_type_from_identifier`."""
+
+CONDITIONS = (
+    Attribute("if", "Execute this only if it is true (or 1).", "condition", ("true", "false")),
+    Attribute("unless", "Execute this only if it is false (or 0).", "condition", ("true", "false")),
+)
+CONFIGURATION_NAME = Attribute("name", "The name of the launch configuration.", "argument", required=True)
+NAMESPACE = Attribute(
+    "namespace", "The namespace, relative to the pushed one unless it starts with a slash.", "namespace"
+)
+VARIABLE = Attribute("name", "The name of the variable.", "variable", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entity:
+    """A kind of thing in launch files: `launch.frontend.Entity`."""
+
+    kind: str
+    tag: Tag | None
+    """What XML and YAML files may say of it, without the actions inside; None: only Python launch files have it."""
+    python: tuple[PythonClass, ...]
+    """The classes of `launch` and `launch_ros` that make it; empty: it is no object of its own."""
+    holds_actions: bool = False
+    """Whether it may have actions inside, which count as if they stood in the file itself."""
+    parameter: str | None = None
+    """The parameter of another one's Python class that gives it."""
+    starts: bool = False
+    """Whether it starts nodes or processes, itself or by what it holds: worth a word where its condition is false."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part(Entity):
+    """What belongs to the action around it, which reads it."""
+
+    of: tuple[str, ...]
+    """The kinds that read it."""
+
+
+def action_tag(
+    doc: str,
+    *attributes: Attribute,
+    children: tuple[str, ...] = (),
+    named_by: tuple[str, ...] = (),
+    detail: tuple[str, ...] = (),
+) -> Tag:
+    """A tag with conditions. launch stops at what it does not read."""
+    return part_tag(doc, *attributes, *CONDITIONS, children=children, named_by=named_by, detail=detail)
+
+
+def part_tag(
+    doc: str,
+    *attributes: Attribute,
+    children: tuple[str, ...] = (),
+    named_by: tuple[str, ...] = (),
+    detail: tuple[str, ...] = (),
+) -> Tag:
+    """A tag without conditions of its own."""
+    return Tag(doc, {a.name: a for a in attributes}, children, named_by=named_by, detail=detail)
+
+
+def flag(name: str, doc: str, default: str = "false") -> Attribute:
+    """An attribute that is true or false."""
+    return Attribute(name, doc, "flag", ("true", "false"), default)
+
+
+def required(attribute: Attribute) -> Attribute:
+    """The same, where launch stops without it."""
+    return replace(attribute, required=True)

@@ -1,0 +1,75 @@
+"""Whether each argument that a launch file requires is passed, which launch looks at before it executes the file."""
+
+from __future__ import annotations
+
+import os
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Origin
+from preflight_analysis.environment.installed_paths import located
+from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.problems import ArgumentNeeded, MissingArgument, Problem
+from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.ros2.declared import required_arguments
+from preflight_analysis.evaluation.ros2.python_runs import recorded
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.walk import Walk
+from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.read import PYTHON_SUFFIX
+
+
+def check_required(walk: Walk, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
+    """The include itself has to pass it: a configuration that is set already does not count. `include` is its place,
+    None for the root file."""
+    names = list(passed)
+    if launch_file.partial:
+        return
+
+    def included(file: LaunchFile, action: Action) -> LaunchFile | None:
+        return _included_without_context(walk, file, action)
+
+    for declared in required_arguments(launch_file, included):
+        names += declared.passed
+        if declared.name in names:
+            continue
+        if declared.include is not None:
+            walk.missing_below.append(declared)
+        elif include is None:
+            walk.state.problem(ArgumentNeeded(declared.name), (declared.location,))
+        else:
+            kind = MissingArgument(declared.name, declared.location.file, tuple(passed))
+            walk.state.problem(kind, include)
+
+
+def report_missing_below(walk: Walk) -> None:
+    """launch stops there also where the include is never executed, for a condition around it that is false."""
+    kinds = ((problem.kind, problem.location) for problem in walk.state.problems)
+    said = {(place, kind.name) for kind, place in kinds if isinstance(kind, MissingArgument)}
+    for missing in walk.missing_below:
+        if missing.include is not None and (missing.include, missing.name) not in said:
+            said.add((missing.include, missing.name))
+            kind = MissingArgument(missing.name, missing.location.file, tuple(missing.passed))
+            walk.state.problems.append(Problem(kind, (missing.include,), True))
+
+
+def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> LaunchFile | None:
+    state = walk.state
+    value = action.value("file")
+    if value is None or value.problem is not None:
+        return None
+    if any(part.command not in ("find-pkg-share", "find-pkg-prefix", "env") for part in value.substitutions):
+        return None
+    quiet = Collector(2, state.files, state.executables, state.environment, state.cwd, state.results)
+    empty = Context(state.environment.variables, walk.context.python)
+    result = Performer(quiet, empty, Place(file.path, file.document.lines, ())).value(value)
+    if not result.known:
+        return None
+    path = os.path.normpath(os.path.join(state.cwd, result.text))
+    found = state.read_launch_file(located(state.environment, path))
+    if isinstance(found, Unreadable):
+        return None
+    if found.path.endswith(PYTHON_SUFFIX):
+        # Whether it is executed at all is not known yet: launch keeps to itself what it raises now.
+        quiet.commands, quiet.inputs = state.commands, state.inputs
+        found, _ = recorded(quiet, walk.context, found, (file.document.location(value.span),))
+    return None if found.partial else found

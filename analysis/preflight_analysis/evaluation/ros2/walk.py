@@ -1,0 +1,260 @@
+"""The walk over the actions of a launch, in the order in which launch executes them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.documents.span import Origin, Span
+from preflight_analysis.environment.launch_extensions import exposed_actions
+from preflight_analysis.evaluation.collector import Collector
+from preflight_analysis.evaluation.problems import (
+    ArgumentNotAChoice,
+    LaunchFileNotRun,
+    MalformedPython,
+    MalformedXml,
+    MalformedYaml,
+    NestedTooDeeply,
+    NoLaunchElement,
+    PythonException,
+    UnexpandedEntity,
+)
+from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
+from preflight_analysis.evaluation.ros2.declared import Declared
+from preflight_analysis.evaluation.ros2.entity import Entity, Part
+from preflight_analysis.evaluation.ros2.events import Events
+from preflight_analysis.evaluation.ros2.python_runs import calls_own_code, recorded
+from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
+from preflight_analysis.evaluation.ros2.written import is_from_yaml
+from preflight_analysis.launch.configurations import configurations_of
+from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
+from preflight_analysis.launch.read import PYTHON_SUFFIX
+from preflight_analysis.launch.schema import Tag
+
+MAX_DEPTH = 150
+"""Of groups and includes within each other."""
+MAX_INCLUDES = 2_000
+_MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml, PYTHON_SUFFIX: MalformedPython}
+_SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
+"""What can be said of a Python launch file that was not run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LaunchAction(Entity):
+    """A kind of action: what launch files may say of it, and what it does."""
+
+    evaluate: Callable[[Walk, Performer, Action], None] | None
+    """What it does when it is executed; None: nothing that changes what is started, now or later."""
+    offered: int = 0
+    """Its place among those that are offered while typing, the lowest first."""
+    starts_process: bool = False
+    """Whether handlers of process starts are told of it."""
+    configures: bool = False
+    """Whether there may be other launch configurations after it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ros2Language:
+    """All that is declared, by kind."""
+
+    actions: Mapping[str, LaunchAction]
+    parts: Mapping[str, Part]
+    tags: Mapping[str, Tag]
+    """The tags of XML and YAML files, complete with the actions that they may hold."""
+    check: Callable[[LaunchFile], tuple[LanguageProblem, ...]]
+    """At what of an XML or YAML file launch stops while it reads it."""
+
+
+class Walk:
+    """One launch."""
+
+    def __init__(self, state: Collector, context: Context, language: Ros2Language) -> None:
+        self.state, self.context, self.language = state, context, language
+        self.events = Events()
+        self.deferred = False
+        """Whether what is executed now waits for a timer or another event."""
+        self.names: list[set[str] | None] = [set()]
+        """For each file that is being evaluated the configurations that it and those below it have to do with; None
+        where that cannot be told."""
+        self.recorded: dict[str, LaunchFile] = {}
+        """Python launch files as their last run told them."""
+        self.missing_below: list[Declared] = []
+        """Required arguments that an include further down does not pass, as the check of one above it saw."""
+        self._depth = 0
+        self._exhausted = False
+
+    def file(self, place: Place, launch_file: LaunchFile) -> None:
+        """Execute one launch file."""
+        state, document = self.state, launch_file.document
+        if place.file not in state.visited:
+            state.visited.append(place.file)
+        self._note_names(launch_file)
+        for problem in document.problems:
+            kind = _MALFORMED.get(os.path.splitext(place.file)[1], MalformedXml)
+            state.problem(kind(problem.message), place.origin(problem.span))
+        for name, span in document.entities:
+            state.problem(UnexpandedEntity(name), place.origin(span))
+            state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", place.location(span))
+        if not place.file.endswith(PYTHON_SUFFIX):
+            for found in self.language.check(launch_file):
+                if not self._is_extension(place, found):
+                    state.problem(found.kind, place.origin(found.span))
+        if launch_file.root is None:
+            span = document.root.tag_span if document.root is not None else Span(0, min(1, len(document.text)))
+            tag = document.root.tag if document.root is not None else None
+            state.problem(NoLaunchElement(tag), place.origin(span))
+            return
+        before = len(state.problems)
+        self.actions(place, launch_file.root.children)
+        if place.partial:
+            # What is written in a program need not be what it does.
+            state.problems[before:] = (
+                problem
+                for problem in state.problems[before:]
+                if problem.location.file != place.file or isinstance(problem.kind, _SURE_UNRUN)
+            )
+
+    def as_run(self, launch_file: LaunchFile, chain: Origin) -> tuple[LaunchFile, PythonRun | None]:
+        """A Python launch file as its run tells it; any other is itself."""
+        if not launch_file.path.endswith(PYTHON_SUFFIX):
+            return launch_file, None
+        found, run = recorded(self.state, self.context, launch_file, chain)
+        self.recorded[launch_file.path] = found
+        return found, run
+
+    def actions(self, place: Place, actions: tuple[Action, ...]) -> None:
+        """Execute actions one after the other."""
+        performer = Performer(self.state, self.context, place)
+        for action in actions:
+            known = self.language.actions.get(action.kind)
+            if known is None or known.evaluate is None:
+                if known is None and action.kind not in self.language.parts and place.run is not None:
+                    at = place.location(action.head_span)
+                    self.state.note_unknown(action.kind, "what it does is not known", at)
+                continue
+            if self.applies(performer, action):
+                error = action.value("error")
+                if error is not None:
+                    name, _, message = error.text.partition(": ")
+                    self.raised(performer, action, name, message)
+                else:
+                    before = len(self.state.nodes)
+                    known.evaluate(self, performer, action)
+                    if known.starts_process and len(self.state.nodes) > before:
+                        self.events.started(place, action)
+                    if place.run is not None:
+                        self._on_exit(place, action)
+            elif any(below.kind == "include" for below in action.walk()):
+                self.names[-1] = None  # what it would include may have to do with any argument
+
+    def inside(self, place: Place, actions: tuple[Action, ...]) -> None:
+        """Execute actions that another one holds, for which `too_deep` has been asked."""
+        self._depth += 1
+        self.actions(place, actions)
+        self._depth -= 1
+
+    def file_below(self, place: Place, launch_file: LaunchFile) -> set[str] | None:
+        """Execute a file that another one includes; the configurations that it has to do with, if that can be told."""
+        self._depth += 1
+        self.names.append(set())
+        self.file(place, launch_file)
+        below = self.names.pop()
+        self._depth -= 1
+        above = self.names[-1]
+        self.names[-1] = None if below is None or above is None else above | below
+        return below
+
+    def too_deep(self, place: Place, action: Action) -> bool:
+        """Whether an action may not hold others or include a file, as there are too many already, which is noted."""
+        if self._depth <= MAX_DEPTH and len(self.state.includes) <= MAX_INCLUDES:
+            return False
+        if not self._exhausted:
+            self._exhausted = True
+            limit = f"{MAX_DEPTH} levels" if self._depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"
+            self.state.problem(NestedTooDeeply(limit), place.origin(action.kind_span))
+            at = place.location(action.kind_span)
+            self.state.note_unknown(f"<{action.kind}>", f"there are more than {limit}", at)
+        return True
+
+    def raised(self, performer: Performer, action: Action, error: str, message: str) -> None:
+        """Note an exception that launch raises at an action."""
+        self.state.problem(PythonException(error, message), performer.place.origin(action.head_span))
+
+    def applies(self, performer: Performer, action: Action) -> bool:
+        """Whether an action is executed, by its `if` and `unless` (`launch.conditions`)."""
+        for name in ("if", "unless"):
+            attribute = action.attribute(name)
+            if attribute is not None:
+                return self._condition(performer, action, attribute, name == "if")
+        return True
+
+    def _condition(self, performer: Performer, action: Action, attribute: ActionAttribute, wanted: bool) -> bool:
+        """Whether a condition is what is wanted; it is not where it is not known or none."""
+        result = performer.value(attribute.value)
+        span = attribute.value.span
+        entity = self.language.actions.get(action.kind) or self.language.parts.get(action.kind)
+        if not result.known:
+            at = performer.place.location(span)
+            performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
+            if isinstance(entity, LaunchAction) and entity.configures:
+                performer.context.cannot_follow(at)
+            return False
+        word = result.text.strip().lower()
+        if word in ("true", "1", "false", "0"):
+            taken = (word in ("true", "1")) == wanted
+            if not taken and entity is not None and entity.starts:
+                origin = performer.place.origin(action.head_span)
+                performer.state.note_not_taken(action, attribute, result.text, origin)
+            return taken
+        bad = BadValue(action.kind, attribute.name, result.text, "true, false, 1 or 0", ("true", "false"))
+        performer.state.problem(bad, performer.place.origin(span))
+        return False
+
+    def _note_names(self, launch_file: LaunchFile) -> None:
+        known = self.names[-1]
+        found = configurations_of(launch_file)
+        partial = found.computed or launch_file.root is None or bool(launch_file.document.problems)
+        partial = partial or launch_file.partial or calls_own_code(launch_file)
+        self.names[-1] = None if known is None or partial else known | found.declared | found.used
+
+    def _is_extension(self, place: Place, found: LanguageProblem) -> bool:
+        """Whether it is a tag that a package defines; what that does is not known."""
+        if not isinstance(found.kind, UnknownElement):
+            return False
+        tag, parent = found.kind.tag, self.language.tags[found.kind.parent]
+        package = exposed_actions(self.state.environment).get(tag) if "node" in parent.children else None
+        if package is not None:
+            self.state.note_unknown(
+                f"<{tag}>", f"what this tag of package '{package}' starts", place.origin(found.span)[-1]
+            )
+        return package is not None
+
+    def _on_exit(self, place: Place, action: Action) -> None:
+        for child in action.children:
+            if child.kind == "on_exit":
+                self.events.later(place, child.children)
+
+
+def only_read(walk: Walk, performer: Performer, action: Action) -> None:
+    """Actions that start nothing and set nothing that a node sees; their values are read all the same."""
+    for attribute in action.attributes:
+        if attribute.name not in ("if", "unless"):
+            performer.value(attribute.value)
+
+
+def is_set(action: Action, name: str, *, default: bool) -> bool:
+    """A boolean attribute; a text that may have substitutions counts as true, as it does for launch."""
+    value = action.value(name)
+    if value is None:
+        return default
+    if value.typed is not None:
+        return bool(value.typed.value)
+    if is_from_yaml(action):
+        return bool(value.text)
+    try:
+        return bool(coerce(value.text, "bool", or_text=True))
+    except NotOfTypeError:
+        return default
