@@ -93,7 +93,7 @@ def test_what_is_remembered_of_a_mistake_keeps_nothing_of_who_asked() -> None:
 
     def ask() -> weakref.ref[Local]:
         local = Local()
-        read_ros2_python(Text.of("/a.launch.py", "x = (only here"))
+        read_launch(Text.of("/a.launch.py", "x = (only here"))
         return weakref.ref(local)
 
     local = ask()
