@@ -1,9 +1,9 @@
-"""How much is said of one file, and of one name (LCH038)."""
+"""How much is said of one name and of one line."""
 
 from __future__ import annotations
 
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.findings.clipping import MAX_FINDINGS, MAX_MESSAGE, clipped
+from preflight_analysis.findings.clipping import MAX_MESSAGE, clipped
 from preflight_analysis.findings.report import Report, to_text
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -14,23 +14,6 @@ def analysed(text: str) -> Analysis:
     sources.open("/w/a.launch", text)
     environment = Environment(1, "noetic", {}, (), {}, {}, (), (), None)
     return Workspace(environment, sources, "/w").static("/w/a.launch")
-
-
-def test_findings_beyond_the_limit_are_counted() -> None:
-    count = MAX_FINDINGS + 700
-    findings = analysed("<launch>" + "<foo/>\n" * count + '<param name="a"/></launch>').findings
-    shown = [f for f in findings if f.rule != "LCH038"]
-    (note,) = [f for f in findings if f.rule == "LCH038"]
-    assert len(shown) == MAX_FINDINGS
-    assert note.message == "701 more findings in this file are not shown: 701 of LCH004"
-    assert note.severity == "warning"
-    assert "LCH006" in {f.rule for f in shown}, "the most severe are shown, wherever they are"
-
-
-def test_a_file_with_as_many_as_the_limit_has_no_note() -> None:
-    findings = analysed("<launch>" + "<foo/>\n" * MAX_FINDINGS + "</launch>").findings
-    assert {f.rule for f in findings} == {"LCH004"}
-    assert len(findings) == MAX_FINDINGS
 
 
 def test_long_words_of_a_message_are_shortened() -> None:

@@ -1,5 +1,6 @@
 """The rules as a set: found, complete, independent of each other."""
 
+import ast
 import logging
 import re
 import sys
@@ -15,7 +16,7 @@ from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules import reference
 from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
 from preflight_analysis.rules.rule import Context, Rule
-from support.check import analyse, read_fixture
+from support.check import analyse, check, read_fixture
 
 ROOT = Path(__file__).parents[2]
 BROKEN = """
@@ -24,6 +25,29 @@ BROKEN = """
       <param name="a" value="$(arg b)"/>
     </launch>
 """
+SILENT = """
+    <launch>
+      <arg name="camera" default="front"/>
+      <group ns="$(arg camera)" if="true">
+        <node pkg="p" type="t" name="n" respawn="true" output="screen">
+          <remap from="a" to="b"/>
+          <param name="rate" value="10"/>
+          <rosparam>{frame: map}</rosparam>
+        </node>
+      </group>
+      <include file="/inc.launch"><arg name="rate" value="1"/></include>
+    </launch>
+    //- /inc.launch
+    <launch>
+      <arg name="rate"/>
+      <machine name="base" address="localhost"/>
+      <node pkg="p" type="t" name="m" machine="base" args="$(arg rate) $(optenv NOT_SET x)"/>
+    </launch>
+"""
+
+
+def test_nothing_is_said_of_a_file_that_is_all_right() -> None:
+    assert check(SILENT) == []
 
 
 def test_every_kind_of_problem_has_exactly_one_rule() -> None:
@@ -52,11 +76,22 @@ def test_rules_are_sorted_and_named_as_their_files() -> None:
     assert rule_by_id("TOP999") is None
 
 
-def test_every_rule_is_seen_to_speak_in_these_tests() -> None:
-    texts = "\n".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*_rules.py"))
-    for name in ("suppression", "clipping"):
-        texts += (ROOT / f"tests/findings/test_{name}.py").read_text(encoding="utf-8")
-    assert [rule.id for rule in all_rules() if rule.id not in texts] == []
+@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
+def test_every_rule_has_a_file_of_cases(rule: Rule) -> None:
+    """Named as the module of the rule; `conftest.py` sees to it that the rule keeps silent where a test says so."""
+    (module,) = Path(package.__path__[0]).glob(f"{rule.id.lower()}_*.py")
+    cases = Path(__file__).with_name(f"test_{module.stem}.py")
+    assert cases.is_file(), f"write {cases.name}"
+    tests = [each for each in ast.parse(cases.read_text()).body if getattr(each, "name", "").startswith("test_")]
+    silent = [test for test in tests if "pytest.mark.silent" in map(ast.unparse, test.decorator_list)]
+    assert silent, f"no test of {cases.name} is marked silent"
+    assert len(silent) < len(tests), f"in no test of {cases.name} the rule speaks"
+
+
+def test_every_file_of_cases_is_that_of_a_rule() -> None:
+    modules = {path.stem for path in Path(package.__path__[0]).glob("*.py")}
+    cases = Path(__file__).parent.glob("test_[a-z][a-z][a-z][0-9][0-9][0-9]_*.py")
+    assert [path.name for path in cases if path.stem.removeprefix("test_") not in modules] == []
 
 
 def _raise(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -11,7 +11,7 @@ import preflight_analysis.workspace.project_settings as reader
 import pytest
 import yaml
 from preflight_analysis.workspace.project_settings import KEYS, read_project_settings
-from preflight_analysis.workspace.settings_schema import schema
+from preflight_analysis.workspace.settings_schema import COMMAND, schema, text
 
 ROOT = Path(__file__).resolve().parents[2]
 EVERYTHING = """
@@ -40,6 +40,11 @@ def test_the_extension_brings_it() -> None:
     (entry,) = manifest["contributes"]["yamlValidation"]
     assert (ROOT / "vscode-client" / entry["url"]).is_file()
     assert "!ros-preflight.schema.json" in (ROOT / "vscode-client/.vscodeignore").read_text().splitlines()
+
+
+def test_the_extension_brings_it_as_it_is() -> None:
+    written = (ROOT / "vscode-client/ros-preflight.schema.json").read_text()
+    assert written == text(), f"run: {COMMAND}"
 
 
 def test_it_is_a_schema_of_the_same_names() -> None:

@@ -1,0 +1,97 @@
+"""ARG001: $(arg) of an argument that is not declared."""
+
+import pytest
+from support.check import apply, check
+
+
+def test_an_undeclared_argument_is_reported_in_its_own_file() -> None:
+    text = """
+        <launch>
+          <include file="/inc.launch"/>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="camera" default="front"/>
+          <param name="a" value="$(arg camera)"/>
+          <node pkg="p" type="t" name="$(arg camra)"/>
+                                       ^^^^^^^^^^^^ error[ARG001] 'camra' is not declared; did you mean 'camera'
+        </launch>
+    """
+    (finding,) = check(text)
+    assert finding.stops_launch
+    assert [related.message for related in finding.related] == ["included here"]
+    assert '"$(arg camera)"' in apply(text, finding.fixes[0].edits)["/inc.launch"]
+
+
+def test_an_argument_is_not_known_before_its_declaration() -> None:
+    findings = check("""
+        <launch>
+          <param name="a" value="$(arg b)"/>
+                                 ^^^^^^^^ error[ARG001] argument 'b' is not declared before this place
+          <arg name="b" default="1"/>
+          <group><arg name="c" value="1"/><param name="d" value="$(arg c)"/></group>
+          <param name="e" value="$(arg c)"/>
+                                 ^^^^^^^^ error[ARG001] argument 'c' is not declared here, but in another <group>
+        </launch>
+    """)
+    assert [finding.related[0].message for finding in findings] == ["declared here"] * 2
+    assert [finding.fixes for finding in findings] == [(), ()]
+
+
+def test_an_argument_is_declared_by_a_fix() -> None:
+    text = """
+        <launch>
+          <param name="a" value="$(arg rate)"/>
+                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared
+        </launch>
+    """
+    (finding,) = check(text)
+    changed = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert changed.startswith('<launch>\n  <arg name="rate"/>\n  <param')
+
+
+def test_what_is_made_to_be_included_may_use_what_is_configured_there() -> None:
+    check("""
+        //- /part.launch.xml
+        <launch>
+          <arg name="robot"/>
+          ^^^^^^^^^^^^^^^^^^^ info[ARG003] argument 'robot' has no default
+          <node pkg="p" exec="x" name="a" namespace="$(var site)"/>
+                                                     ^^^^^^^^^^^ info[ARG001] another launch file that includes this one
+          <node pkg="p" exec="x" name="b" namespace="$(var robto)"/>
+                                                     ^^^^^^^^^^^^ error[ARG001] did you mean 'robot'?
+        </launch>
+    """)
+
+
+def test_an_argument_that_a_file_which_cannot_be_read_may_set() -> None:
+    """Real launch files rely on that: Autoware's take half of their arguments from included ones."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="camera" default="front"/>
+          <group>
+            <include file="/gone.launch.xml"/>
+                           ^^^^^^^^^^^^^^^^ error[LCH013]
+            <log message="$(var lidar)"/>
+                          ^^^^^^^^^^^^ hint[ARG001] nothing that could be read declares argument 'lidar'
+            <log message="$(var camra)"/>
+                          ^^^^^^^^^^^^ warning[ARG001] declares argument 'camra'; did you mean 'camera'?
+          </group>
+          <log message="$(var lidar)"/>
+                        ^^^^^^^^^^^^ error[ARG001] argument 'lidar' is not declared
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_an_argument_that_is_declared_before_or_passed() -> None:
+    check("""
+        <launch>
+          <arg name="camera" default="front"/>
+          <node pkg="p" type="t" name="$(arg camera)"/>
+          <include file="/inc.launch"><arg name="camera" value="$(arg camera)"/></include>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="camera"/><node pkg="p" type="t" name="$(arg camera)_driver"/></launch>
+    """)

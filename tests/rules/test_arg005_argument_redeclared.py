@@ -1,0 +1,45 @@
+"""ARG005: an argument is declared or passed twice."""
+
+import pytest
+from support.check import apply, check
+
+
+def test_an_argument_declared_twice() -> None:
+    (finding,) = check("""
+        <launch>
+          <arg name="a" default="1"/>
+          <arg name="a" default="2"/>
+                     ^ error[ARG005] argument 'a' is declared already
+          <param name="b" value="$(arg a)"/>
+        </launch>
+    """)
+    assert finding.related[0].message == "declared here"
+
+
+def test_an_argument_that_is_passed_twice() -> None:
+    text = """
+        <launch>
+          <include file="/inc.launch">
+            <arg name="a" value="1"/>
+            <arg name="a" value="2"/>
+                       ^ error[ARG005] argument 'a' is passed already
+          </include>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="a"/><param name="b" value="$(arg a)"/></launch>
+    """
+    (finding,) = check(text)
+    assert finding.related[0].message == "passed here"
+    assert 'value="2"' not in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+@pytest.mark.silent
+def test_of_two_declarations_under_conditions_one_counts() -> None:
+    check("""
+        <launch>
+          <arg name="real" default="true"/>
+          <arg name="a" default="1" if="$(arg real)"/>
+          <arg name="a" default="2" unless="$(arg real)"/>
+          <param name="b" value="$(arg a)"/>
+        </launch>
+    """)

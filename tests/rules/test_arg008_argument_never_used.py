@@ -1,0 +1,140 @@
+"""ARG008: an argument that its file declares and does not use."""
+
+import pytest
+from support.check import apply, check
+
+
+def test_an_argument_that_its_file_never_uses() -> None:
+    text = """
+        <launch>
+          <arg name="rate" default="10"/>
+                     ^^^^ hint[ARG008] argument 'rate' is declared and never used in this file
+          <!-- <param name="rate" value="$(arg rate)"/> -->
+          <arg name="used" default="1"/>
+          <arg name="quoted" default="2"/>
+          <group if="$(eval used == 1 or arg('quoted') == 2)">
+            <arg name="inner" value="1"/>
+                       ^^^^^ hint[ARG008] argument 'inner' is declared and never used in this file
+          </group>
+        </launch>
+    """
+    rate, _ = check(text)
+    assert apply(text, rate.fixes[0].edits)["/main.launch"].startswith("<launch>\n  <!--")
+
+
+@pytest.mark.silent
+def test_an_argument_that_only_what_is_not_taken_uses_is_used() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="fast" default="false"/>
+          <group if="$(arg fast)"><param name="rate" value="$(arg rate)"/></group>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_an_argument_that_reaches_an_include_with_all_others_is_used() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <include file="/inc.launch" pass_all_args="true"/>
+        </launch>
+        //- /inc.launch
+        <launch><param name="rate" value="$(arg rate)"/></launch>
+    """)
+
+
+def test_an_argument_that_only_a_parameter_file_uses_is_used() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="inline" default="10"/>
+          <rosparam command="load" file="/rates.yaml" subst_value="true"/>
+          <rosparam subst_value="true">b: $(arg inline)</rosparam>
+        </launch>
+        //- /rates.yaml
+        a: $(arg rate)
+    """)
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+                     ^^^^ hint[ARG008] argument 'rate' is declared and never used
+          <rosparam command="load" file="/rates.yaml"/>
+        </launch>
+        //- /rates.yaml
+        a: rate
+    """)
+
+
+@pytest.mark.silent
+def test_an_argument_may_be_used_by_a_parameter_file_that_is_not_known() -> None:
+    check("""
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="fast" default="false"/>
+          <group if="$(arg fast)"><rosparam command="load" file="/rates.yaml" subst_value="true"/></group>
+        </launch>
+    """)
+
+
+def test_an_unused_argument_that_an_include_passes_is_left_alone() -> None:
+    check("""
+        <launch>
+          <include file="/inc.launch"><arg name="rate" value="1"/></include>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="rate"/>
+          <arg name="other" default="1"/>
+                     ^^^^^ hint[ARG008] argument 'other' is declared and never used
+        </launch>
+    """)
+
+
+def test_an_argument_that_no_file_of_the_launch_uses() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="rate" default="10"/>
+          <arg name="speed" default="1.0"/>
+                     ^^^^^ hint[ARG008] argument 'speed' is declared and never used in this launch
+          <arg name="in_file" default="1.0"/>
+          <node pkg="p" exec="x" name="x"><param name="rate" value="$(var rate)"/></node>
+          <node pkg="p" exec="y" name="y"><param from="/p.yaml" allow_substs="true"/></node>
+        </launch>
+        //- /p.yaml
+        y:
+          ros__parameters: {rate: $(var in_file)}
+    """)
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="rate" default="10"/>
+          <node pkg="p" exec="y" name="y"/>
+          <include file="/inner.launch.xml"/>
+        </launch>
+        //- /inner.launch.xml
+        <launch><node pkg="p" exec="x" name="x"><param name="rate" value="$(var rate)"/></node></launch>
+    """)
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="a_b" default="10"/>
+          <arg name="which" default="a_b"/>
+          <log message="$(var $(var which))"/>
+        </launch>
+    """)
+
+
+def test_arguments_that_launch_itself_reads_are_used() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="launch-prefix" default=""/>
+          <arg name="emulate_tty" default="true"/>
+          <arg name="rate" default="5"/>
+                     ^^^^ hint[ARG008] argument 'rate' is declared and never used
+          <node pkg="p" exec="e" name="n"/>
+        </launch>
+    """)

@@ -1,0 +1,75 @@
+"""LCH006: an element lacks an attribute that it needs."""
+
+import pytest
+from support.check import apply, check, findings_of
+from support.fixes import fixed
+
+
+@pytest.mark.parametrize(
+    ("tag", "after"),
+    [
+        ('<node pkg="p" name="n"/>', '<node pkg="p" name="n" type=""/>'),
+        ("<arg/>", '<arg name=""/>'),
+        ('<param name="a" />', '<param name="a" value="" />'),
+        ('<node pkg="p" typ="t" name="n"/>', '<node pkg="p" type="t" name="n"/>'),
+        ('<node pkg="p" name="n">\n</node>', '<node pkg="p" name="n" type="">\n</node>'),
+    ],
+)
+def test_a_missing_attribute_is_added_or_its_misspelling_corrected(tag: str, after: str) -> None:
+    assert fixed(tag, "LCH006") == after
+
+
+def test_a_missing_attribute_that_another_one_looks_like_is_asked_for() -> None:
+    findings = findings_of('<launch><node pkg="p" typ="t" name="n"/></launch>')
+    assert "<node> needs 'type'; is 'typ' meant to be it?" in {finding.message for finding in findings}
+
+
+def test_missing_and_conflicting_attributes() -> None:
+    check("""
+        <launch>
+          <node pkg="p" name="n"/>
+           ^^^^ error[LCH006] <node> needs 'type'
+          <arg name="a" default="1" value="2"/>
+           ^^^ error[LCH007] <arg> cannot have 'value' and 'default' together
+          <param name="b" value="$(arg a)"/>
+        </launch>
+    """)
+
+
+def test_a_misspelt_attribute_that_is_needed_is_told_once() -> None:
+    text = """
+        <launch>
+          <param nam="a" value="1"/>
+           ^^^^^ error[LCH006] <param> needs 'name'; is 'nam' meant to be it?
+          <param name="b" value="1" typ="int"/>
+                                    ^^^ warning[LCH005] <param> has no attribute 'typ'; did you mean 'type'?
+        </launch>
+    """
+    (missing,) = (each for each in check(text) if each.rule == "LCH006")
+    assert '<param name="a"' in apply(text, missing.fixes[0].edits)["/main.launch"]
+
+
+def test_an_attribute_that_ros2_needs() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <load_composable_node target="/box">
+                                        ^^^^ hint[LCH034] no node '/box' is started by this launch
+            <composable_node pkg="p" plugin="p::A" nam="a"/>
+             ^^^^^^^^^^^^^^^ error[LCH006] <composable_node> needs 'name'; is 'nam' meant to be it?
+          </load_composable_node>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_no_more_than_what_is_needed() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          <remap from="a" to="b"/>
+          <param name="a" value="1"/>
+          <rosparam>{b: 1}</rosparam>
+          <env name="C" value="1"/>
+        </launch>
+    """)

@@ -1,0 +1,134 @@
+"""LCH008: an attribute's value is not one of those that it can have."""
+
+import pytest
+from support.check import check
+from support.fixes import fixed, unfixable
+
+
+def test_what_a_command_printed_must_be_of_the_type() -> None:
+    check("""
+        <launch>
+          <param name="a" type="int" command="echo one"/>
+                                              ^^^^^^^^ error[LCH008] an integer
+          <param name="b" type="yaml" command="echo '[1, 2]'"/>
+        </launch>
+        //- commands
+        {"echo one": {"output": "one\\n"}, "echo '[1, 2]'": {"output": "[1, 2]\\n"}}
+    """)
+
+
+@pytest.mark.parametrize(
+    ("tag", "after"),
+    [
+        ('<node pkg="p" type="t" name="n" respawn="ture"/>', '<node pkg="p" type="t" name="n" respawn="true"/>'),
+        ('<node pkg="p" type="t" name="n" respawn="1"/>', '<node pkg="p" type="t" name="n" respawn="true"/>'),
+        ('<group if="yes"/>', '<group if="true"/>'),
+        ('<group unless="Off"/>', '<group unless="false"/>'),
+        ('<param name="a" value="1" type="duble"/>', '<param name="a" value="1" type="double"/>'),
+        ('<param name="a" value="10.0" type="int"/>', '<param name="a" value="10" type="int"/>'),
+        ('<rosparam command="laod" file="x"/>', '<rosparam command="load" file="x"/>'),
+        (
+            '<machine name="m" address="a" default="nevr"/>',
+            '<machine name="m" address="a" default="never"/>',
+        ),
+    ],
+)
+def test_a_bad_value_becomes_the_one_that_is_meant(tag: str, after: str) -> None:
+    assert fixed(tag, "LCH008") == after
+
+
+@pytest.mark.parametrize(
+    "tag", ['<group if="perhaps"/>', '<param name="a" value="10.5" type="int"/>', '<group ns=""/>']
+)
+def test_a_bad_value_that_could_be_anything_has_no_fix(tag: str) -> None:
+    assert unfixable(tag, "LCH008")
+
+
+def test_a_bad_value_and_the_nearest_choice() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n" output="scren"/>
+                                                  ^^^^^ error[LCH008] did you mean 'screen'?
+          <node pkg="p" type="t" name="m" if="maybe"/>
+                                              ^^^^^ error[LCH008] if='maybe' of <node> is not
+        </launch>
+    """)
+
+
+def test_a_condition_that_is_no_boolean() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="joystick" default="enabled"/>
+          <group if="$(var joystick)">
+                     ^^^^^^^^^^^^^^^ error[LCH008] if='enabled' of <group> is not true, false, 1 or 0
+            <node pkg="p" exec="joy"/>
+          </group>
+          <group unless="$(equals $(var joystick) enabled)">
+            <node pkg="nowhere" exec="$(var never)"/>
+          </group>
+        </launch>
+    """)
+
+
+def test_yaml_that_is_no_text() -> None:
+    """`launch_yaml` makes nothing of anything, and most attributes are texts."""
+    check("""
+        //- /a.launch.yaml
+        launch:
+          - arg: {name: rate, default: 5}
+                                       ^ error[LCH008] default='5' of <arg> is not a text: in YAML it needs quotes
+          - let: {name: sim, value: true}
+                                    ^^^^ error[LCH008] value='true' of <let> is not a text: in YAML it needs quotes
+          - log: {message: $(var rate)}
+          - executable: {cmd: ls, sigterm_timeout: 5}
+                                                   ^ error[LCH008] sigterm_timeout='5' of <executable> is not a number with a decimal point
+    """)  # noqa: E501
+
+
+@pytest.mark.silent
+def test_yaml_that_is_what_it_has_to_be() -> None:
+    check("""
+        //- /a.launch.yaml
+        launch:
+          - arg: {name: rate, default: '5'}
+          - log: {message: $(var rate)}
+          - executable: {cmd: ls, sigterm_timeout: 5.0, shell: true, respawn: 'false', respawn_max_retries: 3}
+          - group: {scoped: true, children: []}
+          - node: {pkg: p, exec: e, name: n, param: [{name: a, value: 1}, {name: b, value: [1]}]}
+    """)
+
+
+def test_a_refused_value_where_a_condition_is_false() -> None:
+    """The whole file is read before any of it is executed."""
+    check("""
+        //- /a.launch.xml
+        <launch>
+          <group if="false">
+            <node pkg="p" exec="e" name="n" args="it's" respawn_delay="$(var delay)">
+                                                  ^^^^ error[LCH008] args='it's' of <node> is not a command line: a quote in it is never closed
+                                                                       ^^^^^^^^^^^^ error[LCH008] respawn_delay='$(var delay)' of <node> is not a number that is not negative
+              <param name="a" value="[1, 2.5]"/>
+                                     ^^^^^^^^ error[LCH008] value='[1, 2.5]' of <param> is not a bool, a number, a text or a list of one of them
+              <param name="b" value="[$(var x), 1, y]"/>
+                                     ^^^^^^^^^^^^^^^^ error[LCH008] value='[$(var x), 1, y]' of <param> is not a list of one type
+              <param name="c" type="float" value="fast"/>
+                                                  ^^^^ error[LCH008] value='fast' of <param> is not a number with a decimal point
+              <param name="d" value="$(unknown x)"/>
+                                     ^^^^^^^^^^^^ error[LCH011] 'unknown' is not a substitution
+            </node>
+          </group>
+        </launch>
+    """)  # noqa: E501
+
+
+def test_simulated_time_by_a_tag() -> None:
+    """The frontends hand a text over where the action takes a bool only."""
+    check("""
+        //- /a.launch.xml
+        <launch>
+          <set_use_sim_time value="true" if="false"/>
+          <set_use_sim_time value="true"/>
+                                   ^^^^ error[LCH008] value='true' of <set_use_sim_time> is not what launch can use: it takes no text; write <set_parameter name="use_sim_time" value="..."/>
+        </launch>
+    """)  # noqa: E501

@@ -1,0 +1,78 @@
+"""LCH009: a name that ROS does not allow."""
+
+import pytest
+from support.check import check, findings_of
+from support.fixes import fixed, unfixable
+
+
+@pytest.mark.parametrize(
+    ("tag", "after"),
+    [
+        ('<node pkg="p" type="t" name="front/cam"/>', '<node pkg="p" type="t" name="cam" ns="front"/>'),
+        ('<node pkg="p" type="t" name="front-cam"/>', '<node pkg="p" type="t" name="front_cam"/>'),
+        ('<node pkg="p" type="t" name="2d nav"/>', '<node pkg="p" type="t" name="d_nav"/>'),
+        ('<remap from="a b" to="c"/>', '<remap from="a_b" to="c"/>'),
+        ('<remap from="~a-b" to="c"/>', '<remap from="~a_b" to="c"/>'),
+    ],
+)
+def test_an_invalid_name_becomes_a_valid_one(tag: str, after: str) -> None:
+    assert fixed(tag, "LCH009") == after
+
+
+@pytest.mark.parametrize(
+    "tag",
+    ['<node pkg="p" type="t" name="a/b" ns="c"/>', '<arg name="x" default="a-b"/><remap from="$(arg x)" to="c"/>'],
+)
+def test_an_invalid_name_that_is_not_written_so_or_has_a_namespace_already_has_no_fix(tag: str) -> None:
+    assert unfixable(tag, "LCH009")
+
+
+def test_an_invalid_name_that_several_includes_make_is_shown_once_and_as_it_is_written() -> None:
+    findings = findings_of("""
+        <launch>
+          <include file="/inc.launch"><arg name="pc" value="pc-1"/></include>
+          <include file="/inc.launch"><arg name="pc" value="pc-2"/></include>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="pc"/><node pkg="p" type="t" name="$(anon net)_$(arg pc)"/></launch>
+    """)
+    assert [(f.rule, f.message.split(":")[0]) for f in findings] == [
+        ("LCH009", "node name '$(anon net)_pc-1' is not allowed")
+    ]
+
+
+def test_an_invalid_name() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a/b"/>
+                                       ^^^ error[LCH009] 'a/b' is not allowed
+          <node pkg="p" type="t" name="front-camera"/>
+                                       ^^^^^^^^^^^^ warning[LCH009] 'front-camera' is not allowed
+          <node pkg="p" type="t" name="front_camera"/>
+        </launch>
+    """)
+
+
+def test_the_namespace_of_a_composable_node() -> None:
+    """That one is seen by the container, not by launch."""
+    check("""
+        //- /a.launch.xml
+        <launch>
+          <node_container pkg="p" exec="container" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::A" name="a" namespace="a-b"/>
+                                                                       ^^^ warning[LCH009] namespace name '/a-b' is not allowed: a namespace is made of letters, digits and underscores between single slashes
+          </node_container>
+        </launch>
+    """)  # noqa: E501
+
+
+@pytest.mark.silent
+def test_names_with_digits_underscores_and_substitutions() -> None:
+    check("""
+        <launch>
+          <arg name="side" default="left"/>
+          <node pkg="p" type="t" name="n_1"/>
+          <node pkg="p" type="t" name="$(arg side)_2"/>
+          <node pkg="p" type="t" name="$(anon n)"/>
+        </launch>
+    """)

@@ -1,0 +1,66 @@
+"""LCH016: two nodes of one name."""
+
+import pytest
+from support.check import check, findings_of
+from support.fixes import fixed
+
+
+def test_the_second_node_of_a_name_gets_a_free_one() -> None:
+    node = '<node pkg="p" type="t" name="n"/>'
+    assert fixed(f'{node}<node pkg="p" type="t" name="n_2"/>{node}', "LCH016").endswith('name="n_3"/>')
+
+
+def test_a_node_whose_file_is_included_twice_is_said_to_be_so() -> None:
+    (finding,) = findings_of("""
+        <launch><include file="/inc.launch"/><include file="/inc.launch"/></launch>
+        //- /inc.launch
+        <launch><node pkg="p" type="t" name="n"/></launch>
+    """)
+    assert "this tag is read twice, the includes need different namespaces" in finding.message
+    assert finding.fixes == ()
+
+
+def test_the_name_of_roslaunch_itself() -> None:
+    (finding,) = findings_of('<launch><node pkg="p" type="t" name="rosout"/></launch>')
+    assert (finding.rule, finding.message) == ("LCH016", "'/rosout' is the name of roslaunch's own node")
+
+
+def test_two_nodes_of_one_name() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          <group ns="a"><node pkg="p" type="t" name="n"/></group>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+    """)
+    (finding,) = findings
+    assert finding.rule == "LCH016"
+    assert "'/n'" in finding.message
+    assert finding.related[0].location.span < finding.location.span
+
+
+def test_two_nodes_of_one_name_in_ros_2() -> None:
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - node: {pkg: p, exec: laser, name: laser}
+          - node: {pkg: p, exec: laser, name: laser}
+                                              ^^^^^ warning[LCH016] there is another node with the name '/laser'
+          - node: {pkg: p, exec: laser, name: laser, namespace: rear}
+          - node: {pkg: p, exec: laser}
+          - node: {pkg: p, exec: laser}
+          - node: {pkg: p, exec: laser, name: laser, if: "false"}
+    """)
+
+
+@pytest.mark.silent
+def test_one_name_in_two_namespaces_or_under_two_conditions() -> None:
+    check("""
+        <launch>
+          <arg name="sim" default="true"/>
+          <node pkg="p" type="t" name="n"/>
+          <node pkg="p" type="t" name="n" ns="a"/>
+          <node pkg="p" type="simulated" name="base" if="$(arg sim)"/>
+          <node pkg="p" type="real" name="base" unless="$(arg sim)"/>
+        </launch>
+    """)

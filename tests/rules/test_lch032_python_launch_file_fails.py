@@ -1,0 +1,168 @@
+"""LCH032: a Python launch file raises an exception."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.ros2.python_runs import parse_request
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+TEXT = """\
+from helper import made
+
+def generate_launch_description():
+    return made(
+        1)
+"""
+HELPER = "def made(n):\n    return {}[n]\n"
+
+
+class Answers:
+    """The answer of all runs."""
+
+    placeholder: str | None = None
+
+    def __init__(self, answer: CommandResult | None) -> None:
+        self.answer = answer
+
+    def result(self, line: str) -> CommandResult | None:
+        """The same to all requests for a run."""
+        return self.answer if parse_request(line) is not None else None
+
+    def last_good(self, series: str) -> str | None:
+        return None
+
+
+def _launched(
+    folder: Path, answer: Any, packages: Path | None = None, *, text: str = TEXT, helper: str = HELPER
+) -> Analysis:
+    path = folder / "a.launch.py"
+    path.write_text(text)
+    (folder / "helper.py").write_text(helper)
+    environment = detect_environment(None, {"PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(packages or folder),))
+    result = (
+        answer if isinstance(answer, CommandResult) or answer is None else CommandResult("done", json.dumps(answer))
+    )
+    return Workspace(environment, Sources(), str(folder), Answers(result)).static(str(path))
+
+
+def _error(folder: Path, error: str, message: str, **more: Any) -> dict[str, Any]:
+    path = str(folder / "a.launch.py")
+    frames = [[path, 4, "generate_launch_description"], [str(folder / "helper.py"), 2, "made"]]
+    return {"error": {"type": error, "message": message, "frames": frames, **more}}
+
+
+def test_an_exception_is_shown_on_the_line_of_the_launch_file(tmp_path: Path) -> None:
+    analysis = _launched(tmp_path, _error(tmp_path, "KeyError", "1"))
+    (finding,) = analysis.findings
+    assert (finding.rule, finding.message, finding.stops_launch) == ("LCH032", "KeyError: 1", True)
+    assert TEXT[finding.location.span.start : finding.location.span.end] == "return made("
+    (other,) = finding.related
+    helper = analysis.documents[other.location.file]
+    assert helper.text[other.location.span.start : other.location.span.end].strip() == "return {}[n]"
+
+
+def test_an_assert_without_a_message_is_shown(tmp_path: Path) -> None:
+    text = "import os\nassert os.path.isdir(\n    '/no/such/folder')\nraise StopIteration\n"
+    path = str(tmp_path / "a.launch.py")
+    for line in (2, 3):
+        error = {"error": {"type": "AssertionError", "message": "", "frames": [[path, line, "<module>"]]}}
+        (finding,) = _launched(tmp_path, error, text=text).findings
+        assert finding.message == "AssertionError: assert os.path.isdir( '/no/such/folder')"
+    error = {"error": {"type": "StopIteration", "message": "", "frames": [[path, 4, "<module>"]]}}
+    (finding,) = _launched(tmp_path, error, text=text).findings
+    assert finding.message == "StopIteration"
+
+
+def test_the_assert_of_a_helper_is_shown(tmp_path: Path) -> None:
+    path, helper = tmp_path / "a.launch.py", tmp_path / "helper.py"
+    frames = [[str(path), 4, "generate_launch_description"], [str(helper), 2, "made"]]
+    error = {"error": {"type": "AssertionError", "message": "", "frames": frames}}
+    (finding,) = _launched(tmp_path, error, helper="def made(n):\n    assert n == 2\n").findings
+    assert finding.message == "AssertionError: assert n == 2"
+
+
+def test_a_module_that_is_missing_here_need_not_be_missing_there(tmp_path: Path) -> None:
+    error = _error(tmp_path, "ModuleNotFoundError", "No module named 'x'", module="x")
+    (finding,) = _launched(tmp_path, error).findings
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH032", "info", False)
+    assert "no ROS is installed here" in finding.message
+
+
+def test_with_ros_a_missing_module_has_to_be_installed(tmp_path: Path) -> None:
+    manifest = "<package><name>{}</name><exec_depend>nav2_common</exec_depend></package>"
+    for name in ("rclpy", "robot"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(manifest.format(name))
+    folder = tmp_path / "robot"
+    for module, advice in (("nav2_common", "rosdep install"), ("x", "name that in the package.xml")):
+        said = f"No module named '{module}'"
+        (finding,) = _launched(folder, _error(folder, "ModuleNotFoundError", said, module=module), tmp_path).findings
+        assert (finding.rule, finding.severity) == ("LCH032", "warning")
+        assert advice in finding.message
+    said = "cannot import name 'Newer' from 'launch.actions'"
+    (finding,) = _launched(folder, _error(folder, "ImportError", said, module="launch.actions"), tmp_path).findings
+    assert "launch has it neither in Humble nor in Jazzy, Kilted or Rolling" in finding.message
+
+
+def test_a_variable_of_the_environment_that_is_not_set(tmp_path: Path) -> None:
+    text = "import os\nMODEL = os.environ['MODEL']\nOTHER = {}['MODEL']\n"
+    for line, rule, severity in ((2, "LCH012", "warning"), (3, "LCH032", "error")):
+        frames = [[str(tmp_path / "a.launch.py"), line, "<module>"]]
+        error = {"error": {"type": "KeyError", "message": "'MODEL'", "frames": frames}}
+        (finding,) = _launched(tmp_path, error, text=text).findings
+        assert (finding.rule, finding.severity, finding.stops_launch) == (rule, severity, True)
+
+
+def test_a_run_that_ends_badly(tmp_path: Path) -> None:
+    (finding,) = _launched(tmp_path, CommandResult("failed", reason="it was killed by SIGSEGV")).findings
+    assert (finding.rule, finding.message) == ("LCH032", "the launch file cannot be run: it was killed by SIGSEGV")
+
+
+@pytest.mark.silent
+def test_a_run_that_goes_well_is_not_spoken_of(tmp_path: Path) -> None:
+    assert _launched(tmp_path, {"actions": [], "files": {}}).findings == ()
+    assert _launched(tmp_path, None).findings == (), "it has yet to be run"
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        [],
+        1,
+        {"actions": 5},
+        {"actions": [1, None, {"k": 2}, {"k": "node", "a": [], "c": {}, "p": "x"}]},
+        {
+            "actions": [
+                {"k": "node", "a": {"pkg": [{"s": "var", "w": 3}], "exec": [{"s": "var", "w": [[]]}], "name": 7}}
+            ]
+        },
+        {"actions": [{"k": "opaque", "i": 10**30, "a": {"id": ["x"]}}]},
+        {"actions": [{"k": "arg", "p": [10**9, 10**9], "n": "X", "a": {"name": ["a"]}, "c": []}]},
+        {"error": {"frames": [[1, 2, 3], ["/x", -5, ""], ["/nowhere.py", 10**12, ""]]}},
+        {"error": {"frames": "x", "type": ["KeyError"]}},
+        {"actions": [], "files": {"/tmp/x": 5, "y": "z"}},
+    ],
+)
+def test_nothing_of_an_answer_is_relied_on(tmp_path: Path, answer: Any) -> None:
+    analysis = _launched(tmp_path, answer)
+    assert {finding.rule for finding in analysis.findings} <= {"LCH032", "ARG001", "ARG003"}
+
+
+def test_a_run_cannot_speak_for_the_files_of_the_host(tmp_path: Path) -> None:
+    params = tmp_path / "p.yaml"
+    params.write_text("/**:\n  ros__parameters:\n    rate: 5\n")
+    node = {"pkg": ["q"], "exec": ["x"], "name": ["n"]}
+    child = {"k": "param", "a": {"from": [str(params)]}, "c": []}
+    answer = {
+        "actions": [{"k": "node", "a": node, "c": [child]}],
+        "files": {str(params): "/**:\n  ros__parameters:\n    rate: 6\n"},
+    }
+    (found,) = _launched(tmp_path, answer).tree.nodes
+    assert [param.value for param in found.params] == [5]

@@ -1,0 +1,86 @@
+"""LCH035: a lifecycle node that nothing activates (ROS 2)."""
+
+import pytest
+from support.check import check
+
+
+def test_a_lifecycle_node_beside_nodes_that_cannot_activate_it() -> None:
+    launch = """
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+          {expected}
+          <node pkg="p" exec="x" name="x"/>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+        //- interfaces
+        {{"/map_server": {{"services": {{"~/change_state": "lifecycle_msgs/srv/ChangeState"}}}}, "/x": {x}}}
+    """
+    under = " " * len('<node pkg="nav2_map_server" exec="') + "^" * len("map_server")
+    check(launch.format(expected=f"{under} warning[LCH035] /map_server is a lifecycle node", x="{}"))
+    change = '{"clients": {"/map_server/change_state": "lifecycle_msgs/srv/ChangeState"}}'
+    check(launch.format(expected="", x=change))
+
+
+def test_a_lifecycle_node_that_nobody_activates() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+                                            ^^^^^^^^^^ info[LCH035] /map_server is a lifecycle node
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+    """)
+
+
+def test_a_manager_of_components_has_no_lifecycle() -> None:
+    """`LifecycleNode` starts whatever is given to it."""
+    check("""
+        //- /bus.launch.xml
+        <launch>
+          <lifecycle_node pkg="p" exec="container" name="container" namespace=""/>
+          <lifecycle_node pkg="p" exec="plain" name="plain" namespace=""/>
+          <lifecycle_node pkg="p" exec="unknown" name="unknown" namespace=""/>
+                                        ^^^^^^^ info[LCH035] /unknown is a lifecycle node
+          <node pkg="p" exec="other" name="other"/>
+        </launch>
+        //- interfaces
+        {"/container": {"services": {"~/_container/load_node": "composition_interfaces/srv/LoadNode"}},
+         "/plain": {"services": {"/reset": "std_srvs/srv/Empty"}}}
+    """)
+
+
+def test_a_lifecycle_manager_that_has_another_name() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+          <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
+          <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
+            <param name="node_names" value="[map_sever, amcl, planner]"/>
+                         ^^^^^^^^^^ warning[LCH035] /manager waits for '/map_sever', which is no node of this launch
+                         ^^^^^^^^^^ info[LCH035] /manager waits for '/planner', which is no node of this launch
+          </node>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+        //- /nav2_amcl/package.xml
+        <package><name>nav2_amcl</name></package>
+        //- /nav2_lifecycle_manager/package.xml
+        <package><name>nav2_lifecycle_manager</name></package>
+    """)
+
+
+@pytest.mark.silent
+def test_what_may_be_activated() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+          <executable cmd="ros2 lifecycle set /map_server configure"/>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+    """)

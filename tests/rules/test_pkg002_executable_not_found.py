@@ -1,0 +1,93 @@
+"""PKG002: an executable that its package does not have."""
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.demo_package import judge
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"), [("talkr.py", "talker.py"), ("talker", "talker.py"), ("Listener", "listener")]
+)
+def test_an_executable_that_is_not_there_and_the_nearest_one(launch: Path, written: str, meant: str) -> None:
+    (finding,) = judge(launch, written)
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("PKG002", "error", False)
+    assert f"has no executable '{written}'" in finding.message
+    assert finding.message.endswith(f"did you mean '{meant}'?")
+    assert [edit.text for edit in finding.fixes[0].edits] == [meant]
+
+
+def test_an_executable_without_a_near_name(launch: Path) -> None:
+    (finding,) = judge(launch, "completely_different")
+    assert "did you mean" not in finding.message
+    assert finding.fixes == ()
+
+
+def test_a_file_without_the_permission_to_be_executed(launch: Path) -> None:
+    (finding,) = judge(launch, "plain.py")
+    assert "is not executable; chmod +x" in finding.message
+
+
+@pytest.mark.silent
+def test_an_executable_that_is_there(launch: Path) -> None:
+    assert judge(launch, "listener") == []
+
+
+def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
+    cmake = launch.parent / "CMakeLists.txt"
+    cmake.write_text("add_executable(${PROJECT_NAME}_node src/node.cpp)\n# add_executable(gone src/gone.cpp)\n")
+    (finding,) = judge(launch, "demo_node")
+    assert (finding.rule, finding.severity) == ("PKG002", "info")
+    assert "is not built yet" in finding.message
+    (finding,) = judge(launch, "gone")
+    assert finding.severity == "error"
+    below = launch.parent / "src" / "gone"
+    below.mkdir(parents=True)
+    (below / "CMakeLists.txt").write_text("add_executable(gone gone.cpp)\n")
+    (finding,) = judge(launch, "gone")
+    assert finding.severity == "info"
+
+
+def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
+    (launch.parent / "CMakeLists.txt").write_text(
+        """
+        project(demo)
+        set(NAME driver)
+        add_executable(${NAME}_target src/driver.cpp)
+        set_target_properties(${NAME}_target PROPERTIES OUTPUT_NAME ${NAME})
+        catkin_install_python(PROGRAMS plain.py)
+        install(PROGRAMS tools/calibrate.py RENAME calibrate DESTINATION bin)
+        """
+    )
+    for name, meant in (
+        ("driver", "'driver' is not built yet: CMakeLists.txt of package 'demo' makes it of src/driver.cpp"),
+        ("plain.py", "'plain.py' is not built yet: CMakeLists.txt of package 'demo' makes it of plain.py"),
+        ("calibrate", "'calibrate' is not installed yet: CMakeLists.txt of package 'demo' installs tools/calibrate.py"),
+    ):
+        (finding,) = judge(launch, name)
+        assert (finding.severity, finding.stops_launch) == ("info", False)
+        assert meant in finding.message
+    (finding,) = judge(launch, "drivr")
+    assert finding.severity == "error"
+    assert finding.message.endswith("did you mean 'driver'?")
+
+
+def test_an_executable_of_another_package_of_the_launch(launch: Path) -> None:
+    other = launch.parent.parent / "other" / "nodes"
+    other.mkdir(parents=True)
+    (other / "filter").write_text("#!/bin/sh\n")
+    (other / "filter").chmod(0o755)
+    launch.write_text('<launch><node pkg="demo" type="filter" name="n"/></launch>')
+    for dependencies, hint in ((frozenset({"other"}), "; package 'other' has it"), (frozenset[str](), "spaces")):
+        packages = {
+            "demo": Package("demo", str(launch.parent), "", dependencies),
+            "other": Package("other", str(other.parent), ""),
+        }
+        environment = Environment(1, "noetic", {}, (str(launch.parent.parent),), packages, {}, (), (), None)
+        (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
+        assert (finding.rule, finding.severity) == ("PKG002", "error")
+        assert finding.message.endswith(hint)
+        assert [edit.text for fix in finding.fixes for edit in fix.edits] == sorted(dependencies)

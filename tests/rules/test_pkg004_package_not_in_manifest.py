@@ -1,0 +1,137 @@
+"""PKG004: a package that a launch file needs and the package.xml above it does not name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.check import apply, check
+
+MANIFEST = """
+        //- /robot/package.xml
+        <package format="2">
+          <name>robot</name>
+          <depend>camera</depend>
+          <!-- <exec_depend>old</exec_depend> -->
+        </package>
+        //- /camera/package.xml
+        <package/>
+        //- /rviz/package.xml
+        <package/>
+"""
+
+
+def test_a_package_that_the_manifest_does_not_name() -> None:
+    text = (
+        """
+        //- /robot/launch/robot.launch
+        <launch>
+          <node pkg="camera" type="driver" name="driver"/>
+          <node pkg="robot" type="base" name="base"/>
+          <node pkg="rviz" type="rviz" name="rviz" args="$(find rviz)"/>
+                     ^^^^ hint[PKG004] 'rviz' is not among the dependencies that the package.xml of 'robot' names
+        </launch>"""
+        + MANIFEST
+    )
+    (finding,) = check(text)
+    changed = apply(text, finding.fixes[0].edits)["/robot/package.xml"]
+    assert "  <depend>camera</depend>\n  <exec_depend>rviz</exec_depend>\n  <!--" in changed
+
+
+@pytest.mark.parametrize(
+    ("file", "head", "line"),
+    [
+        ("/robot/robot.launch", "<package>", "<run_depend>rviz</run_depend>"),
+        ("/robot/robot.launch", '<package format="3">', "<exec_depend>rviz</exec_depend>"),
+        ("/robot/test/all.launch", '<package format="2">', "<test_depend>rviz</test_depend>"),
+    ],
+)
+def test_the_first_dependency_of_a_manifest(file: str, head: str, line: str) -> None:
+    text = f"""
+        //- {file}
+        <launch><param name="a" value="$(find rviz)"/></launch>
+                                              ^^^^ hint[PKG004]
+        //- /robot/package.xml
+        {head}
+          <name>robot</name>
+        </package>
+        //- /rviz/package.xml
+        <package/>
+    """
+    (finding,) = check(text)
+    assert f"</name>\n  {line}\n</package>" in apply(text, finding.fixes[0].edits)["/robot/package.xml"]
+
+
+@pytest.mark.silent
+def test_a_file_outside_of_any_package_needs_no_manifest() -> None:
+    check(
+        """
+        //- /launch/all.launch
+        <launch><node pkg="rviz" type="rviz" name="rviz"/></launch>"""
+        + MANIFEST
+    )
+
+
+def test_paths_packages_and_remaps_as_in_ros1() -> None:
+    check("""
+        //- /p/launch/robot.launch.yaml
+        launch:
+          - node:
+              pkg: camera
+                   ^^^^^^ hint[PKG004] package 'camera' is not among
+              exec: driver
+              name: $(find-pkg-share lidar)
+                    ^^^^^^^^^^^^^^^^^^^^^^^ error[LCH009]
+                                     ^^^^^ hint[PKG004] package 'lidar' is not among the dependencies
+              remap:
+                - {from: scan, to: scan}
+        //- /p/package.xml
+        <package><name>p</name><exec_depend>q</exec_depend></package>
+        //- /camera/package.xml
+        <package><name>camera</name></package>
+        //- /lidar/package.xml
+        <package><name>lidar</name></package>
+    """)
+
+
+def test_launch_files_of_installed_packages_are_not_judged_by_their_manifests(workspace: Path) -> None:
+    prefix = workspace / "install" / "nav"
+    for name in ("nav", "map_server"):
+        (prefix / "share/ament_index/resource_index/packages").mkdir(parents=True, exist_ok=True)
+        (prefix / "share/ament_index/resource_index/packages" / name).touch()
+        (prefix / "share" / name).mkdir()
+    included = prefix / "share/nav/nav.launch.xml"
+    included.write_text('<launch><node pkg="map_server" exec="map_server" name="map"/></launch>')
+    root = workspace / "src/robot/launch/all.launch.xml"
+    root.write_text('<launch><include file="$(find-pkg-share nav)/nav.launch.xml"/></launch>')
+    environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
+    analysis = Workspace(environment, Sources()).static(str(root))
+    assert str(included) in analysis.tree.files
+    places = [f.location.file for f in analysis.findings if f.rule == "PKG004"]
+    assert places == [str(root)], "robot's own package.xml does not name nav"
+
+
+def test_a_package_that_a_python_launch_file_finds_by_a_function(workspace: Path) -> None:
+    (workspace / "src/camera/launch").mkdir(parents=True)
+    (workspace / "src/camera/package.xml").write_text("<package><name>camera</name></package>")
+    root = workspace / "src/robot/launch/all.launch.py"
+    text = """
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.substitutions import PathJoinSubstitution
+
+def generate_launch_description():
+    path = PathJoinSubstitution([get_package_share_directory("camera"), "launch", "camera.launch.py"])
+    own = PathJoinSubstitution([get_package_share_directory("robot"), get_package_share_directory("arm")])
+    return LaunchDescription([IncludeLaunchDescription(path), IncludeLaunchDescription(own)])
+"""
+    root.write_text(text)
+    environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
+    findings = Workspace(environment, Sources()).static(str(root)).findings
+    (found,) = (finding for finding in findings if finding.rule == "PKG004")
+    assert "'camera'" in found.message
+    assert text[found.location.span.start : found.location.span.end] == "camera"

@@ -1,0 +1,100 @@
+"""PKG005: a file of the source that the package does not install (ROS 2)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.unbuilt_packages import SETUP, findings, manifest
+
+
+def test_what_is_not_installed_and_what_is_not_there(workspace: Path) -> None:
+    found = {(f.rule, f.severity): f for f in findings(workspace) if f.rule == "PKG002"}
+    assert set(found) == {("PKG002", "error"), ("PKG002", "info")}
+    assert "no executable 'drivr'" in found["PKG002", "error"].message
+    assert "did you mean 'driver'?" in found["PKG002", "error"].message
+    assert "'arm_node' is not built yet" in found["PKG002", "info"].message
+    missing = [f.message for f in findings(workspace) if f.rule == "PKG005"]
+    assert missing == [
+        "'config/driver.yaml' is in the source of package 'robot', but its setup.py does not install it",
+        "'cfg/arm.yaml' is in the source of package 'arm', but its CMakeLists.txt does not install it",
+    ]
+
+
+def test_the_fixes_install_it(workspace: Path) -> None:
+    for finding in findings(workspace):
+        if finding.rule == "PKG005":
+            (edit,) = finding.fixes[0].edits
+            path = Path(edit.location.file)
+            text, span = path.read_text(), edit.location.span
+            path.write_text(text[: span.start] + edit.text + text[span.end :])
+    setup = (workspace / "src/robot/setup.py").read_text()
+    assert "        ('share/robot/config', ['config/driver.yaml']),\n    ]," in setup
+    compile(setup, "setup.py", "exec")
+    assert [f.rule for f in findings(workspace)].count("PKG005") == 0
+
+
+@pytest.mark.silent
+def test_nothing_is_said_where_the_build_files_do_more_than_is_understood(workspace: Path) -> None:
+    setup = workspace / "src/robot/setup.py"
+    setup.write_text(SETUP.replace("    data_files=[", "    data_files=more_of_it() + ["))
+    (workspace / "src/arm/CMakeLists.txt").unlink()
+    found = [f.rule for f in findings(workspace, renamed=False)]
+    assert found == ["PKG002"], "an executable that no entry point makes"
+
+
+SHARE = "share/${PROJECT_NAME}"
+
+
+@pytest.mark.parametrize(
+    ("rules", "said"),
+    [
+        (f"install(DIRECTORY launch config DESTINATION {SHARE})", []),
+        ("ament_auto_package(INSTALL_TO_SHARE launch config)", []),
+        (
+            f"install(DIRECTORY launch/ config DESTINATION {SHARE})",
+            [
+                "'launch/arm.launch.xml' is in the source of package 'arm', but its CMakeLists.txt installs it as "
+                "'arm.launch.xml'"
+            ],
+        ),
+        (
+            f"install(DIRECTORY launch DESTINATION share)\ninstall(DIRECTORY config/ DESTINATION {SHARE}/config)",
+            [
+                "'launch/bringup.launch.xml' is not installed by the CMakeLists.txt of package 'arm': "
+                "`ros2 launch arm bringup.launch.xml` does not find it",
+                "'launch/arm.launch.xml' is in the source of package 'arm', but its CMakeLists.txt does not install it",
+            ],
+        ),
+        (
+            f"install(DIRECTORY launch DESTINATION {SHARE})",
+            ["'config/arm.yaml' is in the source of package 'arm', but its CMakeLists.txt does not install it"],
+        ),
+        (f"install(DIRECTORY launch DESTINATION {SHARE})\ngenerate_dcf(config)", []),
+    ],
+)
+def test_where_it_is_installed(tmp_path: Path, rules: str, said: list[str]) -> None:
+    folder = tmp_path / "src" / "arm"
+    files = {
+        "package.xml": manifest("arm", "ament_cmake"),
+        "CMakeLists.txt": f"project(arm)\n{rules}\nament_package()\n",
+        "config/arm.yaml": "arm:\n  ros__parameters: {a: 1}\n",
+        "launch/arm.launch.xml": "<launch/>",
+        "launch/bringup.launch.xml": """<launch>
+          <include file="$(find-pkg-share arm)/launch/arm.launch.xml"/>
+          <node pkg="arm" exec="arm" name="arm"><param from="$(find-pkg-share arm)/config/arm.yaml"/></node>
+        </launch>""",
+    }
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = workspace.static(str(folder / "launch/bringup.launch.xml"), {}).findings
+    found = [finding for finding in findings if finding.rule == "PKG005"]
+    assert [finding.message for finding in found] == said
+    for edit in (fix.edits[0] for finding in found for fix in finding.fixes):
+        installed = f"install(DIRECTORY {'config' if 'config' in said[0] else 'launch'} DESTINATION {SHARE})\n\n"
+        assert edit.text == installed

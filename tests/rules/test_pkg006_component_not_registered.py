@@ -1,0 +1,95 @@
+"""PKG006: a component that its package does not register (ROS 2)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.unbuilt_packages import manifest
+
+MANIFEST = "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
+LAUNCH = """<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="">
+    <composable_node pkg="{package}" plugin="{plugin}" name="driver"/>
+  </node_container>
+</launch>
+"""
+REGISTERED = """project(p)
+add_library(nodes SHARED src/t.cpp)
+rclcpp_components_register_nodes(nodes "p::Driver" "p::Camera")
+"""
+
+
+def found(folder: Path, plugin: str, cmake: str, package: str = "p") -> list[Finding]:
+    launch = folder / "src/p/main.launch.xml"
+    launch.parent.mkdir(parents=True, exist_ok=True)
+    (launch.parent / "package.xml").write_text(MANIFEST)
+    (launch.parent / "CMakeLists.txt").write_text(cmake)
+    launch.write_text(LAUNCH.format(package=package, plugin=plugin))
+    environment = detect_environment(str(folder), {}, root=str(folder / "nothing"))
+    analysis = Workspace(environment, Sources()).static(str(launch))
+    return [finding for finding in analysis.findings if finding.rule == "PKG006"]
+
+
+def test_a_component_that_is_not_registered(tmp_path: Path) -> None:
+    assert found(tmp_path, "p::Driver", REGISTERED) == []
+    (finding,) = found(tmp_path, "p::Drivr", REGISTERED)
+    assert finding.severity == "error"
+    assert finding.message == "package 'p' registers no component 'p::Drivr'; it registers 2; did you mean 'p::Driver'?"
+    assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["p::Driver"]
+    (without_namespace,) = found(tmp_path, "Camera", REGISTERED)
+    assert without_namespace.message.endswith("did you mean 'p::Camera'?")
+
+
+@pytest.mark.silent
+def test_nothing_is_said_where_components_are_not_known(tmp_path: Path) -> None:
+    assert found(tmp_path, "p::Drivr", "project(p)\n") == []
+    assert found(tmp_path, "p::Lidar", REGISTERED + 'our_macro(nodes "p::Lidar")\n') == []
+
+
+def test_components_of_an_installed_package(tmp_path: Path) -> None:
+    for name, text in {"packages/q": "", "rclcpp_components/q": "q::Talker;lib/libtalker.so\n"}.items():
+        path = tmp_path / "install/share/ament_index/resource_index" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    (finding,) = found(tmp_path, "q::Taker", REGISTERED, "q")
+    assert "did you mean 'q::Talker'?" in finding.message
+    assert found(tmp_path, "q::Talker", REGISTERED, "q") == []
+
+
+COMPONENTS = """cmake_minimum_required(VERSION 3.8)
+project(vision)
+add_library(detector SHARED src/detector.cpp)
+rclcpp_components_register_nodes(detector "vision::Detector" "vision::Tracker")
+ament_package()
+"""
+LOADS = """<launch>
+  <node_container pkg="vision" exec="component_container" name="box" namespace="">
+    <composable_node pkg="vision" plugin="vision::Detector" name="a"/>
+    <composable_node pkg="vision" plugin="Tracker" name="b"/>
+    <composable_node pkg="vision" plugin="vision::Segmentation" name="c"/>
+  </node_container>
+</launch>
+"""
+
+
+def test_components_of_a_package_that_is_not_built(tmp_path: Path) -> None:
+    folder = tmp_path / "src" / "vision"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "package.xml").write_text(manifest("vision", "ament_cmake"))
+    (folder / "CMakeLists.txt").write_text(COMPONENTS)
+    launch = folder / "launch" / "box.launch.xml"
+    launch.write_text(LOADS)
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG006"]
+    assert [(f.severity, f.message) for f in findings] == [
+        (
+            "error",
+            "package 'vision' registers no component 'Tracker'; it registers 2; did you mean 'vision::Tracker'?",
+        ),
+        ("warning", "package 'vision' registers no component 'vision::Segmentation'; it registers 2"),
+    ]

@@ -1,0 +1,311 @@
+"""PRM001: a parameter is set and nobody reads it."""
+
+import pytest
+from support.check import apply, check, findings_of
+
+
+def test_a_typo_is_a_warning_that_names_what_the_node_reads() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="fake">
+            <param name="publish_obejcts" value="false"/>
+                         ^^^^^^^^^^^^^^^ warning[PRM001] did you mean '/fake/publish_objects', which it reads
+            <param name="publish_points" value="true"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/fake": {"params": {"~publish_objects": true, "~publish_points": true, "~rate": 10}}}
+    """
+    (finding,) = check(text)
+    assert "(default True)" in finding.message
+    assert '<param name="publish_objects" value="false"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_key_of_a_parameter_file_is_underlined_there() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="tank">
+            <rosparam command="load" file="/tank.yaml"/>
+          </node>
+        </launch>
+        //- /tank.yaml
+        limits:
+          max_presure: 4
+          ^^^^^^^^^^^ warning[PRM001] did you mean '/tank/limits/max_pressure'
+        //- interfaces
+        {"/tank": {"params": {"~limits/max_pressure": 6}}}
+    """
+    (finding,) = check(text)
+    assert apply(text, finding.fixes[0].edits)["/tank.yaml"] == "limits:\n  max_pressure: 4\n"
+
+
+def test_like_words_need_a_fitting_type() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="sys">
+            <param name="conn/system_time_rate" value="VALUE"/>
+                         ^^^^^^^^^^^^^^^^^^^^^ SEVERITY[PRM001]
+          </node>
+        </launch>
+        //- interfaces
+        {"/sys": {"params": {"~conn_system_time": 0.5}}}
+    """
+    check(text.replace("VALUE", "1.0").replace("SEVERITY", "warning"))
+    check(text.replace("VALUE", "text").replace("SEVERITY", "hint"))
+
+
+def test_a_name_that_is_set_is_not_what_was_meant() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="1"/>
+            <param name="rate2" value="1"/>
+                         ^^^^^ hint[PRM001] /n does not read parameter '/n/rate2'
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~rate": 1}}}
+    """)
+
+
+@pytest.mark.silent
+def test_reading_a_namespace_reads_all_in_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="pid/p" value="1"/>
+            <rosparam param="gains">{i: 1, d: {x: 2}}</rosparam>
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~pid": null, "~gains": null}}}
+    """)
+
+
+@pytest.mark.silent
+def test_other_nodes_may_read_a_private_parameter_and_has_counts() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="a" value="1"/><param name="b" value="1"/></node>
+          <node pkg="p" type="t" name="m"/>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~b": {"access": "has"}}}, "/m": {"params": {"/n/a": 1}}}
+    """)
+
+
+@pytest.mark.silent
+def test_a_node_that_is_not_known_to_its_end_is_not_judged() -> None:
+    for status in ("crashed", "timed-out", "exited"):
+        findings = findings_of(
+            """
+            <launch><node pkg="p" type="t" name="n"><param name="a" value="1"/></node></launch>
+            //- interfaces
+            {"/n": {"status": "STATUS"}}
+            """.replace("STATUS", status)
+        )
+        assert not [f for f in findings if f.rule == "PRM001"]
+
+
+@pytest.mark.silent
+def test_a_node_that_lists_or_searches_parameters_is_not_judged() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="a" value="1"/></node>
+          <node pkg="p" type="t" name="m"><param name="a" value="1"/></node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"": {"access": "list"}}}, "/m": {"params": {"a": {"access": "search"}}}}
+    """)
+
+
+@pytest.mark.silent
+def test_an_annotation_without_parameters_does_not_speak_of_them() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="a" value="1"/>
+            <!-- <topics><topic name="/tf" type="tf2_msgs/TFMessage" class="pub"/></topics> -->
+          </node>
+        </launch>
+    """)
+
+
+def test_a_namespace_that_no_node_has_any_more() -> None:
+    text = """
+        <launch>
+          <param name="/lane_navi/acceleration" value="2.0"/>
+                       ^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM001] reads '/lane_rule/acceleration', which is not set
+          <group ns="lane_navi">
+            <param name="zeros_behind" value="5"/>
+                         ^^^^^^^^^^^^ warning[PRM001] no node reads parameter '/lane_navi/zeros_behind'
+          </group>
+          <node pkg="p" type="t" name="lane_rule"/>
+        </launch>
+        //- interfaces
+        {"/lane_rule": {"params": {"/lane_rule/acceleration": 1.0, "/lane_rule/zeros_behind": 3}}}
+    """
+    absolute, relative = check(text)
+    assert 'name="/lane_rule/acceleration"' in apply(text, absolute.fixes[0].edits)["/main.launch"]
+    assert relative.fixes == ()
+
+
+def test_a_typo_in_a_global_parameter() -> None:
+    check("""
+        <launch>
+          <param name="/map_fram" value="map"/>
+                       ^^^^^^^^^ warning[PRM001] /n reads '/map_frame', which is not set
+          <param name="/use_sim_time" value="false"/>
+          <param name="/unrelated" value="1"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"/map_frame": "odom"}}}
+    """)
+
+
+def test_a_parameter_that_the_nodes_are_known_to_read_or_not_to_read_needs_no_guess() -> None:
+    findings = findings_of("""
+        <launch>
+          <param name="/talkr/rate" value="10"/>
+          <param name="/base/speed" value="10"/>
+          <node pkg="p" type="t" name="talker"/>
+        </launch>
+        //- interfaces
+        {"/talker": {"params": {"~rate": 5, "/base/speed": 1}}}
+    """)
+    assert [finding.rule for finding in findings] == ["PRM001"]
+
+
+def test_a_parameter_outside_the_group_of_its_node_or_in_a_group_too_many() -> None:
+    check("""
+        <launch>
+          <rosparam>
+            base: {radius: 0.2}
+                   ^^^^^^ warning[PRM001] /robot/base reads '/robot/base/radius', which is not set (default 0.1)
+          </rosparam>
+          <group ns="robot">
+            <node pkg="p" type="t" name="base"/>
+            <rosparam>
+              arm: {limits: {speed: 2.0}}
+                             ^^^^^ warning[PRM001] /arm reads '/arm/limits/speed', which is not set (default 1.0)
+            </rosparam>
+          </group>
+          <node pkg="p" type="t" name="arm"/>
+        </launch>
+        //- interfaces
+        {"/robot/base": {"params": {"~radius": 0.1}}, "/arm": {"params": {"~limits/speed": 1.0}}}
+    """)
+
+
+def test_a_private_parameter_that_its_node_reads_as_a_global_one() -> None:
+    check("""
+        <launch>
+          <group ns="cob">
+            <node pkg="p" type="t" name="sound"><param name="mode" value="festival"/></node>
+                                                             ^^^^ warning[PRM001] did you mean '/sound/mode', which it
+            <node pkg="p" type="t" name="site"><param name="robot" value="wall-e"/></node>
+                                                            ^^^^^ warning[PRM001] did you mean '/cob/robot', which it
+          </group>
+        </launch>
+        //- interfaces
+        {"/cob/sound": {"params": {"/sound/mode": "espeak"}}, "/cob/site": {"params": {"robot": "robot"}}}
+    """)
+
+
+def test_a_typo_of_a_name_that_a_node_searches_for() -> None:
+    text = """
+        <launch>
+          <param name="tf_prefx" value="r1"/>
+                       ^^^^^^^^ warning[PRM001] did you mean '/tf_prefix', for which /ns/n searches?
+          <group ns="ns"><node pkg="p" type="t" name="n"/></group>
+        </launch>
+        //- interfaces
+        {"/ns/n": {"params": {"tf_prefix": {"access": "search"}}}}
+    """
+    (finding,) = check(text)
+    mended = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert 'name="tf_prefix"' in mended
+    assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
+
+
+def test_the_right_name_in_the_wrong_namespace() -> None:
+    text = """
+        <launch>
+          <param name="rate" value="10"/>
+                       ^^^^ warning[PRM001] /talker reads '/talker/rate', which is not set and has no default
+          <node pkg="p" type="t" name="talker"/>
+        </launch>
+        //- interfaces
+        {"/talker": {"params": {"~rate": null}}}
+    """
+    (finding,) = check(text)
+    mended = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert '<param name="talker/rate" value="10"/>' in mended
+    assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
+
+
+def test_a_misspelt_mandatory_parameter_is_told_once_where_it_is_written() -> None:
+    (finding,) = check("""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="sampel_rate" value="3"/></node>
+                                                       ^^^^^^^^^^^ warning[PRM001] did you mean '/n/sample_rate'
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~sample_rate": null}}}
+    """)
+    assert "which is not set and has no default?" in finding.message
+    assert [related.message for related in finding.related] == ["/n reads /n/sample_rate"]
+
+
+def test_a_parameter_beside_its_node_instead_of_in_it() -> None:
+    text = """
+        <launch>
+          <param name="max_speed" value="0.3"/>
+                       ^^^^^^^^^ warning[PRM001] /limiter reads '/limiter/max_speed', which is not set (default 1.0)
+          <node pkg="p" type="t" name="limiter"/>
+        </launch>
+        //- interfaces
+        {"/limiter": {"params": {"~max_speed": 1.0, "~ramp": 0.5}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "likely"
+    assert 'name="limiter/max_speed"' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_parameter_beside_several_nodes_that_might_have_been_meant_is_an_info() -> None:
+    (finding,) = check("""
+        <launch>
+          <param name="rate" value="5"/>
+                       ^^^^ info[PRM001] no node reads parameter '/rate'
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+        </launch>
+        //- interfaces
+        {"/a": {"params": {"~rate": 1.0}}, "/b": {"params": {"~rate": 1.0}}}
+    """)
+    assert finding.confidence == "possible"
+    assert finding.fixes == ()
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("value", "reads"),
+    [
+        ("10", '{"~rate": 10}'),  # it would change nothing
+        ("many", '{"~rate": 10}'),
+        ("20", '{"~rate": 10, "/rate": 10}'),
+        ("20", '{"~rate": 10, "rate": {"access": "search"}}'),
+        ("20", '{"~rate": 10, "": {"access": "list"}}'),
+    ],
+)
+def test_a_parameter_beside_its_node_that_says_nothing(value: str, reads: str) -> None:
+    text = f"""
+        <launch>
+          <param name="rate" value="{value}"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {{"/n": {{"params": {reads}}}}}
+    """
+    assert findings_of(text) == []

@@ -1,0 +1,43 @@
+"""PRM002: a parameter file that is not there."""
+
+from pathlib import Path
+
+import pytest
+from support.check import check, findings_of
+
+
+def test_a_parameter_file_that_is_not_there(tmp_path: Path) -> None:
+    (tmp_path / "teleop.yaml").write_text("a: 1\n")
+    (finding,) = findings_of(f'<launch><rosparam command="load" file="{tmp_path}/telop.yaml"/></launch>')
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("PRM002", "error", True)
+    assert finding.message.endswith(f"telop.yaml' does not exist; did you mean '{tmp_path}/teleop.yaml'?")
+    assert [edit.text for edit in finding.fixes[0].edits] == ["teleop.yaml"]
+
+
+def test_parameter_files_that_are_not_there() -> None:
+    """launch goes on without that of a node."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/no.yaml"/></node>
+                                                       ^^^^^^^^ warning[PRM002] '/no.yaml' does not exist
+          <node_container pkg="p" exec="component_container" name="box" namespace="">
+            <composable_node pkg="p" plugin="p::A" name="b"><param from="/no.yaml"/></composable_node>
+                                                                         ^^^^^^^^ error[PRM002] '/no.yaml'
+          </node_container>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_parameter_files_that_are_there() -> None:
+    check("""
+        <launch>
+          <arg name="more" default="false"/>
+          <rosparam file="/a.yaml"/>
+          <param name="text" textfile="/a.yaml"/>
+          <rosparam file="/gone.yaml" if="$(arg more)"/>
+        </launch>
+        //- /a.yaml
+        a: 1
+    """)

@@ -1,0 +1,139 @@
+"""PRM005: a parameter or argument of a node names a file that is not there."""
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.check import check
+
+
+def test_a_file_that_comes_to_be_between_two_edits_is_there(tmp_path: Path) -> None:
+    share = tmp_path / "p"
+    share.mkdir()
+    text = '<launch><param name="map" value="$(find p)/office.yaml"/><node pkg="p" type="t" name="n{}"/></launch>'
+    launch = share / "main.launch"
+    launch.write_text(text)
+    packages = {"p": Package("p", str(share), f"{share}/package.xml")}
+    sources = Sources()
+    workspace = Workspace(Environment(1, "noetic", {}, (), packages, {}, (), (), None), sources, str(share))
+
+    def rules() -> list[str]:
+        return [finding.rule for finding in workspace.static(str(launch)).findings]
+
+    assert "PRM005" in rules()
+    sources.open(str(launch), text.format(1))
+    assert "PRM005" in rules()
+    (share / "office.yaml").write_text("a: 1")
+    sources.open(str(launch), text.format(2))
+    assert "PRM005" not in rules()
+    (share / "office.yaml").unlink()
+    sources.open(str(launch), text.format(3))
+    assert "PRM005" in rules()
+
+
+def test_a_file_that_a_parameter_names_and_that_is_not_there() -> None:
+    check("""
+        <launch>
+          <param name="map" value="$(find p)/maps/office.yaml"/>
+                                   ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/maps/office.yaml' in parameter 'map'
+          <param name="info" value="file://$(find p)/left.yaml"/>
+                                    ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/left.yaml' in parameter 'info'
+          <param name="mesh" value="package://p/arm.dae"/>
+                                    ^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/arm.dae' in parameter 'mesh'
+          <param name="list" value="$(find p)/a.yaml:$(find p)/b.yaml"/>
+                                    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/b.yaml'
+          <rosparam file="/p/a.yaml"/>
+          <rosparam subst_value="true">pose: $(find p)/pose.yaml</rosparam>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/pose.yaml' in parameter 'pose'
+          <node pkg="p" type="t" name="n" args="-d $(find p)/all.rviz _a:=$(find p)/b.csv"/>
+                                                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/all.rviz'
+                                                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/b.csv'
+        </launch>
+        //- /p/a.yaml
+        a: 1
+    """)
+
+
+def test_a_file_that_is_made_from_arguments_is_shown_where_its_folder_is_written() -> None:
+    check("""
+        <launch>
+          <arg name="world" default="office"/>
+          <include file="/inc.launch"><arg name="file" value="$(find p)/worlds/$(arg world).world"/></include>
+                                                              ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005]
+        </launch>
+        //- /inc.launch
+        <launch><arg name="file"/><node pkg="p" type="t" name="n" args="-e $(arg file)"/></launch>
+    """)
+
+
+def test_a_model_that_is_not_there_may_have_to_be_fetched() -> None:
+    check("""
+        <launch>
+          <param name="model" value="$(find p)/trained/net.npz"/>
+                                     ^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] it may have to be fetched first
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_a_file_that_is_there_or_need_not_be() -> None:
+    check("""
+        <launch>
+          <param name="here" value="$(dirname)/p/a.yaml"/>
+          <rosparam file="/p/a.yaml"/>
+          <param name="output_file" value="$(find p)/new.yaml"/>
+          <param name="trajectory" value="$(find p)/logs/new.csv"/>
+          <param name="images" value="$(find p)/left_%04d.png"/>
+          <param name="camera" value="package://p/${NAME}.yaml"/>
+          <param name="mesh" value="package://elsewhere/arm.dae"/>
+          <param name="model" value="model://ground/ground.sdf"/>
+          <param name="folder" value="$(find p)/maps"/>
+          <param name="version" value="/p/1.0"/>
+          <param name="other" value="/srv/maps/office.yaml"/>
+          <param name="text" value="see $(find p)/README.md"/>
+          <node pkg="rosbag" type="record" name="rec" args="-O $(find p)/run.dat"/>
+          <node pkg="p" type="map_saver" name="saver" args="-f $(find p)/map.yaml"/>
+          <node pkg="p" type="t" name="n" args="--log-file=$(find p)/n.txt -o $(find p)/n.csv"/>
+        </launch>
+        //- /p/a.yaml
+        a: 1
+        //- /rosbag/package.xml
+        <package/>
+    """)
+
+
+def test_a_file_that_is_not_there_is_shown_where_it_is_written() -> None:
+    text = """
+        <launch>
+          <include file="/inc.launch"><arg name="map" value="$(find p)/ofice.yaml"/></include>
+                                                             ^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/ofice.yaml' in
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="map" default=""/>
+          <arg name="copy" value="$(arg map)"/>
+          <node pkg="p" type="t" name="n"><param name="map" value="$(arg copy)"/></node>
+        </launch>
+    """
+    (finding,) = check(text)
+    assert finding.related[0].message == "parameter 'map' is given here"
+    assert finding.related[0].location.file == "/inc.launch"
+
+
+def test_the_file_that_was_meant_may_be_in_another_folder(tmp_path: Path) -> None:
+    share = tmp_path / "camera"
+    (share / "config" / "calibration").mkdir(parents=True)
+    (share / "config" / "calibration" / "left_7cd1.yaml").touch()
+    launch = share / "camera.launch"
+    launch.write_text(
+        '<launch><arg name="serial" default="7cd1"/>'
+        '<param name="info" value="file://$(find camera)/config/left_$(arg serial).yaml"/></launch>'
+    )
+    packages = {"camera": Package("camera", str(share), f"{share}/package.xml")}
+    environment = Environment(1, "noetic", {}, (), packages, {}, (), (), None)
+    (finding,) = Workspace(environment, Sources(), str(share)).static(str(launch)).findings
+    assert finding.message.endswith("did you mean 'camera/config/calibration/left_7cd1.yaml'?")
+    assert finding.confidence == "likely"
+    assert [(edit.text) for edit in finding.fixes[0].edits] == ["/config/calibration/"]

@@ -1,0 +1,181 @@
+"""PRM006: a parameter is set to one value and then to another."""
+
+import pytest
+from support.check import check
+
+
+def test_a_parameter_set_twice_where_the_lost_value_is_easily_missed() -> None:
+    first, *_ = check("""
+        <launch>
+          <param name="use_sim_time" value="true"/>
+                       ^^^^^^^^^^^^ warning[PRM006] an include that comes later sets it again, to 'false'
+          <param name="n/rate" value="1"/>
+                       ^^^^^^ warning[PRM006] it is set again below, to '2'
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="2"/>
+            <param name="limit" value="3"/>
+            <rosparam>{limit: 4}</rosparam>
+                       ^^^^^ warning[PRM006] in a <node> each <param> comes after the <rosparam>s, and sets it, to '3'
+            <param name="tolerance" value="0.2"/>
+                         ^^^^^^^^^ warning[PRM006] '/n/tolerance' is set to '0.2' here, which does not count
+            <param name="tolerance" value="0.1"/>
+          </node>
+          <group>
+            <param name="~frame" value="map"/>
+            <node pkg="p" type="t" name="m"><rosparam param="frame">odom</rosparam></node>
+                                            ^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM006] a <param> of a ~name
+          </group>
+          <param name="m/gain" value="1"/>
+                       ^^^^^^ warning[PRM006] the file that is loaded later sets it again, to '2'
+          <rosparam file="/gains.yaml"/>
+          <include file="/inc.launch"/>
+        </launch>
+        //- /inc.launch
+        <launch><param name="use_sim_time" value="false"/></launch>
+        //- /gains.yaml
+        m: {gain: 2}
+    """)
+    assert first.related[0].location.file == "/inc.launch"
+
+
+@pytest.mark.silent
+def test_parameters_that_are_overridden_on_purpose() -> None:
+    check("""
+        <launch>
+          <arg name="sim" default="true"/>
+          <param name="use_sim_time" value="false"/>
+          <param name="use_sim_time" value="true" if="$(arg sim)"/>
+          <include file="/inc.launch"/>
+          <param name="speed" value="2"/>
+          <param name="mode" value="1"/>
+          <include file="/mode.launch" if="$(arg sim)"/>
+          <param name="~rate" value="1"/>
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="2"/>
+            <rosparam file="/defaults.yaml"/>
+            <param name="gain" value="3"/>
+            <param name="same" value="3"/>
+            <param name="same" value="3"/>
+          </node>
+        </launch>
+        //- /inc.launch
+        <launch><param name="speed" value="1"/></launch>
+        //- /mode.launch
+        <launch><param name="mode" value="2"/></launch>
+        //- /defaults.yaml
+        {rate: 5, gain: 1}
+    """)
+
+
+def test_settings_that_may_be_layers_are_hints() -> None:
+    check("""
+        <launch>
+          <rosparam param="a">{x: 1, y: 2}</rosparam>
+                               ^ hint[PRM006] '/a/x' is set to '1' here, which does not count: a <rosparam> after it
+          <rosparam param="a">{x: 3}</rosparam>
+          <include file="/one.launch"/>
+          <include file="/two.launch"/>
+        </launch>
+        //- /one.launch
+        <launch><param name="speed" value="1"/></launch>
+                             ^^^^^ hint[PRM006] another included file sets it again, to '2'
+        //- /two.launch
+        <launch><param name="speed" value="2"/></launch>
+    """)
+
+
+def test_a_key_that_stands_twice_in_a_dictionary() -> None:
+    check("""
+        <launch>
+          <rosparam file="/a.yaml"/>
+          <rosparam>{rate: 1, rate: 1}</rosparam>
+        </launch>
+        //- /a.yaml
+        costmap:
+        ^^^^^^^ warning[PRM006] 'costmap' stands twice in this dictionary: the later one counts, all of this is dropped
+          width: 3
+        costmap:
+          height: 4
+        lists: [{a: 1}, {a: 2}]
+    """)
+
+
+def test_a_private_parameter_around_a_node_that_is_named_in_full_as_well() -> None:
+    check("""
+        <launch>
+          <param name="~rate" value="1"/>
+          <param name="n/rate" value="2"/>
+                       ^^^^^^ warning[PRM006] a <param> of a ~name before it is for the node, which comes later
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+    """)
+
+
+def test_a_parameter_from_two_sources() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <set_parameter name="rate" value="1"/>
+          <node pkg="p" exec="a" name="a">
+            <param name="rate" value="10"/>
+                         ^^^^ warning[PRM006] 'rate' of /a is set to '10' here, which does not count
+            <param from="/a.yaml"/>
+          </node>
+          <node pkg="p" exec="b" name="b">
+            <param from="/a.yaml"/>
+            <param name="rate" value="10"/>
+          </node>
+          <node pkg="p" exec="c" name="c">
+            <param name="rate" value="10"/>
+                         ^^^^ warning[PRM006] which does not count: it is set again below
+            <param name="rate" value="11"/>
+          </node>
+        </launch>
+        //- /a.yaml
+        /**:
+          ros__parameters: {rate: 20}
+    """)
+
+
+def test_a_wildcard_after_the_name_and_a_value_after_both() -> None:
+    """As real rclpy has it: `tests/evaluation/test_params_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a">
+            <param from="/wild_last.yaml"/>
+          </node>
+          <node pkg="p" exec="b" name="b">
+            <param from="/wild_first.yaml"/>
+            <param name="rate" value="10"/>
+                         ^^^^ warning[PRM006] '/b' of the file before it counts more than '/**'
+          </node>
+          <node pkg="p" exec="b" name="b" namespace="own">
+            <param from="/wild_first.yaml"/>
+            <param name="rate" value="10"/>
+          </node>
+          <node_container pkg="p" exec="c" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::D" name="d" namespace="">
+              <param from="/composable.yaml"/>
+            </composable_node>
+          </node_container>
+        </launch>
+        //- /wild_last.yaml
+        /a:
+          ros__parameters: {rate: 1}
+                            ^^^^ warning[PRM006] to '1' here, which does not count: '/**' stands below it
+        /**:
+          ros__parameters: {rate: 2}
+        //- /composable.yaml
+        /d:
+          ros__parameters: {rate: 1}
+        /**:
+          ros__parameters: {rate: 2}
+        //- /wild_first.yaml
+        /**:
+          ros__parameters: {rate: 1}
+        /b:
+          ros__parameters: {rate: 2}
+        /own/b:
+          ros__parameters: {rate: 3}
+    """)

@@ -1,0 +1,152 @@
+"""PRM008: the command of a parameter has no success."""
+
+from pathlib import Path
+
+import pytest
+from support.check import apply, check
+
+
+@pytest.mark.silent
+def test_a_command_that_was_not_run_yet_is_no_news() -> None:
+    check('<launch><param name="robot_description" command="xacro robot.xacro"/></launch>')
+
+
+@pytest.mark.silent
+def test_a_command_with_success_is_no_news() -> None:
+    check("""
+        <launch><param name="robot_description" command="xacro robot.xacro"/></launch>
+        //- commands
+        {"xacro robot.xacro": {"output": "<robot/>"}}
+    """)
+
+
+def test_a_command_that_fails_stops_the_launch() -> None:
+    (found,) = check("""
+        <launch>
+          <param name="robot_description" command="xacro robot.xacro"/>
+                                                   ^^^^^^^^^^^^^^^^^ error[PRM008] code 2; no macro; when in x
+        </launch>
+        //- commands
+        {"xacro robot.xacro": {"status": "failed", "reason": "exit code 2",
+         "stderr_tail": ["", "no macro", "  when in x"]}}
+    """)
+    assert found.stops_launch
+
+
+def test_advice_after_the_error_is_left_out() -> None:
+    (found,) = check("""
+        <launch>
+          <param name="a" command="xacro a.xacro"/>
+                                   ^^^^^^^^^^^^^ error[PRM008] code 2; parsing error: x; in file: a.xacro
+        </launch>
+        //- commands
+        {"xacro a.xacro": {"status": "failed", "reason": "exit code 2", "stderr_tail":
+         ["warning: old", "parsing error: x", "in file: a.xacro", "", "Check:", "- this", "- that"]}}
+    """)
+    assert found.message.endswith("a.xacro; Check:")
+
+
+def test_of_a_traceback_the_last_line_is_told() -> None:
+    check("""
+        <launch>
+          <param name="a" command="./make.py"/>
+                                   ^^^^^^^^^ error[PRM008] the command failed: exit code 1; KeyError: 'x'
+        </launch>
+        //- commands
+        {"./make.py": {"status": "failed", "reason": "exit code 1",
+         "stderr_tail": ["Traceback (most recent call last):", "  File ...", "KeyError: 'x'"]}}
+    """)
+
+
+def test_a_command_in_an_included_file_is_reported_there() -> None:
+    (found,) = check("""
+        <launch><include file="/inc.launch"/></launch>
+        //- /inc.launch
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="a" command="false"/></node>
+                                                                   ^^^^^ error[PRM008] exit code 1
+        </launch>
+        //- commands
+        {"false": {"status": "failed", "reason": "exit code 1"}}
+    """)
+    assert [related.location.file for related in found.related] == ["/main.launch"]
+
+
+def test_a_command_that_cannot_be_split() -> None:
+    check("""
+        <launch>
+          <param name="a" command="echo 'one"/>
+                                   ^^^^^^^^^ error[PRM008] cannot be split into words: No closing quotation
+        </launch>
+    """)
+
+
+def test_a_program_that_is_not_on_the_path() -> None:
+    check("""
+        <launch>
+          <param name="a" command="xacro arm.xacro"/>
+                                   ^^^^^^^^^^^^^^^ error[PRM008] install ros-noetic-xacro
+        </launch>
+        //- commands
+        {"xacro arm.xacro": {"status": "missing"}}
+    """)
+
+
+def test_a_program_that_is_missing_in_its_package_is_found_without_running_anything(tmp_path: Path) -> None:
+    package = tmp_path / "xacro"
+    package.mkdir()
+    (package / "xacro").write_text("#!/bin/sh\n")
+    (package / "xacro").chmod(0o755)
+    text = f"""
+        <launch>
+          <param name="a" command="$(find xacro)/xacro.py arm.xacro"/>
+                                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[PRM008] any more; did you mean 'xacro'?
+          <param name="b" command="$(find xacro)/xacro arm.xacro"/>
+        </launch>
+        //- {package}/package.xml
+        <package/>
+    """
+    (found,) = check(text)
+    assert not found.stops_launch, "tree's errors are what was seen to stop it"
+    (fix,) = found.fixes
+    assert 'command="$(find xacro)/xacro arm.xacro"/>\n  <param name="b"' in apply(text, fix.edits)["/main.launch"]
+
+
+def test_a_program_without_permission_to_be_executed(tmp_path: Path) -> None:
+    script = tmp_path / "make.py"
+    script.write_text("")
+    check(f"""
+        <launch>
+          <param name="a" command="{script}"/>
+                                   {"^" * len(str(script))} error[PRM008] is not executable; chmod +x {script}
+        </launch>
+    """)
+
+
+def test_a_program_that_is_not_built_yet(tmp_path: Path) -> None:
+    package = tmp_path / "maker"
+    package.mkdir()
+    (package / "CMakeLists.txt").write_text("add_executable(make_urdf make_urdf.cpp)\n")
+    check(f"""
+        <launch>
+          <param name="a" command="$(find maker)/make_urdf"/>
+                                   ^^^^^^^^^^^^^^^^^^^^^^^ info[PRM008] is not built yet
+        </launch>
+        //- {package}/package.xml
+        <package/>
+    """)
+
+
+def test_a_node_that_crashes_without_the_value_of_a_failed_command_is_no_news_of_the_node() -> None:
+    check("""
+        <launch>
+          <param name="model" command="xacro a.xacro"/>
+                                       ^^^^^^^^^^^^^ error[PRM008] code 2
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/model', which has no value: its command failed
+        </launch>
+        //- commands
+        {"xacro a.xacro": {"status": "failed", "reason": "exit code 2"}}
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/model": null}}}
+    """)

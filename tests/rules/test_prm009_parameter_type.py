@@ -1,0 +1,83 @@
+"""PRM009: a parameter's value is of another kind than the node's own default."""
+
+import pytest
+from support.check import check, findings_of
+
+
+def _kinds(value: str, default: str, type_: str = "") -> list[tuple[str, str]]:
+    launch = f"""
+        <launch>
+          <node pkg="p" type="t" name="n"><param name="rate" value="{value}"{type_}/></node>
+        </launch>
+        //- interfaces
+        {{"/n": {{"params": {{"~rate": {default}}}}}}}
+    """
+    return [(f.severity, f.confidence) for f in findings_of(launch) if f.rule == "PRM009"]
+
+
+def test_a_number_that_roslaunch_takes_for_a_text() -> None:
+    (finding,) = check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="rate" value="1e3"/>
+                         ^^^^ warning[PRM009] '/n/rate' is '1e3', a text, but /n reads it with the default 10, a number
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~rate": 10}}}
+    """)
+    assert [related.message for related in finding.related] == ["/n reads /n/rate"]
+
+
+@pytest.mark.parametrize(
+    ("value", "default"),
+    [
+        ("fast", "10"),
+        ("", "2.5"),
+        ("off", "true"),
+        ("no", "false"),
+        ("[1, 2]", "[0.0, 0.0]"),
+        ("3", "[1]"),
+    ],
+)
+def test_values_of_another_kind(value: str, default: str) -> None:
+    assert _kinds(value, default) == [("warning", "likely")]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("value", "default"),
+    [
+        ("3", "2.5"),
+        ("2.5", "3"),
+        ("1", "true"),
+        ("true", "0"),
+        ("model.json", "false"),  # False stands for "none given"
+        ("42", '"serial"'),
+        ("text", '"other"'),
+        ("3", '""'),
+        ("true", "false"),
+    ],
+)
+def test_values_that_will_do(value: str, default: str) -> None:
+    assert _kinds(value, default) == []
+
+
+def test_a_text_where_zero_may_stand_for_not_set_is_a_hint() -> None:
+    assert _kinds("/dev/ttyUSB0", "0") == [("hint", "possible")]
+
+
+def test_lists_from_yaml() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <rosparam>
+              frames: [a, b]
+              frame: [a, b]
+              ^^^^^ warning[PRM009] a list, but /n reads it with the default 'map', a text
+            </rosparam>
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~frames": ["c"], "~frame": "map"}}}
+    """)

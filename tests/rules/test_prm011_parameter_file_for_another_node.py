@@ -1,0 +1,105 @@
+"""PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
+
+import pytest
+from support.check import check
+
+
+def test_a_parameter_file_for_another_node() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="localizer" name="localizer">
+            <param from="/amcl.yaml"/>
+                         ^^^^^^^^^^ warning[PRM011] the file has nothing for /localizer
+          </node>
+          <group>
+            <push_ros_namespace namespace="robot"/>
+            <node pkg="p" exec="camera" name="camera"><param from="/nodes.yaml"/></node>
+                                                                   ^^^^^^^^^^^ warning[PRM011] nothing for /robot/camera
+            <node pkg="p" exec="arm" name="arm"><param from="/nodes.yaml"/></node>
+            <node pkg="p" exec="lidar" name="lidar"><param from="/nodes.yaml"/></node>
+          </group>
+          <node pkg="p" exec="any" name="any"><param from="/any.yaml"/></node>
+          <node pkg="p" exec="driver" name="driver"><param from="/shared.yaml"/></node>
+          <node pkg="p" exec="free"><param from="/shared.yaml"/></node>
+        </launch>
+        //- /amcl.yaml
+        amcl:
+        ^^^^ warning[PRM011] '/amcl' is no node that gets this file: /localizer does, and ignores it
+          ros__parameters: {max_particles: 800}
+        //- /nodes.yaml
+        /robot/arm:
+          ros__parameters: {speed: 1}
+        robot:
+          camra:
+          ^^^^^ warning[PRM011] '/robot/camra' is no node that gets this file
+            ros__parameters: {rate: 1}
+        //- /shared.yaml
+        costmap:
+          ros__parameters: {rate: 1}
+        //- /any.yaml
+        /**:
+          ros__parameters: {rate: 1}
+    """)
+
+
+def test_a_key_without_the_namespace_of_its_node() -> None:
+    """As real rclpy has it: `tests/evaluation/test_params_against_rclpy.py`."""
+    findings = check("""
+        //- /robot.launch.xml
+        <launch>
+          <group>
+            <push_ros_namespace namespace="front"/>
+            <node pkg="p" exec="camera" name="camera"><param from="/cameras.yaml"/></node>
+            <node pkg="p" exec="lidar" name="lidar"><param from="/lidars.yaml"/></node>
+                                                                 ^^^^^^^^^^^^ warning[PRM011] the file has nothing for /front/lidar
+            <node pkg="p" exec="arm" name="arm"><param from="/all.yaml"/></node>
+            <node pkg="p" exec="hand" name="hand"><param from="/all.yaml"/></node>
+          </group>
+          <node pkg="p" exec="camera" name="camera" namespace="rear"><param from="/cameras.yaml"/></node>
+        </launch>
+        //- /cameras.yaml
+        /**:
+          ros__parameters: {frame: map}
+        camera:
+        ^^^^^^ warning[PRM011] '/camera' is no node that gets this file: /front/camera and /rear/camera do, and ignore it
+          ros__parameters: {rate: 30}
+        //- /lidars.yaml
+        lidar:
+        ^^^^^ warning[PRM011] '/lidar' is no node that gets this file: /front/lidar does, and ignores it
+          ros__parameters: {rate: 10}
+        //- /all.yaml
+        /**:
+          ros__parameters: {frame: map}
+        arm:
+          ros__parameters: {speed: 1}
+        /front/arm:
+          ros__parameters: {speed: 2}
+        /*/hand:
+          ros__parameters: {speed: 2}
+        hand:
+          ros__parameters: {speed: 1}
+        gripper:
+          ros__parameters: {speed: 1}
+    """)  # noqa: E501
+    assert [fix.title for finding in findings if "rear" in finding.message for fix in finding.fixes] == [
+        "Write '/**/camera' as the key"
+    ]
+
+
+@pytest.mark.silent
+def test_files_with_a_section_for_their_node() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="arm" name="arm" namespace="robot"><param from="/arm.yaml"/></node>
+          <node pkg="p" exec="any" name="any"><param from="/any.yaml"/></node>
+        </launch>
+        //- /arm.yaml
+        robot:
+          arm:
+            ros__parameters: {speed: 1}
+        //- /any.yaml
+        /**:
+          ros__parameters: {rate: 1}
+    """)

@@ -1,0 +1,77 @@
+"""PRM013: a parameter that its node does not declare (ROS 2)."""
+
+import pytest
+from support.check import check
+
+
+def test_a_parameter_that_is_not_declared() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="max_presure" value="4.5"/>
+                         ^^^^^^^^^^^ warning[PRM013] /pump declares no parameter 'max_presure'
+            <param name="use_sim_time" value="false"/>
+            <param name="gains.p" value="4.5"/>
+          </node>
+          <node pkg="p" exec="any" name="any"><param from="/any.yaml"/></node>
+          <node pkg="p" exec="takes_all" name="takes_all"><param name="b" value="1"/></node>
+          <node pkg="p" exec="unknown" name="unknown"><param name="b" value="1"/></node>
+        </launch>
+        //- /any.yaml
+        any:
+          ros__parameters:
+            gains:
+              q: 1.0
+              ^ warning[PRM013] /any declares no parameter 'gains.q'
+            speed: 2.0
+        //- interfaces
+        {"/pump": {"params": {"~max_pressure": 6.0, "~gains.p": 1.0}},
+         "/any": {"params": {"~gains.p": 1.0, "~speed": 1.0}},
+         "/takes_all": {"params": {"~a": 1, "/": {"access": "list"}}}}
+    """)
+
+
+def test_parameters_that_are_written_once_for_several_nodes() -> None:
+    """Each takes what it declares: `speed` is one node's, `gain` perhaps the unknown one's, `limt` nobody's."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="left" name="left"><param from="/all.yaml"/></node>
+          <node pkg="p" exec="right" name="right"><param from="/all.yaml"/></node>
+          <node pkg="p" exec="unknown" name="unknown"><param from="/some.yaml"/></node>
+          <node pkg="p" exec="left" name="other"><param from="/some.yaml"/></node>
+        </launch>
+        //- /all.yaml
+        /**:
+          ros__parameters:
+            speed: 1.0
+            limt: 2.0
+            ^^^^ warning[PRM013] /left declares no parameter 'limt'
+            ^^^^ warning[PRM013] /right declares no parameter 'limt'
+        //- /some.yaml
+        /**:
+          ros__parameters:
+            gain: 1.0
+        //- interfaces
+        {"/left": {"params": {"~speed": 6.0, "~limit": 1.0}},
+         "/right": {"params": {"~limit": 1.0}},
+         "/other": {"params": {"~limit": 1.0}}}
+    """)
+
+
+@pytest.mark.silent
+def test_parameters_that_are_declared_or_may_be() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="max_pressure" value="4.5"/>
+            <param name="use_sim_time" value="false"/>
+          </node>
+          <node pkg="p" exec="takes_all" name="takes_all"><param name="b" value="1"/></node>
+        </launch>
+        //- interfaces
+        {"/pump": {"params": {"~max_pressure": 6.0}},
+         "/takes_all": {"params": {"~a": 1, "/": {"access": "list"}}}}
+    """)

@@ -1,0 +1,114 @@
+"""PRM014: a parameter of another type than its node declares (ROS 2)."""
+
+import pytest
+from support.check import check
+
+
+def test_a_parameter_of_another_type() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="rate" value="5"/>
+                         ^^^^ error[PRM014] 'rate' is an integer, and /pump declares it as a double: the node stops
+            <param name="speed" value="5.0"/>
+            <param name="names" value="[a, b]"/>
+            <param name="count" value="'5'"/>
+                         ^^^^^ error[PRM014] 'count' is a string, and /pump declares it as an integer
+            <param name="free" value="1"/>
+            <param name="empty" value="[1, 2]"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/pump": {"params": {"~rate": 10.0, "~speed": 1.0, "~names": ["x"], "~count": 1, "~free": null, "~empty": []}}}
+    """)
+
+
+def test_a_parameter_of_another_type_than_it_arrives_with() -> None:
+    """As real rclpy has it: `tests/evaluation/test_types_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a">
+            <param name="rate" value="5"/>
+                         ^^^^ error[PRM014] 'rate' is an integer, and /a declares it as a double: the node stops
+            <param name="gains" value="[1, 2]"/>
+                         ^^^^^ error[PRM014] 'gains' is a list of integers, and /a declares it as a list of doubles
+            <param name="axis" value="y" type="str"/>
+                         ^^^^ error[PRM014] launch hands over 'y' without quotes, which rcl reads as a bool
+            <param name="any" value="5"/>
+            <param name="kind" value="5"/>
+                         ^^^^ error[PRM014] 'kind' is an integer, and /a declares it as a string
+            <param name="frames" value="[a, b]"/>
+                         ^^^^^^ error[PRM014] and /a declares it as bytes (which an empty list means)
+            <param from="/a.yaml"/>
+          </node>
+        </launch>
+        //- /a.yaml
+        a:
+          ros__parameters:
+            side: y
+            ^^^^ error[PRM014] 'side' is a bool, and /a declares it as a string: the node stops
+            name: "y"
+            none: []
+            ^^^^ error[PRM014] 'none' is an empty list, which has no type
+        //- interfaces
+        {"/a": {"params": {"~rate": 10.0, "~gains": [1.0], "~axis": "x", "~any": 1.0, "~side": "x", "~name": "x",
+                           "~none": [1.0], "~kind": null, "~frames": []},
+                "described": {"~any": {"dynamic": true}, "~kind": {"type": "string"},
+                              "~frames": {"type": "byte array"}}}}
+    """)
+
+
+def test_simulated_time_that_is_no_bool() -> None:
+    """As real rclpy has it: `tests/evaluation/test_types_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.yaml
+        launch:
+          - set_parameter: {name: use_sim_time, value: "'true'"}
+            ^^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is a string, and /a declares it as a bool: the node stops when it declares it (InvalidParameterTypeException); write it without quotes
+          - node: {pkg: p, exec: a, name: a}
+          - node: {pkg: p, exec: b, name: b}
+          - node:
+              pkg: p
+              exec: c
+              name: c
+              param:
+                - {name: use_sim_time, value: 1}
+                         ^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is an integer, and /c declares it as a bool
+          - node:
+              pkg: p
+              exec: d
+              name: d
+              param:
+                - {from: /d.yaml}
+          - node:
+              pkg: p
+              exec: e
+              name: e
+              param:
+                - {name: use_sim_time, value: false}
+        //- /d.yaml
+        d:
+          ros__parameters:
+            use_sim_time: yes please
+            ^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is a string, and /d declares it as a bool
+        //- interfaces
+        {"/a": {}}
+    """)  # noqa: E501
+
+
+@pytest.mark.silent
+def test_parameters_of_the_declared_type() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="speed" value="5.0"/>
+            <param name="names" value="[a, b]"/>
+            <param name="any" value="5"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/pump": {"params": {"~speed": 1.0, "~names": ["x"], "~any": 1.0}, "described": {"~any": {"dynamic": true}}}}
+    """)

@@ -1,0 +1,61 @@
+"""PRM015: nodes on simulated time without a clock, or beside nodes that are not (ROS 2)."""
+
+import pytest
+from support.check import check
+
+
+def test_simulated_time() -> None:
+    launch = """
+        //- /robot.launch.xml
+        <launch>
+          <set_parameter name="use_sim_time" value="true"/>
+          {expected}
+          <node pkg="p" exec="a" name="a"/>
+          {clock}
+        </launch>
+        //- interfaces
+        {interfaces}
+    """
+    told = '{"/a": {}, "/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}'
+    # A <set_parameter> has no name location of its own: the whole tag is underlined.
+    under = "^" * len('<set_parameter name="use_sim_time" value="true"/>')
+    check(
+        launch.format(
+            expected=f"{under} info[PRM015] use_sim_time is true, and no node of this launch publishes /clock",
+            clock="",
+            interfaces='{"/a": {}}',
+        )
+    )
+    check(launch.format(expected="", clock='<node pkg="p" exec="clock" name="clock"/>', interfaces=told))
+
+
+def test_nodes_on_two_clocks() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="clock" name="clock"/>
+          <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
+          <node pkg="p" exec="b" name="b"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM015] true for 1 node of this launch and not for /b
+        </launch>
+        //- interfaces
+        {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_the_clock_of_what_has_no_times_does_not_matter() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="clock" name="clock"/>
+          <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
+          <node pkg="p" exec="static_transform_publisher" name="fixed"/>
+          <node_container pkg="p" exec="component_container" name="box" namespace="">
+            <composable_node pkg="p" plugin="p::B" name="b" namespace=""><param name="use_sim_time" value="true"/>
+            </composable_node>
+          </node_container>
+        </launch>
+        //- interfaces
+        {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}
+    """)

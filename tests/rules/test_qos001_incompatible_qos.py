@@ -1,0 +1,72 @@
+"""QOS001: publisher and subscriber of a topic whose QoS does not fit (ROS 2)."""
+
+import json
+
+import pytest
+from support.check import check
+
+
+def test_qos_that_does_not_fit() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="laser" name="laser"/>
+          <node pkg="p" exec="filter" name="filter"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] /filter gets nothing of '/scan' from /laser
+          <node pkg="p" exec="map" name="map"/>
+          <node pkg="p" exec="nav" name="nav"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] its durability is volatile
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"},
+                    "qos": {"scan": {"reliability": "best_effort"}}},
+         "/filter": {"subscribers": {"scan": "sensor_msgs/msg/LaserScan"},
+                     "qos": {"scan": {"reliability": "reliable"}}},
+         "/map": {"publishers": {"map": "nav_msgs/msg/OccupancyGrid"},
+                  "qos": {"map": {"reliability": "reliable", "durability": "volatile"}}},
+         "/nav": {"subscribers": {"map": "nav_msgs/msg/OccupancyGrid", "scan": "sensor_msgs/msg/LaserScan"},
+                  "qos": {"map": {"reliability": "reliable", "durability": "transient_local"},
+                          "scan": {"reliability": "best_effort"}}}}
+    """)
+
+
+def test_what_a_publisher_does_not_promise() -> None:
+    for offered, asked, said in (
+        ({}, {"deadline": 0.5}, "it promises no deadline, and the subscription asks for 0.5 s"),
+        ({"deadline": 0.5}, {"deadline": 0.1}, "its deadline is 0.5 s"),
+        ({}, {"liveliness": "manual_by_topic"}, "its liveliness is automatic"),
+        ({}, {"lease_duration": 2.0}, "it promises no lease duration"),
+        ({"lease_duration": 1.0, "deadline": 0.1}, {"lease_duration": 2.0, "deadline": 0.1}, None),
+    ):
+        plain = {"reliability": "reliable", "durability": "volatile"}
+        interfaces = {
+            "/a": {"publishers": {"x": "std_msgs/msg/String"}, "qos": {"x": {**plain, **offered}}},
+            "/b": {"subscribers": {"x": "std_msgs/msg/String"}, "qos": {"x": {**plain, **asked}}},
+        }
+        expected = "" if said is None else f"\n{'^' * len('<node pkg=.p. exec=.b. name=.b./>')} error[QOS001] {said}"
+        check(
+            "//- /r.launch.xml\n<launch>\n<node pkg='p' exec='a' name='a'/>\n<node pkg='p' exec='b' name='b'/>"
+            f"{expected}\n</launch>\n//- interfaces\n{json.dumps(interfaces)}"
+        )
+    unknown = {"/a": {"publishers": {"x": "T"}}, "/b": {"subscribers": {"x": "T"}, "qos": {"x": {"deadline": 1.0}}}}
+    check(
+        "//- /r.launch.xml\n<launch>\n<node pkg='p' exec='a' name='a'/>\n<node pkg='p' exec='b' name='b'/>\n"
+        f"</launch>\n//- interfaces\n{json.dumps(unknown)}"
+    )
+
+
+@pytest.mark.silent
+def test_qos_that_fits_or_is_not_known() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="laser" name="laser"/>
+          <node pkg="p" exec="filter" name="filter"/>
+          <node pkg="p" exec="map" name="map"/>
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"}, "qos": {"scan": {"reliability": "reliable"}}},
+         "/filter": {"subscribers": {"scan": "sensor_msgs/msg/LaserScan"},
+                     "qos": {"scan": {"reliability": "best_effort"}}},
+         "/map": {"subscribers": {"scan": "sensor_msgs/msg/LaserScan"}}}
+    """)

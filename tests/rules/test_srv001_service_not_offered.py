@@ -1,0 +1,74 @@
+"""SRV001: a node calls a service that nobody offers."""
+
+import pytest
+from support.check import apply, check
+
+
+def test_a_near_miss_is_a_warning_that_names_both() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          <node pkg="p" type="t" name="dock"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] '/base/reset_odometry', offered by /base (same type
+        </launch>
+        //- interfaces
+        {"/base": {"services": {"~reset_odometry": "std_srvs/Trigger"}},
+         "/dock": {"clients": {"base/reset_odom": "std_srvs/Trigger"}}}
+    """
+    (finding,) = check(text)
+    assert "none of the 2 nodes of this launch offers service '/base/reset_odom', which /dock calls" in finding.message
+    assert (
+        '<remap from="base/reset_odom" to="base/reset_odometry"/>'
+        in apply(text, finding.fixes[0].edits)["/main.launch"]
+    )
+
+
+def test_without_a_near_name_it_is_a_hint() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          <node pkg="p" type="t" name="dock"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] offers service '/gazebo/pause' (std_srvs/Empty)
+        </launch>
+        //- interfaces
+        {"/base": {"services": {"reset": "std_srvs/Empty", "~get_loggers": "roscpp/GetLoggers"}},
+         "/dock": {"clients": {"/gazebo/pause": "std_srvs/Empty"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_services_that_meet_and_services_that_nobody_calls_are_fine() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          <node pkg="p" type="t" name="dock"><remap from="reset" to="base/reset"/></node>
+        </launch>
+        //- interfaces
+        {"/base": {"services": {"~reset": "std_srvs/Empty", "other": "std_srvs/Empty"}},
+         "/dock": {"clients": {"reset": "std_srvs/Empty"}}}
+    """)
+
+
+def test_a_service_that_is_waited_for_may_be_the_one_that_nobody_calls() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="b" name="base"/>
+          <node pkg="p" type="d" name="dock"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] waits for when it starts; did you mean '/reset_od
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC005] it waits for the service /base/reset_odom
+          <node pkg="p" type="c" name="calls"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] '/calls/reset' (std_srvs/Empty)
+          <node pkg="p" type="o" name="other"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] '/load_map' (std_srvs/Empty)
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC005] it waits for the service /load_map
+        </launch>
+        //- interfaces
+        {"/base": {"services": {"reset_odometry": "std_srvs/Empty"}},
+         "/dock": {"clients": {"base/reset_odom": "std_srvs/Empty"},
+                   "answers": ["it waits for the service /base/reset_odom, and was told that it is there"],
+                   "notes": ["it waits for the service /base/reset_odom, and was told that it is there"]},
+         "/calls": {"clients": {"~reset": "std_srvs/Empty"}},
+         "/other": {"clients": {"load_map": "std_srvs/Empty"},
+                    "answers": ["it waits for the service /load_map, and was told that it is there"],
+                    "notes": ["it waits for the service /load_map, and was told that it is there"]}}
+    """)

@@ -1,0 +1,46 @@
+"""SRV003: two nodes offer one service."""
+
+import pytest
+from support.check import check
+
+
+def test_a_service_that_two_nodes_offer() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="left"/>
+          <node pkg="p" type="t" name="right"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] services '/reset' and '/stop' are offered by
+        </launch>
+        //- interfaces
+        {"/left": {"services": {"reset": "std_srvs/Empty", "stop": "std_srvs/Empty", "~own": "std_srvs/Empty"}},
+         "/right": {"services": {"reset": "std_srvs/Empty", "stop": "std_srvs/Empty", "~own": "std_srvs/Empty"}}}
+    """
+    (finding,) = check(text)
+    assert [related.message for related in finding.related] == ["/left offers /reset"]
+
+
+def test_a_service_that_two_nodes_of_ros2_offer() -> None:
+    check("""
+        //- /main.launch.xml
+        <launch>
+          <node pkg="p" exec="t" name="left"/>
+          <node pkg="p" exec="t" name="right"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] /left and /right: each of them carries out every
+        </launch>
+        //- interfaces
+        {"/left": {"services": {"reset": "std_srvs/srv/Trigger"}},
+         "/right": {"services": {"reset": "std_srvs/srv/Trigger"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_services_of_two_namespaces_and_those_of_every_node_are_not_offered_twice() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base" ns="left"/>
+          <node pkg="p" type="t" name="base" ns="right"/>
+        </launch>
+        //- interfaces
+        {"/left/base": {"services": {"reset": "std_srvs/Empty", "/x": "y/Z"}, "builtin": ["/x"]},
+         "/right/base": {"services": {"reset": "std_srvs/Empty", "/x": "y/Z"}, "builtin": ["/x"]}}
+    """)

@@ -1,0 +1,404 @@
+"""TOP001: a node subscribes to what nobody publishes."""
+
+import json
+
+import pytest
+from support.check import apply, check, findings_of
+
+
+def test_a_near_miss_through_a_remap_is_shown_at_the_remap() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          <node pkg="p" type="t" name="listener">
+            <remap from="chatter" to="chater"/>
+                                      ^^^^^^ warning[TOP001] '/chatter', published by /talker (same type
+          </node>
+        </launch>
+        //- interfaces
+        {"/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "likely"
+    assert "none of the 2 nodes of this launch publishes '/chater', to which /listener subscribes" in finding.message
+    assert [related.message for related in finding.related] == ["/talker publishes /chatter"]
+    (fix,) = finding.fixes
+    assert fix.preferred
+    assert '<remap from="chatter" to="chatter"/>' in apply(text, fix.edits)["/main.launch"]
+
+
+def test_a_near_miss_of_a_topic_that_is_made_on_demand_is_no_warning() -> None:
+    (finding,) = check("""
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          <node pkg="p" type="t" name="lazy">
+            <remap from="chatter" to="chater"/>
+                                      ^^^^^^ info[TOP001] '/chatter', published by /talker (same type
+          </node>
+        </launch>
+        //- interfaces
+        {"/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/lazy": {"subscribers": {"chatter": "std_msgs/String"}, "on_demand": ["chatter"]}}
+    """)
+    assert finding.confidence == "possible"
+
+
+def test_a_near_miss_through_the_publishers_remap_is_shown_there() -> None:
+    text = """
+        <launch>
+          <group ns="robot">
+            <node pkg="p" type="t" name="talker">
+              <remap from="out" to="/robot/chater"/>
+                                    ^^^^^^^^^^^^^ warning[TOP001] /robot/listener subscribes to '/robot/chatter'
+            </node>
+            <node pkg="p" type="t" name="listener"/>
+          </group>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"out": "std_msgs/String"}},
+         "/robot/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert 'to="/robot/chatter"' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_relative_remap_stays_relative_and_works_in_an_included_file() -> None:
+    text = """
+        <launch>
+          <group ns="robot"><include file="/inc.launch"/></group>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          <node pkg="p" type="t" name="listener">
+            <remap from="in" to="sub/chater"/>
+                                 ^^^^^^^^^^ warning[TOP001] '/robot/sub/chatter'
+          </node>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"sub/chatter": "std_msgs/String"}},
+         "/robot/listener": {"subscribers": {"in": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert 'to="sub/chatter"' in apply(text, finding.fixes[0].edits)["/inc.launch"]
+    assert finding.related[-1].message == "included here"
+
+
+def test_a_node_that_ended_well_or_waited_leaves_the_evidence_as_it_is() -> None:
+    for said in ('"status": "exited", "exit_code": 0', '"answers": ["the service of which it waits was made up"]'):
+        found = findings_of(
+            """
+            <launch>
+              <group ns="arm"><node pkg="p" type="t" name="driver"/></group>
+              <node pkg="p" type="t" name="watch"/>
+              <node pkg="p" type="t" name="third"/>
+            </launch>
+            //- interfaces
+            {"/arm/driver": {"publishers": {"joints": "sensor_msgs/JointState"}},
+             "/watch": {"subscribers": {"joints": "sensor_msgs/JointState"}}, "/third": {SAID}}
+            """.replace("SAID", said)
+        )
+        assert [(f.severity, f.confidence) for f in found if f.rule == "TOP001"] == [("warning", "possible")]
+
+
+def test_names_from_source_code_get_a_remap() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="lane_select"/>
+          <node pkg="p" type="t" name="velocity_set"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] did you mean '/base_waypoints'
+        </launch>
+        //- interfaces
+        {"/lane_select": {"publishers": {"base_waypoints": "nav_msgs/Path"}},
+         "/velocity_set": {"subscribers": {"base_waypoint": "nav_msgs/Path"}}}
+    """
+    (finding,) = check(text)
+    here, there = (apply(text, fix.edits)["/main.launch"] for fix in finding.fixes)
+    assert (
+        '<node pkg="p" type="t" name="velocity_set">\n'
+        '    <remap from="base_waypoint" to="base_waypoints"/>\n'
+        "  </node>" in here
+    )
+    assert '<remap from="base_waypoints" to="base_waypoint"/>' in there
+
+
+def test_the_fix_mends_the_finding() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="a" ns="x"/>
+          <node pkg="p" type="t" name="b" ns="x"/>
+        </launch>
+        //- interfaces
+        {"/x/a": {"publishers": {"scan_raw": "sensor_msgs/LaserScan"}},
+         "/x/b": {"subscribers": {"~scan_row": "sensor_msgs/LaserScan"}}}
+    """
+    (finding,) = [f for f in findings_of(text.replace("~", "")) if f.rule == "TOP001"]
+    mended = apply(text.replace("~", ""), finding.fixes[0].edits)["/main.launch"]
+    assert findings_of(mended + "\n//- interfaces\n" + text.partition("interfaces\n")[2].replace("~", "")) == []
+
+
+def test_a_publisher_with_other_subscribers_is_not_offered_to_be_moved() -> None:
+    (finding,) = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"scan_raw": "sensor_msgs/LaserScan"}},
+         "/b": {"subscribers": {"scan_raw": "sensor_msgs/LaserScan"}},
+         "/c": {"subscribers": {"scan_row": "sensor_msgs/LaserScan"}}}
+    """)
+    assert [fix.title for fix in finding.fixes] == ["Remap 'scan_row' to 'scan_raw' in /c"]
+
+
+def test_like_words_of_a_specific_type_are_enough_where_both_ends_dangle() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="laser"/>
+          <node pkg="p" type="t" name="amcl"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] did you mean '/narrow_scan', published by /laser
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"narrow_scan": "sensor_msgs/LaserScan"}},
+         "/amcl": {"subscribers": {"scan": "sensor_msgs/LaserScan"}}}
+    """)
+
+
+def test_like_words_of_a_topic_that_is_in_use_are_not() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="laser"/>
+          <node pkg="p" type="t" name="amcl"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP001] none of the 3 nodes of this launch publishes '/scan'
+          <node pkg="p" type="t" name="docking"/>
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"narrow_scan": "sensor_msgs/LaserScan"}},
+         "/docking": {"subscribers": {"narrow_scan": "sensor_msgs/LaserScan"}},
+         "/amcl": {"subscribers": {"scan": "sensor_msgs/LaserScan"}}}
+    """)
+
+
+def test_a_like_name_of_another_type_is_no_near_miss() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="talker"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] subscribes to '/chatter', published by /talker
+          <node pkg="p" type="t" name="listener"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP001] publishes '/chater' (std_msgs/Int32), to which /listener
+        </launch>
+        //- interfaces
+        {"/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chater": "std_msgs/Int32"}}}
+    """)
+
+
+def test_numbered_names_are_no_typos_of_each_other() -> None:
+    findings = findings_of("""
+        <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>
+        //- interfaces
+        {"/a": {"publishers": {"camera1/image": "sensor_msgs/Image"}},
+         "/b": {"subscribers": {"camera2/image": "sensor_msgs/Image"}}}
+    """)
+    assert {finding.severity for finding in findings} == {"hint"}
+
+
+def test_what_a_node_takes_in_and_gives_out_are_no_near_miss() -> None:
+    findings = findings_of("""
+        <launch><node pkg="p" type="t" name="filter"/></launch>
+        //- interfaces
+        {"/filter": {"publishers": {"imu/data": "sensor_msgs/Imu"}, "subscribers": {"imu/data_raw": "sensor_msgs/Imu"}}}
+    """)
+    assert {finding.severity for finding in findings} == {"hint"}
+
+
+def test_the_only_topic_of_the_type_is_named_in_the_hint() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch><node pkg="p" type="t" name="truth"/><node pkg="p" type="t" name="controller"/></launch>
+            //- interfaces
+            {"/truth": {"publishers": {"/ground_truth/state": "nav_msgs/Odometry"}},
+             "/controller": {"subscribers": {"/pose_estimate": "nav_msgs/Odometry"}}}
+        """)
+        if f.rule == "TOP001"
+    ]
+    assert finding.severity == "hint"
+    assert "'/ground_truth/state' of /truth has this type and no subscriber" in finding.message
+
+
+def test_in_an_incomplete_graph_a_near_miss_is_less_sure_and_says_why() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch>
+              <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+            </launch>
+            //- interfaces
+            {"/a": {"publishers": {"scan_raw": "sensor_msgs/LaserScan"}},
+             "/b": {"subscribers": {"scan_row": "sensor_msgs/LaserScan"}}}
+        """)
+        if f.rule == "TOP001"
+    ]
+    assert (finding.severity, finding.confidence) == ("warning", "possible")
+    assert "(1 of them not fully known)" in finding.message
+
+
+@pytest.mark.silent
+def test_what_lives_outside_of_most_launches_may_dangle() -> None:
+    check("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"publishers": {"/tf": "tf2_msgs/TFMessage", "/rosout": "rosgraph_msgs/Log",
+                               "/diagnostics": "diagnostic_msgs/DiagnosticArray",
+                               "image/compressed": "sensor_msgs/CompressedImage",
+                               "dock/result": "x/DockActionResult"},
+                "subscribers": {"/clock": "rosgraph_msgs/Clock", "initialpose": "x/Pose", "/mine": "x/Y",
+                                "dock/goal": "x/DockActionGoal"},
+                "builtin": ["/mine"]}}
+    """)
+
+
+@pytest.mark.silent
+def test_without_interfaces_nothing_is_said_of_topics() -> None:
+    check('<launch><node pkg="p" type="t" name="n"/></launch>')
+
+
+def test_a_leading_slash_is_evidence_even_of_a_generic_type() -> None:
+    text = """
+        <launch>
+          <group ns="robot">
+            <node pkg="p" type="t" name="talker"/>
+            <node pkg="p" type="t" name="listener"/>
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] '/chatter' is given with a leading slash
+          </group>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/robot/listener": {"subscribers": {"/chatter": "std_msgs/String"}}}
+    """
+    (finding,) = check(text)
+    assert "did you mean '/robot/chatter', published by /robot/talker (same type std_msgs/String;" in finding.message
+    assert '<remap from="/chatter" to="/robot/chatter"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_leading_slash_in_a_remap_is_shown_there() -> None:
+    check("""
+        <launch>
+          <group ns="fleet"><group ns="a">
+            <node pkg="p" type="t" name="laser"/>
+            <node pkg="p" type="t" name="amcl">
+              <remap from="in" to="/scan"/>
+                                   ^^^^^ warning[TOP001] '/scan' is given with a leading slash
+            </node>
+          </group></group>
+        </launch>
+        //- interfaces
+        {"/fleet/a/laser": {"publishers": {"scan": "sensor_msgs/LaserScan"}},
+         "/fleet/a/amcl": {"subscribers": {"in": "sensor_msgs/LaserScan"}}}
+    """)
+
+
+def test_a_namespace_more_on_one_side_is_evidence() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="robot"/>
+          <node pkg="p" type="t" name="listener"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] they differ by the namespace 'robot')
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+
+
+def test_a_namespace_is_no_evidence_where_several_could_be_meant_or_somebody_else_listens() -> None:
+    several = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="a"/><node pkg="p" type="t" name="talker" ns="b"/>
+          <node pkg="p" type="t" name="listener"/>
+        </launch>
+        //- interfaces
+        {"/a/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/b/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+    used = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="a"/><node pkg="p" type="t" name="logger" ns="a"/>
+          <node pkg="p" type="t" name="listener"/>
+        </launch>
+        //- interfaces
+        {"/a/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/a/logger": {"subscribers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+    assert {f.severity for f in (*several, *used)} == {"hint"}
+
+
+def test_a_namespace_is_only_a_hint_where_not_all_nodes_are_known() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="talker" ns="robot"/><node pkg="p" type="t" name="listener"/>
+          <node pkg="p" type="t" name="other"/>
+        </launch>
+        //- interfaces
+        {"/robot/talker": {"publishers": {"chatter": "std_msgs/String"}},
+         "/listener": {"subscribers": {"chatter": "std_msgs/String"}}}
+    """)
+    assert {f.severity for f in findings if f.rule == "TOP001"} == {"hint"}
+
+
+def test_a_name_of_which_the_node_uses_both_is_no_slip() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch><node pkg="p" type="t" name="source"/><node pkg="p" type="t" name="sink"/></launch>
+            //- interfaces
+            {"/source": {"publishers": {"status": "std_msgs/String"}},
+             "/sink": {"subscribers": {"status": "std_msgs/String", "stats": "std_msgs/String"}}}
+        """)
+        if f.rule == "TOP001"
+    ]
+    assert finding.severity == "hint"
+    assert "did you mean" not in finding.message
+
+
+def test_of_several_cameras_none_is_the_one_elsewhere() -> None:
+    def severities(cameras: list[str]) -> set[str]:
+        nodes = "".join(f'<group ns="{name}"><node pkg="p" type="t" name="cam"/></group>' for name in cameras)
+        made = ", ".join(f'"/{name}/cam": {{"publishers": {{"image_raw": "sensor_msgs/Image"}}}}' for name in cameras)
+        found = findings_of(f"""
+            <launch>{nodes}<node pkg="p" type="t" name="stream"/></launch>
+            //- interfaces
+            {{{made}, "/stream": {{"subscribers": {{"external/image_raw": "sensor_msgs/Image"}}}}}}
+        """)
+        return {f.severity for f in found if f.rule == "TOP001"}
+
+    assert severities(["left"]) == {"warning"}
+    assert severities(["left", "right"]) == {"hint"}
+
+
+def test_the_same_topic_of_another_node_is_only_a_hint() -> None:
+    text = """
+        <launch><node pkg="p" type="t" name="rectifier"/><node pkg="p" type="t" name="detector"/></launch>
+        //- interfaces
+        {"/rectifier": {"publishers": {"NAME": "sensor_msgs/Image"}},
+         "/detector": {"subscribers": {"/camera/image": "sensor_msgs/Image"}}}
+    """
+    found = {name: findings_of(text.replace("NAME", name)) for name in ("~image", "rectifier/image")}
+    told = {name: [f.severity for f in all_ if f.rule == "TOP001"] for name, all_ in found.items()}
+    assert told == {"~image": ["hint"], "rectifier/image": ["warning"]}
+    (renamed,) = findings_of(text.replace("NAME", "~image").replace("/camera", "/old_rectifier"))
+    assert (renamed.rule, renamed.severity) == ("TOP001", "warning")
+
+
+def test_absence_after_a_made_up_answer_is_not_sure() -> None:
+    for answers, sure in (([], "likely"), (["it got an empty scan"], "possible")):
+        (finding,) = findings_of(f"""
+            <launch><node pkg="p" type="t" name="n"/><node pkg="p" type="t" name="m"/></launch>
+            //- interfaces
+            {{"/n": {{"publishers": {{"chatter": "std_msgs/String"}}, "answers": {json.dumps(answers)}}},
+              "/m": {{"subscribers": {{"chater": "std_msgs/String"}}}}}}
+        """)
+        assert (finding.rule, finding.confidence) == ("TOP001", sure)

@@ -1,0 +1,48 @@
+"""TOP002: a node publishes what nobody subscribes to."""
+
+import pytest
+from support.check import check
+
+
+def test_a_connected_graph_is_quiet_and_unused_topics_share_a_hint() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] subscribes to '/battery', '/joint_states' and '/odom'
+          <node pkg="p" type="t" name="teleop"/>
+        </launch>
+        //- interfaces
+        {"/base": {"subscribers": {"cmd_vel": "x/T"},
+                   "publishers": {"odom": "x/O", "battery": "x/B", "joint_states": "x/J"}},
+         "/teleop": {"publishers": {"cmd_vel": "x/T"}}}
+    """)
+
+
+def test_an_image_that_is_read_compressed_is_read() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="camera"/>
+          <node pkg="p" type="t" name="web"/>
+          <node pkg="p" type="t" name="spare"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] '/spare/image', published by
+        </launch>
+        //- interfaces
+        {"/camera": {"publishers": {"image": "sensor_msgs/Image", "image/theora": "theora_image_transport/Packet",
+                                    "image/compressed": "sensor_msgs/CompressedImage"}},
+         "/spare": {"publishers": {"~image": "sensor_msgs/Image", "~image/compressed": "sensor_msgs/CompressedImage"}},
+         "/web": {"subscribers": {"image/compressed": "sensor_msgs/CompressedImage"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_what_libraries_talk_about_among_themselves_is_no_finding() -> None:
+    check("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"publishers": {"~bond": "bond/Status", "/tf": "tf2_msgs/TFMessage", "/diagnostics": "d/DiagnosticArray",
+                               "~parameter_updates": "dynamic_reconfigure/Config",
+                               "~parameter_descriptions": "dynamic_reconfigure/ConfigDescription"},
+                "subscribers": {"/tf": "tf2_msgs/TFMessage", "/tf_static": "tf2_msgs/TFMessage",
+                                "manager/bond": "bond/Status"},
+                "services": {"~set_parameters": "dynamic_reconfigure/Reconfigure"}}}
+    """)

@@ -1,0 +1,62 @@
+"""TOP003: publisher and subscriber of a topic have different types."""
+
+import pytest
+from support.action_interfaces import server
+from support.check import check, findings_of
+
+
+def test_goals_sent_without_a_client_are_a_topic() -> None:
+    check(f"""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          <node pkg="p" type="t" name="patrol"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[TOP003] types of '/move_base/goal' differ
+        </launch>
+        //- interfaces
+        {{"/patrol": {server("move_base", "m/MoveBaseAction")},
+         "/base": {{"publishers": {{"move_base/goal": "geometry_msgs/PoseStamped"}}}}}}
+    """)
+
+
+def test_types_that_differ() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b">
+            <remap from="in" to="pose"/>
+                                 ^^^^ error[TOP003] /a publishes it as x/Pose, /b subscribes to it as x/PoseStamped
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"pose": "x/Pose"}}, "/b": {"subscribers": {"in": "x/PoseStamped"}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "certain"
+    assert finding.related[0].message == "/a publishes /pose"
+
+
+def test_one_type_of_two_definitions() -> None:
+    (finding,) = findings_of("""
+        <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>
+        //- interfaces
+        {"/a": {"publishers": {"pose": "x/Pose"}, "md5": {"pose": "11"}},
+         "/b": {"subscribers": {"pose": "x/Pose"}, "md5": {"pose": "22"}}}
+    """)
+    assert finding.rule == "TOP003"
+    assert "MD5 sums 11 and 22" in finding.message
+
+
+@pytest.mark.silent
+def test_any_type_fits_and_so_does_an_unknown_one() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+          <node pkg="p" type="t" name="c">
+            <!-- <topics><topic name="pose" class="sub"/></topics> -->
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"pose": "x/Pose"}, "md5": {"pose": "11"}},
+         "/b": {"subscribers": {"pose": "*"}, "md5": {"pose": "*"}}}
+    """)

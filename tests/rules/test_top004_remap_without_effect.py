@@ -1,0 +1,170 @@
+"""TOP004: a remap of a name that its node does not use."""
+
+import pytest
+from support.check import apply, check, findings_of
+
+
+def test_a_typo_in_from_is_shown_there_and_nowhere_else() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="laser"/>
+          <node pkg="p" type="t" name="amcl">
+            <remap from="scna" to="front/scan"/>
+                         ^^^^ warning[TOP004] this remap has no effect: /amcl does not use '/scna'; did you mean 'scan'
+          </node>
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"front/scan": "sensor_msgs/LaserScan"}},
+         "/amcl": {"subscribers": {"scan": "sensor_msgs/LaserScan"}}}
+    """
+    (finding,) = check(text)
+    assert finding.confidence == "likely"
+    assert "'/front/scan' is what /laser publishes as sensor_msgs/LaserScan" in finding.message
+    mended = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
+
+
+def test_the_only_end_that_fits_the_target_is_what_was_meant() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="navigator"/>
+          <node pkg="p" type="t" name="collision_stop">
+            <remap from="input_cmd_vel" to="cmd_vel_nav"/>
+                         ^^^^^^^^^^^^^ warning[TOP004] did you mean 'cmd_vel_in', which it subscribes to
+          </node>
+        </launch>
+        //- interfaces
+        {"/navigator": {"publishers": {"cmd_vel_nav": "geometry_msgs/Twist"}},
+         "/collision_stop": {"subscribers": {"cmd_vel_in": "geometry_msgs/Twist"}}}
+    """)
+
+
+def test_a_missing_tilde() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="source"/>
+          <node pkg="p" type="t" name="filter">
+            <remap from="input" to="points"/>
+                         ^^^^^ warning[TOP004] did you mean '~input'
+          </node>
+        </launch>
+        //- interfaces
+        {"/source": {"publishers": {"points": "sensor_msgs/PointCloud2"}},
+         "/filter": {"subscribers": {"~input": "sensor_msgs/PointCloud2"}}}
+    """)
+
+
+def test_a_service_client() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          <node pkg="p" type="t" name="dock">
+            <remap from="rest" to="base/clear"/>
+                         ^^^^ warning[TOP004] did you mean 'reset', which it calls
+          </node>
+        </launch>
+        //- interfaces
+        {"/base": {"services": {"base/clear": "std_srvs/Empty"}}, "/dock": {"clients": {"reset": "std_srvs/Empty"}}}
+    """)
+
+
+def test_without_a_near_name_it_is_a_hint() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002]
+            <remap from="battery" to="power"/>
+                         ^^^^^^^ hint[TOP004] /n does not use '/battery' before its event loop
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"publishers": {"odom": "nav_msgs/Odometry"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_what_libraries_make_of_names_is_used() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <remap from="image/compressed" to="small"/>
+            <remap from="camera_info" to="info"/>
+            <remap from="dock" to="station/dock"/>
+            <remap from="/tf" to="tf"/>
+            <remap from="rate" to="speed"/>
+            <remap from="old" to="given"/>
+          </node>
+          <node pkg="p" type="t" name="m"/>
+        </launch>
+        //- interfaces
+        {"/n": {"publishers": {"image": "x/I", "given": "x/J"}, "subscribers": {"dock/goal": "x/DockActionGoal"},
+                "params": {"rate": 3}},
+         "/m": {"subscribers": {"image": "x/I", "given": "x/J"}}}
+    """)
+
+
+def test_a_remap_around_nodes_has_to_be_idle_at_all_of_them() -> None:
+    check("""
+        <launch>
+          <remap from="scan" to="front/scan"/>
+          <remap from="sonar" to="front/sonar"/>
+                       ^^^^^ hint[TOP004] none of the 2 nodes that it reaches uses '/sonar'
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"scan": "x/S"}, "subscribers": {"odom": "x/O"}},
+         "/b": {"publishers": {"odom": "x/O"}, "subscribers": {"/front/scan": "x/S"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_nothing_is_said_of_a_node_that_is_not_known_to_its_end() -> None:
+    launch = """
+        <launch>
+          <node pkg="p" type="t" name="a"><remap from="scna" to="front"/></node>
+        </launch>
+        //- interfaces
+    """
+    crashed = '{"/a": {"status": "crashed", "exit_code": 1, "subscribers": {"scan": "x/S"}}}'
+    nothing = '{"/a": {}}'
+    guessed = '{"/a": {"subscribers": {"scan": "x/S"}, "speculative": ["scan"]}}'
+    for interfaces in (crashed, nothing, guessed):
+        assert [f for f in findings_of(launch + interfaces) if f.rule == "TOP004"] == []
+    annotated = """
+        <launch>
+          <node pkg="p" type="t" name="a">
+            <remap from="scna" to="front"/>
+            <!-- <topics><topic name="scan" type="x/S" class="sub"/></topics> -->
+          </node>
+        </launch>
+    """
+    assert [f for f in findings_of(annotated) if f.rule == "TOP004"] == []
+
+
+@pytest.mark.silent
+def test_a_nodelet_may_subscribe_later() -> None:
+    check("""
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="rectify" args="load image_proc/rectify manager">
+            <remap from="image_mono" to="camera/image_raw"/>
+          </node>
+        </launch>
+        //- /nodelet/package.xml
+        <package><name>nodelet</name></package>
+        //- interfaces
+        {"/rectify": {"publishers": {"~parameter_updates": "dynamic_reconfigure/Config"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_a_remap_of_an_actions_name_has_an_effect() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="base"><remap from="move_base" to="go"/></node>
+        </launch>
+        //- interfaces
+        {"/base": {"publishers": {"move_base/status": "actionlib_msgs/GoalStatusArray",
+                                  "move_base/feedback": "m/GoActionFeedback", "move_base/result": "m/GoActionResult"},
+                   "subscribers": {"move_base/goal": "m/GoActionGoal", "move_base/cancel": "actionlib_msgs/GoalID"}}}
+    """)

@@ -1,0 +1,76 @@
+"""TOP005: two nodes publish a topic that is meant for one."""
+
+import pytest
+from support.check import check, findings_of
+
+
+def test_two_nodes_that_latch_a_map() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="map_server"/>
+          <node pkg="p" type="t" name="slam"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/map' is published by /map_server and /slam
+          <node pkg="p" type="t" name="planner"/>
+        </launch>
+        //- interfaces
+        {"/map_server": {"publishers": {"map": "nav_msgs/OccupancyGrid"}, "latched": ["map"]},
+         "/slam": {"publishers": {"map": "nav_msgs/OccupancyGrid"}, "latched": ["map"]},
+         "/planner": {"subscribers": {"map": "nav_msgs/OccupancyGrid"}}}
+    """)
+
+
+def test_other_latched_topics_are_an_info_and_clock_a_warning() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/clock' is published by /a and /b
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TOP005] '/mode' is published by /a and /b
+          <node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"mode": "std_msgs/String", "/clock": "rosgraph_msgs/Clock"}, "latched": ["mode"]},
+         "/b": {"publishers": {"mode": "std_msgs/String", "/clock": "rosgraph_msgs/Clock"}, "latched": ["mode"]},
+         "/c": {"subscribers": {"mode": "std_msgs/String"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_several_publishers_are_fine_where_many_are_meant() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/><node pkg="p" type="t" name="c"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"m": "visualization_msgs/Marker", "/tf_static": "tf2_msgs/TFMessage", "cmd": "x/T",
+                               "state": "x/S"}, "latched": ["m", "/tf_static", "state"]},
+         "/b": {"publishers": {"m": "visualization_msgs/Marker", "/tf_static": "tf2_msgs/TFMessage", "cmd": "x/T",
+                               "state": "x/S"}, "latched": ["m", "/tf_static"]},
+         "/c": {"subscribers": {"m": "visualization_msgs/Marker", "cmd": "x/T", "state": "x/S"}}}
+    """)
+
+
+def test_two_cameras_on_one_topic() -> None:
+    text = """
+        <launch>
+          <group ns="head"><node pkg="p" type="t" name="left"/></group>
+          <group ns="head"><node pkg="p" type="t" name="right"/></group>
+                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] a subscriber gets the
+          <node pkg="p" type="t" name="viewer"/>
+        </launch>
+        //- interfaces
+        {"/head/left": {"publishers": {"image_raw": "sensor_msgs/Image"}},
+         "/head/right": {"publishers": {"image_raw": "sensor_msgs/Image"}},
+         "/viewer": {"subscribers": {"/head/image_raw": "sensor_msgs/Image"}}}
+    """
+    check(text)
+    told = {
+        type_: [f.severity for f in findings_of(text.replace("sensor_msgs/Image", type_)) if f.rule == "TOP005"]
+        for type_ in ("nav_msgs/Odometry", "sensor_msgs/JointState", "geometry_msgs/Twist", "std_msgs/String")
+    }
+    assert told == {
+        "nav_msgs/Odometry": ["info"],
+        "sensor_msgs/JointState": [],
+        "geometry_msgs/Twist": [],
+        "std_msgs/String": [],
+    }

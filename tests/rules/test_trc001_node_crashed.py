@@ -1,0 +1,171 @@
+"""TRC001: a node crashed when it was run."""
+
+import pytest
+from support.check import check, findings_of
+
+
+def test_where_a_node_is_not_known_a_global_parameter_may_be_its() -> None:
+    check("""
+        <launch>
+          <param name="rate" value="20"/>
+          <node pkg="p" type="t" name="n"/>
+          <node pkg="p" type="t" name="m"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+        </launch>
+        //- interfaces
+        {"/n": {"params": {"~rate": 10}}, "/m": {"status": "crashed", "exit_code": 1}}
+    """)
+
+
+def test_a_crash_says_why() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 1; FileNotFoundError: no such file: '/m.json'
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr":
+                ["Traceback (most recent call last):", "FileNotFoundError: no such file: '/m.json'", "[shutdown]", ""]}}
+    """)
+
+
+def test_a_crash_after_a_made_up_answer_may_be_our_doing() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] killed by SIGSEGV
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "signal": "SIGSEGV", "publishers": {"/tf": "x/Y"}, "speculative": ["/tf"]}}
+    """)
+
+
+def test_an_end_after_a_made_up_answer_may_be_our_doing_even_if_nothing_was_found_after_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] IndexError
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr": ["IndexError: 0"], "answers": ["it got an empty scan"]}}
+    """)
+
+
+def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
+    check("""
+        <launch>
+          <param name="robot_description" command="xacro robot.xacro"/>
+                                                   ^^^^^^^^^^^^^^^^^ hint[LCH018] was not run
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/robot_description', which comes from a command
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/robot_description": null}}}
+        //- commands
+        {"xacro robot.xacro": {"status": "not-run", "reason": "--no-run was given"}}
+    """)
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        '<param name="robot_description" command="$(find nowhere)/xacro r.xacro"/>',
+        '<param name="robot_description" textfile="$(find p)/r.urdf"/>',
+        '<param name="robot_description" value="$(env NOT_SET_HERE)"/>',
+        '<param name="robot_description" type="int" value="none"/>',
+        '<rosparam param="robot_description" command="load" file="$(find p)/r.yaml"/>',
+        '<rosparam file="$(find p)/r.yaml"/>',
+        '<rosparam param="robot_description">{</rosparam>',
+    ],
+)
+@pytest.mark.parametrize("access", ["get", "has"])
+def test_a_crash_for_want_of_a_value_that_is_reported_itself_is_a_consequence(setting: str, access: str) -> None:
+    found = findings_of(f"""
+        <launch>
+          {setting}
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "params": {{"/robot_description": {{"access": "{access}"}}}},
+                 "stderr": ["Could not find parameter robot_description on parameter server"]}}}}
+    """)
+    (crash,) = (each for each in found if each.rule != "PRM010" and each.rule.startswith(("TRC", "PRM01")))
+    assert (crash.rule, crash.severity, crash.confidence) == ("TRC001", "info", "possible")
+    assert "it asked for '/robot_description', which has no value: " in crash.message
+    assert any(each.stops_launch for each in found)
+
+
+def test_a_crash_for_want_of_a_private_value_that_is_reported_itself_is_a_consequence() -> None:
+    check("""
+        <launch>
+          <param name="~model" value="$(find nowhere)/m"/>
+                                      ^^^^^^^^^^^^^^^ error[PKG001] package 'nowhere' is not among
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/n/model', which has no value
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"~model": null}}}
+    """)
+
+
+def test_a_crash_for_another_reason_stays_a_warning_where_a_value_is_missing() -> None:
+    check("""
+        <launch>
+          <param name="robot_description" value="$(find nowhere)/m"/>
+                                                 ^^^^^^^^^^^^^^^ error[PKG001] package 'nowhere' is not among
+          <param name="model" value="x"/>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 1
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/model": null}}}
+    """)
+
+
+def test_a_crash_for_what_only_the_sandbox_lacks_is_no_warning() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n needs a network; it ended with exit code 1; OSError
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "lacks": "a network",
+                 "stderr": ["OSError: [Errno 101] Network is unreachable"]}}
+    """)
+
+
+@pytest.mark.silent
+def test_a_node_that_spins_is_not_mentioned() -> None:
+    assert (
+        findings_of("""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {}}
+    """)
+        == []
+    )
+
+
+def test_a_long_last_line_is_told_once_and_without_its_time() -> None:
+    line = "[FATAL] [1795283767.248522279]: " + "no such device, " * 40
+    reason = "it ended with exit code 1: " + ("no such device, " * 40)[:200]
+    text = """
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "reason": "REASON", "stderr": ["LINE"]}}
+    """
+    (finding,) = findings_of(text.replace("LINE", line).replace("REASON", reason))
+    assert finding.message == f"/n crashed when it was run: {reason}"
+    (finding,) = findings_of(text.replace("LINE", line).replace('"reason": "REASON", ', ""))
+    assert finding.message == "/n crashed when it was run: exit code 1; " + ("no such device, " * 40)[:200]
+
+
+def test_an_early_end_with_an_error() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="failed"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 3
+        </launch>
+        //- interfaces
+        {"/failed": {"status": "exited", "exit_code": 3}}
+    """)
