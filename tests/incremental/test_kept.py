@@ -77,6 +77,48 @@ def test_many_items_in_any_order_have_their_own_results(rounds: list[list[int]])
         found.clear()  # the list is the caller's
 
 
+@given(st.lists(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), max_size=9), max_size=5))
+def test_pairs_in_any_order_have_their_own_results(rounds: list[list[tuple[int, int]]]) -> None:
+    pool = [[number] for number in range(4)]
+    kept = Kept()
+    for pairs in rounds:
+        kept = Kept(kept)
+        found = kept.each_pair(described, [pool[one] for one, _ in pairs], [pool[other] for _, other in pairs], 0)
+        assert found == [f"[{one}] [{other}] 0" for one, other in pairs]
+
+
+def test_of_pairs_only_those_are_looked_at_in_which_one_is_another_object() -> None:
+    items, others = [["a"], ["b"], ["c"]], [["d"], ["e"], ["f"]]
+    CALLS.clear()
+    first = Kept()
+    first.each_pair(described, items, others)
+    others[2] = ["g"]
+    second = Kept(first)
+    assert second.each_pair(described, items, others) == ["['a'] ['d']", "['b'] ['e']", "['c'] ['g']"]
+    assert CALLS[3:] == [(["c"], ["g"])]
+    Kept(second).each_pair(described, items[1:], others[1:])
+    assert len(CALLS) == 4
+    with pytest.raises(ValueError, match="another one"):
+        second.each_pair(described, items, others[1:])
+
+
+def test_what_is_patched_gets_what_it_was() -> None:
+    asked: list[object] = []
+
+    def total(before: tuple[tuple[object, ...], int] | None, numbers: tuple[int, ...]) -> int:
+        asked.append(before)
+        return sum(numbers)
+
+    first = Kept()
+    assert first.patched(total, "", (1, 2)) == 3
+    second = Kept(first)
+    assert second.patched(total, "", (1, 2)) == 3
+    assert Kept(second).patched(total, "", (1, 5)) == 6
+    assert asked == [None, (((1, 2),), 3)]
+    with pytest.raises(TypeError, match="by their places"):
+        second.patched(total, "", numbers=())
+
+
 def test_equal_objects_are_not_the_same() -> None:
     item, alike = ["a"], ["a"]
     first = Kept()

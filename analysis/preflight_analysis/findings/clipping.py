@@ -27,17 +27,9 @@ def clipped(message: str) -> str:
     return f"{short[: MAX_MESSAGE // 2]}\u2026{short[-MAX_MESSAGE // 2 :]}"
 
 
-def most_severe(findings: Iterable[Finding]) -> tuple[list[Finding], dict[str, list[Finding]]]:
-    """The `MAX_FINDINGS` most severe findings of each file, the first ones among those as severe, and the others by
-    file."""
-    by_file: dict[str, list[Finding]] = {}
-    for finding in findings:
-        by_file.setdefault(finding.location.file, []).append(finding)
-    kept: list[Finding] = []
-    others: dict[str, list[Finding]] = {}
-    for path, found in by_file.items():
-        if len(found) > MAX_FINDINGS:
-            found.sort(key=lambda f: (-SEVERITIES.index(f.severity), f.location.span, f.rule))
-            others[path] = found[MAX_FINDINGS:]
-        kept += found[:MAX_FINDINGS]
-    return kept, others
+def most_severe(findings: Iterable[Finding]) -> tuple[list[Finding], list[Finding]]:
+    """The `MAX_FINDINGS` most severe findings of a file, the first ones among those as severe, and the others."""
+    found = list(findings)
+    if len(found) > MAX_FINDINGS:
+        found.sort(key=lambda f: (-SEVERITIES.index(f.severity), f.location.span, f.rule))
+    return found[:MAX_FINDINGS], found[MAX_FINDINGS:]

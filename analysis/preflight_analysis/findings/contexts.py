@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
+from itertools import groupby
+from operator import attrgetter
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.kept import Kept
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,34 +34,57 @@ def roots(reached: Mapping[str, Iterable[str]]) -> tuple[str, ...]:
     return tuple(file for file in below if file in found)
 
 
-def by_file(reports: Iterable[RootFindings], every_root: Collection[str]) -> dict[str, tuple[Finding, ...]]:
+def by_file(
+    reports: Iterable[RootFindings], every_root: Collection[str], kept: Kept | None = None
+) -> dict[str, tuple[Finding, ...]]:
     """The findings of each file over all roots, each once, with the roots in which it holds.
 
     A finding about a value holds in any context. One of the rules `every_root` (by id), which speak of what nodes do
-    together, is shown only if it holds in every root that reaches its file.
+    together, is shown only if it holds in every root that reaches its file. What was `kept` of the files of which the
+    same is found is taken over.
     """
-    reports = tuple(reports)
+    reports, kept, speaking = tuple(reports), kept or Kept(), frozenset(every_root)
+    found: dict[str, list[tuple[str, tuple[Finding, ...]]]] = {}
+    for report in reports:
+        for path, of_file in _grouped(report.findings).items():
+            found.setdefault(path, []).append((report.root, of_file))
+    made = {}
+    for path, of_roots in found.items():
+        reaching = tuple(report.root for report in reports if path in report.files)
+        if shown := kept.get(_of_file, path, tuple(of_roots), reaching, speaking):
+            made[path] = shown
+    return made
+
+
+def _grouped(findings: Iterable[Finding]) -> dict[str, tuple[Finding, ...]]:
+    files: dict[str, tuple[Finding, ...]] = {}
+    for path, of_file in groupby(findings, attrgetter("location.file")):
+        files[path] = (*files.get(path, ()), *of_file)
+    return files
+
+
+def _of_file(
+    found: tuple[tuple[str, tuple[Finding, ...]], ...], reaching: tuple[str, ...], every_root: frozenset[str]
+) -> tuple[Finding, ...]:
+    """What is shown of one file: `found` has what is found in each root."""
     first: dict[tuple[str, Location], list[Finding]] = {}
     holds: dict[tuple[str, Location], list[str]] = {}
-    for report in reports:
-        for found_here in report.findings:
-            finding = _holding_in(found_here, (report.root,))
+    for root, findings in found:
+        for found_here in findings:
+            finding = _holding_in(found_here, (root,))
             key = (finding.rule, finding.location)
             same = first.setdefault(key, [])
             # One root may say several things of one place; a second root's wording of the same thing is not news.
-            if not same or (report.root in same[0].roots and finding not in same):
+            if not same or (root in same[0].roots and finding not in same):
                 same.append(finding)
-            if report.root not in (roots_of := holds.setdefault(key, [])):
-                roots_of.append(report.root)
-    files: dict[str, list[Finding]] = {}
-    for (rule, location), found in first.items():
+            if root not in (roots_of := holds.setdefault(key, [])):
+                roots_of.append(root)
+    shown: list[Finding] = []
+    for (rule, location), same in first.items():
         held = holds[rule, location]
-        if rule in every_root:
-            reaching = {r.root for r in reports if location.file in r.files}
-            if not reaching <= set(held):
-                continue
-        files.setdefault(location.file, []).extend(_holding_in(f, tuple(held)) for f in found)
-    return {file: tuple(sorted(found, key=lambda f: (f.location.span, f.rule))) for file, found in files.items()}
+        if rule not in every_root or set(reaching) <= set(held):
+            shown.extend(_holding_in(finding, tuple(held)) for finding in same)
+    return tuple(sorted(shown, key=lambda finding: (finding.location.span, finding.rule)))
 
 
 def _holding_in(finding: Finding, roots: tuple[str, ...]) -> Finding:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from preflight_analysis.documents.document import Comment, Document, Element, Node
@@ -75,23 +75,22 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
     return tuple(found), tuple(malformed)
 
 
-def apply_suppressions(findings: Iterable[Finding], documents: Mapping[str, Document]) -> Filtered:
-    """Without the findings that a comment in their own file silences. A finding counts where it starts."""
-    by_file = {path: found for path, document in documents.items() if (found := read_suppressions(document)[0])}
-    if not by_file:
+def apply_suppressions(
+    findings: Iterable[Finding], suppressions: Sequence[Suppression], document: Document | None
+) -> Filtered:
+    """Without the findings that a comment silences; all are of the one file. A finding counts where it starts."""
+    if document is None or not suppressions:
         return Filtered(tuple(findings), ())
     used: set[Suppression] = set()
     kept: list[Finding] = []
     for finding in findings:
-        path = finding.location.file
-        of_rule = [suppression for suppression in by_file.get(path, ()) if suppression.rule == finding.rule]
-        line = documents[path].lines.position(finding.location.span.start)[0] if of_rule else -1
+        of_rule = [suppression for suppression in suppressions if suppression.rule == finding.rule]
+        line = document.lines.position(finding.location.span.start)[0] if of_rule else -1
         hits = [suppression for suppression in of_rule if suppression.first_line <= line <= suppression.last_line]
         used.update(hits)
         if not hits:
             kept.append(finding)
-    unused = tuple(s for suppressions in by_file.values() for s in suppressions if s not in used)
-    return Filtered(tuple(kept), unused)
+    return Filtered(tuple(kept), tuple(each for each in suppressions if each not in used))
 
 
 def _comments(nodes: Iterable[Node]) -> Iterator[Comment]:

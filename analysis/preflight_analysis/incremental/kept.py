@@ -5,12 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from itertools import compress, repeat
-from operator import is_not, itemgetter
+from operator import is_, is_not, itemgetter
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 P = ParamSpec("P")
 T = TypeVar("T")
+U = TypeVar("U")
 V = TypeVar("V")
+Before = tuple[tuple[Any, ...], V]
+"""The arguments of last time, and what they gave."""
 
 
 class Kept:
@@ -40,17 +43,35 @@ class Kept:
         """`[function(item, *shared) for item in items]`, for many items: those that are the same objects as last time
         are not looked at, if what they share is equal. Ask once for each function and what is shared."""
         _refuse(none)
-        now = list(items)
+        return self._of_rows(function, ([*items],), shared)
+
+    def each_pair(
+        self,
+        function: Callable[Concatenate[T, U, P], V],
+        items: Iterable[T],
+        others: Iterable[U],
+        /,
+        *shared: P.args,
+        **none: P.kwargs,
+    ) -> list[V]:
+        """As `each`, for items that are each looked at together with another one: `function(item, other, *shared)`."""
+        _refuse(none)
+        columns = [*items], [*others]
+        if len(columns[0]) != len(columns[1]):
+            raise ValueError("each item has another one")
+        return self._of_rows(function, columns, shared)
+
+    def _of_rows(self, function: Callable[..., V], columns: tuple[list[Any], ...], shared: tuple[Any, ...]) -> list[V]:
         before = self._each_before.get(function)
 
-        def make(some: Iterable[T]) -> Iterable[V]:
-            return map(function, some, *map(repeat, shared))
+        def make(some: Sequence[Iterable[Any]]) -> Iterable[V]:
+            return map(function, *some, *map(repeat, shared))
 
         if before is None or before.shared != shared:
-            results = list(make(now))
+            results = list(make(columns))
         else:
-            results = _taken_over(before, now, make)
-        self._each_now[function] = _Round(shared, now, results)
+            results = _taken_over(before, columns, make)
+        self._each_now[function] = _Round(shared, columns, results)
         return results.copy()
 
     def get(self, function: Callable[P, V], key: Hashable, /, *arguments: P.args, **none: P.kwargs) -> V:
@@ -66,6 +87,25 @@ class Kept:
             return result
         result = function(*arguments, **none)
         self._now[name] = arguments, result
+        return result
+
+    def patched(
+        self,
+        function: Callable[Concatenate[Before[V] | None, P], V],
+        key: Hashable,
+        /,
+        *arguments: P.args,
+        **none: P.kwargs,
+    ) -> V:
+        """As `get`, for a whole of which a part can be made again: `function(before, *arguments)` gives the
+        same whatever `before` is: the arguments of last time with what they gave, or None."""
+        _refuse(none)
+        name = function, key
+        known = self._now.get(name) or self._before.get(name)
+        if known is None or not _same(known[0], arguments):
+            known = arguments, function(known, *arguments, **none)
+        self._now[name] = known
+        result: V = known[1]
         return result
 
     def end(self) -> None:
@@ -86,7 +126,7 @@ def _same(some: tuple[Any, ...], others: tuple[Any, ...]) -> bool:
             if kind is not type(other):
                 return False
             if kind is tuple:
-                if len(one) != len(other) or not _same(one, other):
+                if len(one) != len(other) or not (all(map(is_, one, other)) or _same(one, other)):
                     return False
             elif kind not in _SCALARS or one != other:
                 return False
@@ -97,48 +137,64 @@ _SCALARS = frozenset({str, bytes, int, float, bool})
 
 
 class _Round(NamedTuple):
-    """What was shared, and the items with what was made of each. They are held, so nothing else can have their ids."""
+    """What was shared, and the items (and the others, if each has another one) with what was made of each. They are
+    held, so nothing else can have their ids."""
 
     shared: tuple[Any, ...]
-    items: list[Any]
+    columns: tuple[list[Any], ...]
     results: list[Any]
 
 
-def _taken_over(before: _Round, items: list[T], make: Callable[[Iterable[T]], Iterable[V]]) -> list[V]:
+_Make = Callable[[Sequence[Iterable[Any]]], Iterable[V]]
+
+
+def _taken_over(before: _Round, columns: tuple[list[Any], ...], make: _Make[V]) -> list[V]:
     # Thousands of items, of which a handful is new: what is done for each of them is done without a line of Python.
     # Where none is at its place, all are new, most likely: to look for them would take longer than most functions.
-    old, results = before.items, before.results
-    if len(old) == len(items):
-        places = list(compress(range(len(old)), map(is_not, old, items)))
+    old, results = before.columns, before.results
+    length, now = len(old[0]), len(columns[0])
+    if length == now:
+        places = _changed(old, columns)
         if not places:
             return results
-        if len(places) == len(items):
-            return list(make(items))
+        if len(places) == length:
+            return list(make(columns))
         others = itemgetter(*places, places[0])  # of two or more it makes a tuple
-        found = _found(others(old), others(results), others(items)[:-1], make)
+        found = _found([others(some) for some in old], others(results), [others(some)[:-1] for some in columns], make)
         made = results.copy()
         for at, result in zip(places, found, strict=True):
             made[at] = result
         return made
-    start = _alike(old, items, min(len(old), len(items)))
-    end = _alike(reversed(old), reversed(items), min(len(old), len(items)) - start)
+    most = min(length, now)
+    start = min(_alike(a, b, most) for a, b in zip(old, columns, strict=True))
+    end = min(_alike(reversed(a), reversed(b), most - start) for a, b in zip(old, columns, strict=True))
     if not start and not end:
-        return list(make(items))
-    of_old, of_items = slice(start, len(old) - end), slice(start, len(items) - end)
-    found = _found(old[of_old], results[of_old], items[of_items], make)
-    return [*results[:start], *found, *results[len(old) - end :]]
+        return list(make(columns))
+    of_old, of_items = slice(start, length - end), slice(start, now - end)
+    found = _found([some[of_old] for some in old], results[of_old], [some[of_items] for some in columns], make)
+    return [*results[:start], *found, *results[length - end :]]
+
+
+def _changed(old: Sequence[Sequence[object]], columns: Sequence[Sequence[object]]) -> list[int]:
+    """The places at which there is another object."""
+    places = (compress(range(len(some)), map(is_not, some, others)) for some, others in zip(old, columns, strict=True))
+    return sorted(set().union(*places))
 
 
 def _found(
-    old: Iterable[object], results: Iterable[V], items: Sequence[T], make: Callable[[Iterable[T]], Iterable[V]]
+    old: Sequence[Iterable[object]], results: Iterable[V], columns: Sequence[Sequence[Any]], make: _Make[V]
 ) -> list[V]:
     """What is made of the items, taken over of those that are among the old ones."""
-    known = dict(zip(map(id, old), results, strict=True))
-    found: list[Any] = list(map(known.get, map(id, items), repeat(_NEW)))
+    known = dict(zip(_ids(old), results, strict=True))
+    found: list[Any] = list(map(known.get, _ids(columns), repeat(_NEW)))
     new = [at for at, result in enumerate(found) if result is _NEW]
-    for at, result in zip(new, make([items[at] for at in new]), strict=True):
+    for at, result in zip(new, make([[some[at] for at in new] for some in columns]), strict=True):
         found[at] = result
     return found
+
+
+def _ids(columns: Sequence[Iterable[object]]) -> Iterable[Hashable]:
+    return zip(*(map(id, some) for some in columns), strict=True)
 
 
 _NEW = object()

@@ -7,17 +7,19 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from types import ModuleType
 
 import preflight_analysis.rules as package
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
-from preflight_analysis.findings.suppression import apply_suppressions
+from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
@@ -48,9 +50,9 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     Of a file with very many the most severe, and one that counts the others.
     Each is marked as holding in `context.root`. A rule that raises is logged and costs its own findings alone.
     """
-    chosen = all_rules() if rules is None else rules
-    raw: list[Finding] = []
-    ran: set[str] = set()
+    chosen = tuple(all_rules() if rules is None else rules)
+    by_file: dict[str, list[Finding]] = {}
+    ran: list[str] = []
     for rule in chosen:
         if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
             continue
@@ -59,21 +61,57 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         except Exception:
             _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
             continue
-        ran.add(rule.id)
-        raw.extend(_in_order(rule, found, context) if rule.problems else found)
-    filtered = apply_suppressions(unique(raw), context.documents)
+        ran.append(rule.id)
+        for finding in _in_order(rule, found, context) if rule.problems else found:
+            by_file.setdefault(finding.location.file, []).append(finding)
+    of_documents = context.kept.each(_suppressions, context.documents.values())
+    suppressions = {path: found for path, found in zip(context.documents, of_documents, strict=True) if found}
     chains = _first_chains(context)
-    kept = context.kept.each(_in_context, filtered.kept, chains, context.root)
-    judge = next((rule for rule in chosen if rule.unused_suppression is not None), None)
+    sorted_findings: list[Finding] = []
+    for path in sorted({*by_file, *suppressions}):
+        silenced = suppressions.get(path, ())
+        sorted_findings += context.kept.get(
+            _of_file,
+            path,
+            path,
+            tuple(by_file.get(path, ())),
+            silenced,
+            context.documents[path] if silenced else None,
+            chains.get(path, ()),
+            context.root,
+            chosen,
+            tuple(ran) if silenced else (),
+        )
+    context.kept.end()
+    return sorted_findings
+
+
+def _suppressions(document: Document) -> tuple[Suppression, ...]:
+    return read_suppressions(document)[0]
+
+
+def _of_file(
+    path: str,
+    findings: tuple[Finding, ...],
+    suppressions: tuple[Suppression, ...],
+    document: Document | None,
+    chain: tuple[Related, ...],
+    root: str,
+    rules: tuple[Rule, ...],
+    ran: tuple[str, ...],
+) -> tuple[Finding, ...]:
+    """What is said of one file, of what the rules found there. `document` is that of a file with `suppressions`."""
+    filtered = apply_suppressions(unique(findings), suppressions, document)
+    kept = [_in_context(finding, chain, root) for finding in filtered.kept]
+    judge = next((rule for rule in rules if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
         useless = (judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran)
-        kept += [in_root(finding, context.root) for finding in useless]
+        kept += [in_root(finding, root) for finding in useless]
     kept, others = most_severe(kept)
-    counts = next((rule for rule in chosen if rule.left_out is not None), None)
-    if counts is not None and counts.left_out is not None:
-        kept += [in_root(counts.left_out(counts, path, found), context.root) for path, found in others.items()]
-    context.kept.end()
-    return sorted(kept, key=_place)
+    counts = next((rule for rule in rules if rule.left_out is not None), None)
+    if others and counts is not None and counts.left_out is not None:
+        kept.append(in_root(counts.left_out(counts, path, others), root))
+    return tuple(sorted(kept, key=_place))
 
 
 def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iterator[Finding]:
@@ -121,9 +159,8 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
     yield from more
 
 
-def _in_context(finding: Finding, chains: Mapping[str, tuple[Related, ...]], root: str) -> Finding:
+def _in_context(finding: Finding, chain: tuple[Related, ...], root: str) -> Finding:
     """A finding of a root; one about a file, whatever includes it, says how the file is reached."""
-    chain = chains.get(finding.location.file)
     if not chain or any(related.message == INCLUDED_HERE for related in finding.related):
         return in_root(finding, root)
     return in_root(replace(finding, related=(*finding.related, *chain)), root)
@@ -131,10 +168,15 @@ def _in_context(finding: Finding, chains: Mapping[str, tuple[Related, ...]], roo
 
 def _first_chains(context: Context) -> dict[str, tuple[Related, ...]]:
     chains: dict[str, tuple[Related, ...]] = {context.root: ()}
-    for include in context.tree.includes:
-        if include.path is not None and include.path not in chains:
-            chains[include.path] = include_chain((*include.origin, include.file_location))
+    includes = context.tree.includes
+    for include, chain in zip(includes, context.kept.each(_chain, includes), strict=True):
+        if include.path is not None:
+            chains.setdefault(include.path, chain)
     return chains
+
+
+def _chain(include: Include) -> tuple[Related, ...]:
+    return include_chain((*include.origin, include.file_location))
 
 
 def _place(finding: Finding) -> tuple[str, int, int, int, str, str]:

@@ -82,7 +82,9 @@ class Analysis:
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What all rules say. They are run when this is first asked for: where the graph follows, only with that."""
-        found = (each for each in run_rules(self.context) if not self._of_replaced_text(each))
+        found = run_rules(self.context)
+        if self.tree.edited:
+            found = [each for each in found if not self._of_replaced_text(each)]
         return adjusted(found, self.severities)
 
     def _of_replaced_text(self, finding: Finding) -> bool:

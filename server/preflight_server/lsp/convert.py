@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from operator import is_
 
 from lsprotocol import types
 from preflight_analysis.documents.document import Document
@@ -47,12 +48,13 @@ SYMBOL_KINDS: Mapping[str, types.SymbolKind] = {
 
 
 @dataclass(frozen=True, slots=True)
-class _Made:
-    """A diagnostic, and the files whose lines it names."""
+class _OfFile:
+    """The diagnostics of one file, each of the finding at its place. `places` has what all locations that they name
+    were converted to, by file."""
 
-    finding: Finding
-    files: frozenset[str]
-    diagnostic: types.Diagnostic
+    findings: tuple[Finding, ...]
+    diagnostics: list[types.Diagnostic]
+    places: Mapping[str, Mapping[Location, types.Location]]
 
 
 class Converter:
@@ -76,8 +78,8 @@ class Converter:
         self._related = related
         self._positions: dict[str, Positions] = {}
         self._uris: dict[str, str] = {}
-        self._made: dict[int, _Made] = {}
-        """By the id of the finding."""
+        self._made: dict[str, _OfFile] = {}
+        """By the path of the file."""
         usable = before is not None and before._related == related
         self._before = before if usable else None
         self._unchanged: dict[str, bool] = {}
@@ -121,16 +123,64 @@ class Converter:
         there = self.range(target)
         return types.LocationLink(self.uri(target.file), there, there, self.range(origin))
 
+    def diagnostics(self, path: str, findings: Sequence[Finding]) -> list[types.Diagnostic]:
+        """The findings of the file at `path`. Do not change the list: it is the same one for the same findings, as long
+        as they are at the same places."""
+        now = tuple(findings)
+        known = self._before._made.get(path) if self._before is not None else None
+        same_findings = known is not None and len(known.findings) == len(now) and all(map(is_, known.findings, now))
+        moved = self._moved(known) if known is not None else frozenset()
+        if known is None or moved or not same_findings:
+            known = self._renewed(now, known, moved)
+        self._made[path] = known
+        return known.diagnostics
+
+    def _moved(self, known: _OfFile) -> frozenset[Location]:
+        """Those of the locations which are elsewhere now."""
+        changed = ((path, places) for path, places in known.places.items() if not self._is_unchanged(path))
+        return frozenset(
+            location for _, places in changed for location, place in places.items() if self.location(location) != place
+        )
+
+    def _renewed(self, findings: tuple[Finding, ...], known: _OfFile | None, moved: frozenset[Location]) -> _OfFile:
+        places: dict[str, dict[Location, types.Location]] = {}
+
+        def place(location: Location) -> types.Location:
+            of_file = places.setdefault(location.file, {})
+            found = of_file.get(location)
+            if found is None:
+                before = known.places.get(location.file, {}).get(location) if known is not None else None
+                found = of_file[location] = self.location(location) if before is None or location in moved else before
+            return found
+
+        made = {id(f): d for f, d in zip(known.findings, known.diagnostics, strict=True)} if known is not None else {}
+        diagnostics = []
+        for finding in findings:
+            where = self._locations(finding)
+            there = list(map(place, where))
+            diagnostic = made.get(id(finding)) if moved.isdisjoint(where) else None
+            diagnostics.append(diagnostic if diagnostic is not None else self._diagnostic(finding, there))
+        return _OfFile(findings, diagnostics, places)
+
+    def _locations(self, finding: Finding) -> list[Location]:
+        related = finding.related if self._related else ()
+        return [finding.location, *(each.location for each in related)]
+
     def diagnostic(self, finding: Finding) -> types.Diagnostic:
-        """A finding in its own file. How sure we are is said where we are not."""
+        """A finding in its own file."""
+        return self._diagnostic(finding, list(map(self.location, self._locations(finding))))
+
+    def _diagnostic(self, finding: Finding, places: Sequence[types.Location]) -> types.Diagnostic:
+        """`places` has the finding's, and the related ones. How sure we are is said where we are not."""
         sure = "" if finding.confidence == "certain" else f" ({finding.confidence})"
         related = None
         if self._related and finding.related:
             related = [
-                types.DiagnosticRelatedInformation(self.location(r.location), r.message) for r in finding.related
+                types.DiagnosticRelatedInformation(place, each.message)
+                for place, each in zip(places[1:], finding.related, strict=True)
             ]
         return types.Diagnostic(
-            range=self.range(finding.location),
+            range=places[0].range,
             message=finding.message + sure,
             severity=SEVERITIES[finding.severity],
             code=finding.rule,
@@ -138,18 +188,6 @@ class Converter:
             related_information=related,
             data={"name": finding.name, "confidence": finding.confidence},
         )
-
-    def diagnostics(self, findings: Iterable[Finding]) -> list[types.Diagnostic]:
-        """The findings of one file."""
-        return [self._again(finding) for finding in findings]
-
-    def _again(self, finding: Finding) -> types.Diagnostic:
-        known = self._before._made.get(id(finding)) if self._before is not None else None
-        if known is None or known.finding is not finding or not all(map(self._is_unchanged, known.files)):
-            files = frozenset((finding.location.file, *(related.location.file for related in finding.related)))
-            known = _Made(finding, files, self.diagnostic(finding))
-        self._made[id(finding)] = known
-        return known.diagnostic
 
     def _is_unchanged(self, path: str) -> bool:
         """Whether a file's text and URI are those that the converter before this one had."""

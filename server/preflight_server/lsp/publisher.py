@@ -63,11 +63,16 @@ class Publisher:
         merged: dict[str, list[types.Diagnostic]] = {}
         for found in self._found.values():
             for path, diagnostics in found.items():
-                known = merged.setdefault(path, [])
-                known += [each for each in diagnostics if each not in known]
-        for session, found in self._found.items():
-            own = (path for path in found if self._server.session_of(to_uri(path)) is session)
-            merged.update({path: list(found[path]) for path in own})
+                merged[path] = self._of_several(path) if path in merged else diagnostics
+        return merged
+
+    def _of_several(self, path: str) -> list[types.Diagnostic]:
+        owner = self._server.session_of(to_uri(path))
+        if owner is not None and path in self._found.get(owner, ()):
+            return self._found[owner][path]
+        merged: list[types.Diagnostic] = []
+        for found in self._found.values():
+            merged += [each for each in found.get(path, ()) if each not in merged]
         return merged
 
     def _publish_changed(self, edited: str | None) -> None:

@@ -20,6 +20,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.rules.registry import all_rules
@@ -71,6 +72,7 @@ class _Round:
     analyses: Mapping[Root, Analysis]
     findings: Mapping[str, tuple[Finding, ...]]
     diagnostics: Mapping[str, list[types.Diagnostic]]
+    kept: Kept
     converter: Converter
     """What made them, for the next round."""
 
@@ -99,6 +101,7 @@ class Session:
         self._workspace: Workspace | None = None
         self._analyses: dict[Root, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}
+        self._kept: Kept | None = None
         self._converter: Converter | None = None
         self._focus: list[str] = []
         """Paths of open launch files, and of what may be a parameter file, the one that was last opened or edited
@@ -459,13 +462,13 @@ class Session:
         known, why = (self.runs.known(root), self.runs.why_not_run) if root is not None else ({}, None)
         stale = frozenset(self._dirty) - {root}
         explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)
-        before = self._converter
+        kept, before = Kept(self._kept), self._converter
 
         def work() -> _Round:
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
                 analyses[root] = with_known(workspace, static, known, why, analyses.get(root))
-            return self._merge(analyses, stale, explicit, selected, before)
+            return self._merge(analyses, stale, explicit, selected, kept, before)
 
         try:
             return await self.in_pool(work)
@@ -479,6 +482,7 @@ class Session:
         stale: Collection[Root],
         explicit: Collection[Root],
         selected: Mapping[str, Root],
+        kept: Kept,
         before: Converter | None,
     ) -> _Round:
         """The findings of all roots by file, of a file for which the user chose a root those in that one. Runs in a
@@ -487,19 +491,20 @@ class Session:
         for root, analysis in analyses.items():
             reached.setdefault(root.path, []).extend(analysis.tree.files)
         tops = frozenset(roots(reached))
-        kept = {root: a for root, a in analyses.items() if root.path in tops or root in explicit}
-        reports = {root: self._report(root, a, root in stale) for root, a in kept.items()}
-        findings = by_file(reports.values(), self._every_root)
+        counting = {root: a for root, a in analyses.items() if root.path in tops or root in explicit}
+        reports = {root: self._report(root, a, root in stale) for root, a in counting.items()}
+        findings = by_file(reports.values(), self._every_root, kept)
         for path, root in selected.items():
             if root in reports and path in reports[root].files:
                 alone = by_file([reports[root]], self._every_root)
                 findings[path] = alone.get(path, ())
-        newest_last = sorted(kept, key=lambda root: root not in stale)
-        documents = {path: document for root in newest_last for path, document in kept[root].documents.items()}
+        newest_last = sorted(counting, key=lambda root: root not in stale)
+        documents = {path: document for root in newest_last for path, document in counting[root].documents.items()}
         converter = Converter(self._server.texts, documents, related=self._shows_related, before=before)
-        diagnostics = {path: converter.diagnostics(found) for path, found in findings.items()}
+        diagnostics = {path: converter.diagnostics(path, found) for path, found in findings.items()}
         converter.end()
-        return _Round(analyses, findings, diagnostics, converter)
+        kept.end()
+        return _Round(analyses, findings, diagnostics, kept, converter)
 
     def _report(self, root: Root, analysis: Analysis, stale: bool) -> RootFindings:
         """The findings of one root. Those of an earlier text say nothing of files that changed since."""
@@ -517,7 +522,7 @@ class Session:
         self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
         self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
         self._findings = round_.findings
-        self._converter = round_.converter
+        self._kept, self._converter = round_.kept, round_.converter
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
         self._server.publisher.update(self, {**clean, **round_.diagnostics}, self._edited)
