@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 from preflight_analysis.environment.detect import detect
@@ -176,9 +177,9 @@ def test_a_large_circle_is_evaluated_in_parts(harness: Harness, monkeypatch: pyt
     evaluated: list[str] = []
     tree = Workspace.tree
 
-    def counting(workspace: Workspace, path: str, args: Mapping[str, str]) -> LaunchTree:
+    def counting(workspace: Workspace, path: str, args: Mapping[str, str], *rest: Any) -> LaunchTree:
         evaluated.append(path)
-        return tree(workspace, path, args)
+        return tree(workspace, path, args, *rest)
 
     monkeypatch.setattr(Workspace, "tree", counting)
     index = build_index(harness.workspace, str(harness.folder))

@@ -83,17 +83,22 @@ class LineIndex:
     r"""Offsets of one text to lines and columns and back. Lines end at `\n`, `\r\n` or `\r` and nowhere else, as LSP
     says. Two are equal if their lines are the same ones: locations made by one are right for the other."""
 
-    __slots__ = ("_lines", "_starts", "number", "text")
+    __slots__ = ("_lines", "_offsets", "number", "text")
 
     def __init__(self, text: str) -> None:
-        starts = [0]
-        starts.extend(found.end() for found in _LINE_END.finditer(text))
-        self._starts = starts
+        self._offsets: list[int] | None = None
+        """Of the starts of the lines, made when they are first asked for: of most files that never happens."""
         self._lines: list[Line] | None = None
-        """Made when the first location is: of most files there is none."""
+        """Made when the first location is."""
         self.text = text
         self.number = next(_NUMBERS)
         """Differs from that of all other indexes of this process."""
+
+    @property
+    def _starts(self) -> list[int]:
+        if self._offsets is None:
+            self._offsets = [0, *(found.end() for found in _LINE_END.finditer(self.text))]
+        return self._offsets
 
     def __len__(self) -> int:
         return len(self._starts)

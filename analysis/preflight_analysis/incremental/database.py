@@ -19,7 +19,7 @@ again by itself.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any, Concatenate, Generic, ParamSpec, TypeVar, cast
 
@@ -151,6 +151,19 @@ class Write:
             cell.value, cell.changed_at = value, db.revision + 1
 
 
+def _read_down_to(cells: Iterable[_Cell], kinds: Container[object]) -> Iterator[tuple[object, Key, object]]:
+    left, seen = list(cells), set[_Cell]()
+    while left:
+        cell = left.pop()
+        if cell in seen:
+            continue
+        seen.add(cell)
+        if cell.kind in kinds:
+            yield cell.kind, cell.key, cell.value
+        else:
+            left.extend(cell.depends_on)
+
+
 class Database:
     """All that is remembered. Thread-safe. `on_execute`, for tests and benchmarks, is called with each query that is
     made."""
@@ -215,6 +228,18 @@ class Database:
     def is_reading(self) -> bool:
         """Whether this thread is within `reading`, or a query."""
         return self._thread.readings > 0
+
+    @contextmanager
+    def observing(self) -> Iterator[Callable[[Container[object]], Iterator[tuple[object, Key, object]]]]:
+        """Within `reading`, not within a query: gives a function that tells what was read since, down to the kinds of
+        inputs and queries that it is given, with their values. What these were made from is left out, and so are
+        inputs of other kinds."""
+        reads: dict[_Cell, None] = {}
+        self._thread.reads.append(reads)
+        try:
+            yield lambda kinds: _read_down_to(reads, kinds)
+        finally:
+            self._thread.reads.pop()
 
     def outdated(self, kind: Input[Any, Any], keys: Iterable[Key]) -> list[Key]:
         """Those of the keys whose input was loaded, and would be another one now."""

@@ -52,6 +52,8 @@ class Store:
     `schema` is the version of the entries, `name` the folder's name in the user's cache where none is given.
     """
 
+    variants = VARIANTS
+
     def __init__(self, name: str, schema: str, entry_bytes: int, folder: Path | None, max_bytes: int) -> None:
         self.folder = folder or cache_folder(name)
         self.max_bytes = max_bytes
@@ -116,7 +118,7 @@ class Store:
 
     def _trim(self, place: Place) -> None:
         entries = sorted(_files(place), key=_last_used)
-        for path in entries[: max(0, len(entries) - VARIANTS)]:
+        for path in entries[: max(0, len(entries) - self.variants)]:
             path.unlink(missing_ok=True)
 
     def _sweep(self) -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Substitution, Value
 from preflight_analysis.launch.references import NAMES, Named, arg_references, first_word
 from preflight_analysis.launch.substitutions_ros2 import nested
+from preflight_analysis.workspace.observations import Observation
 
 Kind = Literal[
     "arg-declaration",
@@ -73,6 +74,8 @@ class FileFacts:
     has_nodes: bool
     passing_all: frozenset[Span] = frozenset()
     """The start tags of the includes that pass all arguments on, or that may: the attribute has a substitution."""
+    observations: tuple[Observation, ...] = field(default=(), compare=False, repr=False)
+    """What it was made from."""
 
     def named(self, kind: Kind, name: str) -> Iterator[Mention]:
         """The mentions of a name."""

@@ -12,6 +12,7 @@ from functools import cached_property
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.workspace.facts import FileFacts, Kind, Mention
+from preflight_analysis.workspace.observations import Observation
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -72,6 +73,8 @@ class RootEntry:
     inputs: Mapping[str, str]
     inclusions: tuple[Inclusion, ...]
     nodes: tuple[NodeEntry, ...]
+    observations: tuple[Observation, ...] = field(default=(), compare=False, repr=False)
+    """What it was made from."""
 
 
 @dataclass(frozen=True)

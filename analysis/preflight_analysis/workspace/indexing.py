@@ -6,6 +6,7 @@ import logging
 import os
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.installed_paths import installed_at, package_around
@@ -16,6 +17,7 @@ from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
+from preflight_analysis.workspace.observations import Notes
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -148,10 +150,11 @@ class _Maker:
             self.files[path] = facts
             self.written += self._written_before.get(path, ())
             return
-        found = self._workspace.sources.launch_file(path)
+        notes = Notes(self._workspace.sources)
+        found = notes.of(lambda: self._workspace.sources.launch_file(path))
         if isinstance(found, Unreadable) or found.root is None:
             return
-        self.files[path] = facts_of(found)
+        self.files[path] = replace(facts_of(found), observations=notes.observations)
         packages = self._workspace.environment_of(path).packages
         self.written += written_includes(found, packages)
 
@@ -164,7 +167,9 @@ class _Maker:
                 entry = RootEntry(root, (root.path,), {root.path: self._workspace.sources.digest(root.path)}, (), ())
                 self.left_out += 1
             else:
-                entry = entry_of(self._workspace.tree(root.path, dict(root.args)), root)
+                notes = Notes(self._workspace.sources)
+                entry = notes.of(lambda: entry_of(self._workspace.tree(root.path, dict(root.args), notes), root))
+                entry = replace(entry, observations=notes.observations)
                 self._included += len(entry.inclusions)
         self.entries[root] = entry
         self.reached.update(entry.files)

@@ -41,6 +41,7 @@ from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
+from preflight_analysis.workspace.observations import Notes
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
     from_settings,
@@ -235,9 +236,14 @@ class Workspace:
             tree = taken_over(tree, known.tree)
         return view, tree, *self._documents(tree)
 
-    def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
-        """What `path` launched with `args` would start; not remembered."""
-        return self._evaluate(path, args, self._view(path), None)
+    def tree(self, path: str, args: Mapping[str, str], notes: Notes | None = None) -> LaunchTree:
+        """What `path` launched with `args` would start; not remembered. `notes` are taken of what it is made from."""
+        view = self._view(path)
+        if notes is None:
+            return self._evaluate(path, args, view, None)
+        environment = replace(view.environment, variables=notes.variables(view.environment.variables))
+        commands = notes.commands(self.commands)
+        return evaluate_launch(path, args, self.sources, view.executables, environment, self.cwd, commands)
 
     def _remembering_tree(self, path: str, args: Mapping[str, str], view: _View) -> LaunchTree:
         # One thread at a time has the memo; another one does without.

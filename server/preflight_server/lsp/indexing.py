@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
+from preflight_analysis.workspace.index_store import IndexStore, build_from_kept
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.project_settings import ProjectSettings, read_project_settings
 from preflight_analysis.workspace.workspace import Workspace
@@ -45,6 +46,9 @@ class Indexing:
         self._task: asyncio.Task[None] | None = None
         self._cancel = threading.Event()
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="index")
+        self._store = IndexStore()
+        self._to_keep: tuple[Workspace, WorkspaceIndex] | None = None
+        """An index that was brought up to date since the store had it, and whose it is."""
 
     @property
     def named(self) -> tuple[Root, ...]:
@@ -61,9 +65,13 @@ class Indexing:
             self._task = self._server.spawn(self._rounds())
 
     def close(self) -> None:
-        """Stop, and wait for the end."""
+        """Stop, wait for the end, and keep the index for the next start."""
         self._cancel.set()
         self._pool.shutdown(wait=True, cancel_futures=True)
+        if self._to_keep is not None and self._session.folder is not None:
+            workspace, index = self._to_keep
+            self._to_keep = None
+            self._store.save(workspace, self._session.folder, index)
 
     async def _rounds(self) -> None:
         while (self._changed or self._everything) and not self._cancel.is_set():
@@ -80,6 +88,7 @@ class Indexing:
             index = await self._make(workspace, changed)
             if index is not None:
                 self.index = index
+                self._to_keep = (workspace, index) if changed is not None else None
                 self._session.index_changed()
 
     async def _make(self, workspace: Workspace, changed: Collection[str] | None) -> WorkspaceIndex | None:
@@ -95,15 +104,12 @@ class Indexing:
                     loop.call_soon_threadsafe(progress.report, done, total, os.path.basename(path))
 
         def work() -> WorkspaceIndex | None:
-            return build_index(
-                workspace,
-                self._session.folder,
-                self.named,
-                previous=self.index,
-                changed=changed,
-                report=report,
-                cancelled=self._gives_way,
-            )
+            folder, named, cancelled = self._session.folder, self.named, self._gives_way
+            if folder is None or changed is not None:
+                return build_index(
+                    workspace, folder, named, previous=self.index, changed=changed, report=report, cancelled=cancelled
+                )
+            return build_from_kept(self._store, workspace, folder, named, report=report, cancelled=cancelled)
 
         index = None
         try:

@@ -7,6 +7,7 @@ parameters are the same ones afterwards if they were there before, so a group ca
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -79,6 +80,11 @@ class PythonRun:
     """Whether the text is another one by now, and this the last run that went well: nothing is asked for it again."""
 
 
+def _copied(variables: Mapping[str, str]) -> dict[str, str]:
+    """A copy that tells whoever notes which ones are read what the first one does."""
+    return copy(variables) if isinstance(variables, dict) else dict(variables)
+
+
 class Context:
     """The state of one launch."""
 
@@ -86,8 +92,9 @@ class Context:
         self.python = python
         """What the answers of runs are read by."""
         self.scope = Scope()
-        self.initial_environment = dict(environment)
-        self.environment = dict(environment)
+        self.initial_environment = environment
+        self._at_first = dict(environment)
+        self.environment = _copied(environment)
         """What processes and substitutions see: launch scopes it by a stack of its own."""
         self.round: dict[str, str] = {}
         """What the variables of the loops around are in this round."""
@@ -108,7 +115,7 @@ class Context:
 
     def push_environment(self) -> None:
         """Begin a scope of variables."""
-        self._environments.append(dict(self.environment))
+        self._environments.append(copy(self.environment))
 
     def pop_environment(self) -> None:
         """End it; IndexError where none was begun."""
@@ -120,7 +127,12 @@ class Context:
 
     def reset_environment(self) -> None:
         """The variables are the first ones again."""
-        self.environment = dict(self.initial_environment)
+        self.environment = _copied(self.initial_environment)
+
+    def changed_variables(self) -> dict[str, str]:
+        """The variables that are set, or others than at first."""
+        first = self._at_first
+        return {} if self.environment == first else {k: v for k, v in self.environment.items() if first.get(k) != v}
 
     def get(self, name: str) -> Configuration | None:
         """A launch configuration."""

@@ -289,9 +289,7 @@ def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:
 
 def _environment(performer: Performer, action: Action) -> list[tuple[str, str]]:
     """What the process gets beyond, or in place of, what the launch was started with."""
-    context = performer.context
-    initial, now = context.initial_environment, context.environment
-    changed = {} if now == initial else {k: v for k, v in now.items() if initial.get(k) != v}
+    changed = performer.context.changed_variables()
     for child in action.children:
         name, value = child.value("name"), child.value("value")
         if child.kind == "env" and name is not None and value is not None:

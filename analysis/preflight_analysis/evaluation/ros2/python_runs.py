@@ -96,7 +96,9 @@ def recorded(
     """The launch file as its run tells it, and the run; without one as it can be read."""
     document, whole = launch_file.document, Span(0, 0)
     given = _given(document.text, context.initial_environment)
-    run = PythonRun(launch_file.path, document.text, _variables(context), (), _source(document.text), given=given)
+    run = PythonRun(
+        launch_file.path, document.text, context.changed_variables(), (), _source(document.text), given=given
+    )
     run = replace(run, packages=state.environment.meant)
     place = Place(launch_file.path, document.lines, chain, run)
     unknowns, problems = len(state.unknowns), len(state.problems)
@@ -161,7 +163,7 @@ def called(
         "name": name,
         "what": what,
         "configurations": configurations,
-        "env": _variables(context),
+        "env": context.changed_variables(),
         "file": context.launch_file,
     }
     given = {v for v in configurations.values() if isinstance(v, str)}
@@ -195,17 +197,12 @@ def calls_own_code(launch_file: LaunchFile) -> bool:
     return False
 
 
-def _variables(context: Context) -> dict[str, str]:
-    initial = context.initial_environment
-    return {k: v for k, v in context.environment.items() if initial.get(k) != v}
-
-
 def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
     """The variables of the environment that a launch file names, as `os.environ['ROBOT']`: XML reads them as well."""
     if _READS_ENVIRONMENT.search(text) is None:
         return {}
     names = {name for _, name in _NAMED.findall(text)}
-    known = {name: environment[name] for name in sorted(names & environment.keys())}
+    known = {name: value for name in sorted(names) if (value := environment.get(name)) is not None}
     return {name: value for name, value in known.items() if not is_secret(name, value)}
 
 
