@@ -31,6 +31,8 @@ class Problem(Generic[K_co]):
 
 @dataclass(frozen=True, slots=True)
 class _Message(ProblemKind):
+    """A form: a text that something cannot make sense of."""
+
     message: str
 
 
@@ -44,19 +46,24 @@ class UnreadablePath(ProblemKind):
 
 @dataclass(frozen=True, slots=True)
 class _Expression(ProblemKind):
+    """A form: an expression in Python that has no value."""
+
     expression: str
     message: str
 
 
 @dataclass(frozen=True, slots=True)
 class _OfNames(OfName):
+    """A form: a name that is none of those declared."""
+
     declared: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class _Limit(ProblemKind):
+    """A form: there is more of something than `limit`, a phrase."""
+
     limit: str
-    """How many of what: a phrase."""
 
 
 # Files
@@ -164,7 +171,7 @@ class PackageNotFound(OfName):
 
 
 class ValueTooLong(_Limit):
-    """A value that substitutions make has more than `limit`, and is not kept."""
+    """A value that substitutions make is not kept, as it is so long."""
 
     __slots__ = ()
     usually_fatal = False
@@ -175,8 +182,8 @@ class ValueTooLong(_Limit):
 
 @dataclass(frozen=True, slots=True)
 class UndeclaredArgument(_OfNames):
-    """`$(arg)` of what is not declared before. `not_followed` is what could not be evaluated and may have set it: in
-    ROS 2, where it is fatal if there is nothing of that kind."""
+    """`$(arg)` of what is not declared before. In ROS 2 something that could not be evaluated may have set it, which is
+    `not_followed`: then it need not be fatal."""
 
     not_followed: Location | None = None
 
@@ -262,7 +269,7 @@ class IncludeCycle(ProblemKind):
 
 
 class NestedTooDeeply(_Limit):
-    """Groups and includes go deeper, or are more, than `limit`, and are not evaluated beyond."""
+    """Groups and includes are not evaluated any further, as they go so deep or are so many."""
 
     __slots__ = ()
     usually_fatal = False
@@ -295,11 +302,10 @@ class YamlKeyTwice(OfName):
     second: Location
 
 
-@dataclass(frozen=True, slots=True)
-class MalformedCommand(ProblemKind):
+class MalformedCommand(_Message):
     """A command line that cannot be split into words."""
 
-    message: str
+    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)
