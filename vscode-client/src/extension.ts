@@ -31,11 +31,11 @@ export function activate(context: ExtensionContext): void {
   const graph = new GraphView(context, isLaunchFile);
   let statusBar: StatusBar | undefined;
   let watching: string | undefined;
-  const showLive = (told: Live) => {
-    watching = told.event === "state" ? watching : told.to;
-    tree.showLive(watched(told, watching));
-    graph.showLive(told);
-    void commands.executeCommand("setContext", "rosPreflight.watching", told.event !== "stopped");
+  const showLive = (live: Live) => {
+    watching = live.event === "state" ? watching : live.to;
+    tree.showLive(watched(live, watching));
+    graph.showLive(live);
+    void commands.executeCommand("setContext", "rosPreflight.watching", live.event !== "stopped");
   };
   const server = new ServerSession(context, log, {
     changed: (life, status) => statusBar?.update(life, status),
@@ -146,14 +146,14 @@ function isLaunchFile(document: TextDocument): boolean {
 
 /** Tells the editor whether the active file is a launch file, of whatever language: buttons and commands go by it. */
 function followLaunchFiles(): Disposable {
-  const tell = () => {
+  const notify = () => {
     const document = window.activeTextEditor?.document;
     const is = document !== undefined && isLaunchFile(document);
     void commands.executeCommand("setContext", "rosPreflight.launchFile", is);
   };
-  tell();
+  notify();
   // A file gets another language without another editor being active.
-  return Disposable.from(window.onDidChangeActiveTextEditor(tell), workspace.onDidOpenTextDocument(tell));
+  return Disposable.from(window.onDidChangeActiveTextEditor(notify), workspace.onDidOpenTextDocument(notify));
 }
 
 /** Calls back once, when a launch file is or comes to be open: an XML file of another kind needs no server. */

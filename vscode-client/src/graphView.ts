@@ -68,11 +68,11 @@ export class GraphView implements Disposable {
   }
 
   /** Marks what of the graph is not there on the running robot, or is of another type. */
-  showLive(told: Live): void {
-    if (told.event === "attached" || told.event === "restarted") {
+  showLive(live: Live): void {
+    if (live.event === "attached" || live.event === "restarted") {
       return;
     }
-    this.live = told.event === "state" ? told : {};
+    this.live = live.event === "state" ? live : {};
     this.postLive();
   }
 

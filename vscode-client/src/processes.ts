@@ -50,11 +50,11 @@ export function run(program: string, args: readonly string[], how: HowToRun): Pr
     }
     child.stdout.on("data", (data: Buffer) => {
       output.push(data);
-      tell(data, how.outputLine);
+      emit(data, how.outputLine);
     });
     child.stderr.on("data", (data: Buffer) => {
       errors += data.toString();
-      tell(data, how.line);
+      emit(data, how.line);
     });
     const end = (code: number | null, more = "") => {
       clearTimeout(timer);
@@ -66,7 +66,7 @@ export function run(program: string, args: readonly string[], how: HowToRun): Pr
   });
 }
 
-function tell(data: Buffer, line: ((text: string) => void) | undefined): void {
+function emit(data: Buffer, line: ((text: string) => void) | undefined): void {
   for (const text of data.toString().split("\n")) {
     if (text.trim() !== "") {
       line?.(text);

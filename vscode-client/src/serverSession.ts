@@ -37,7 +37,7 @@ export interface Listener {
   /** There is something newer to be shown. */
   analysed(): void;
   /** The running system, which is watched, is not what it was. */
-  live(told: Live): void;
+  live(live: Live): void;
 }
 
 /** Whether the settings name set-ups, for some folder or for the whole window. */
@@ -125,7 +125,7 @@ export class ServerSession {
   private async replaceClient(): Promise<void> {
     await this.stopClient();
     this.facts.length = 0;
-    this.tell({ state: "starting" });
+    this.notify({ state: "starting" });
     const server = await this.server();
     if (server === undefined) {
       return;
@@ -151,17 +151,17 @@ export class ServerSession {
     client.onNotification(statusChanged, (status) => {
       if (client === this.client) {
         this.status = status;
-        this.tell({ state: "running" });
+        this.notify({ state: "running" });
       }
     });
     client.onNotification(analysed, () => this.listener.analysed());
-    client.onNotification(live, (told) => this.listener.live(told));
+    client.onNotification(live, (state) => this.listener.live(state));
     // Not awaited: a server that never answers must not keep "Restart Server" waiting.
     client.start().then(
       () => {
         if (client === this.client) {
           started = true;
-          this.tell({ state: "running" });
+          this.notify({ state: "running" });
           this.listener.connected(client);
         }
       },
@@ -212,7 +212,7 @@ export class ServerSession {
     const candidates = pythons();
     const abort = new AbortController();
     this.installing = abort;
-    this.tell({ state: "installing", reason: "The server is being installed in an environment of its own." });
+    this.notify({ state: "installing", reason: "The server is being installed in an environment of its own." });
     const options = { location: ProgressLocation.Notification, title: "ROS Preflight", cancellable: true };
     return window.withProgress(options, (progress, token) => {
       token.onCancellationRequested(() => abort.abort());
@@ -279,7 +279,7 @@ export class ServerSession {
     this.status = undefined;
     if (client !== undefined) {
       this.listener.connected(undefined);
-      this.tell({ state: "stopped" });
+      this.notify({ state: "stopped" });
     }
     try {
       await client?.dispose();
@@ -289,14 +289,14 @@ export class ServerSession {
     }
   }
 
-  private tell(life: Life): void {
+  private notify(life: Life): void {
     this.life = life;
     this.listener.changed(this.life, this.status);
   }
 
   /** There is no server, and the user is told why. */
   private fail(reason: string, ...actions: Action[]): void {
-    this.tell({ state: "missing", reason });
+    this.notify({ state: "missing", reason });
     this.report(reason, ...(actions.length > 0 ? actions : [["Show Log", () => this.log.show()] as Action]));
   }
 

@@ -1,4 +1,4 @@
-"""Which files are launched, and what holds of a file that several of them reach: DESIGN, "Contexts"."""
+"""Which files are launched, and what holds of a file that several of them reach: see docs/architecture.md."""
 
 from __future__ import annotations
 

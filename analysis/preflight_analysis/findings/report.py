@@ -1,4 +1,4 @@
-"""Findings as text for people and as JSON for programs (DESIGN: `ros-preflight/check/1`)."""
+"""Findings as text for people and as JSON for programs (`ros-preflight/check/1`, docs/formats)."""
 
 from __future__ import annotations
 

@@ -106,7 +106,7 @@ def _renewed(
     rate: Callable[[Hashable], Hit | None],
 ) -> _Kept:
     if earlier is None or len(earlier.pools) != len(pools):
-        return _anew(pools, rate)
+        return _fresh(pools, rate)
     came: set[Hashable] = set()
     went: set[Hashable] = set()
     for old, new in zip(earlier.pools, pools, strict=True):
@@ -120,7 +120,7 @@ def _renewed(
         return earlier if earlier.pools == pools else _Kept(pools, earlier.hits, earlier.more)
     hits = [hit for hit in earlier.hits if hit.candidate not in went]
     if earlier.more and not hits:
-        return _anew(pools, rate)
+        return _fresh(pools, rate)
     # Those that are not kept are all worse than the worst that is: what is worse than that is none of the best either.
     worst = hits[-1].rank if earlier.more else None
     found = [hit for hit in map(rate, came) if hit is not None]
@@ -128,7 +128,7 @@ def _renewed(
     return _cut(pools, [*hits, *better], more=earlier.more or len(better) < len(found))
 
 
-def _anew(pools: tuple[Pool, ...], rate: Callable[[Hashable], Hit | None]) -> _Kept:
+def _fresh(pools: tuple[Pool, ...], rate: Callable[[Hashable], Hit | None]) -> _Kept:
     hits = [hit for hit in map(rate, _EMPTY.union(*pools)) if hit is not None]
     return _cut(pools, hits, more=False)
 

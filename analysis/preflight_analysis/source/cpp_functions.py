@@ -17,7 +17,7 @@ from preflight_analysis.source.cpp_values import Argument, Calls, CppType, Funct
 from preflight_analysis.source.python_values import UNKNOWN
 
 MAX_DEPTH = 30
-_MAX_VISITS = 100
+_MAX_CALLS = 100
 
 
 class Functions(Names):
@@ -27,7 +27,7 @@ class Functions(Names):
         super().__init__(program, calls)
         self._branches = Branches()
         calls.begin(self._branches)
-        self._visits: dict[int, int] = {}
+        self._call_counts: dict[int, int] = {}
         self._active: set[int] = set()
         self._returns: list[list[Any]] = []
         self._depth = 0
@@ -52,7 +52,7 @@ class Functions(Names):
         body = function.body.child_by_field_name("body")
         if body is None:
             return UNKNOWN
-        self._visits[function.body.id] = self._visits.get(function.body.id, 0) + 1
+        self._call_counts[function.body.id] = self._call_counts.get(function.body.id, 0) + 1
         return self._returned(body, scope)
 
     def _call_text(
@@ -68,7 +68,7 @@ class Functions(Names):
         key = body.id
         if key in self._active:
             return UNKNOWN
-        if self._depth > MAX_DEPTH or self._visits.get(key, 0) >= _MAX_VISITS:
+        if self._depth > MAX_DEPTH or self._call_counts.get(key, 0) >= _MAX_CALLS:
             if self._leads(body):
                 self._calls.cut_short()
             return UNKNOWN
@@ -88,7 +88,7 @@ class Functions(Names):
             self._active.discard(key)
 
     def _body(self, body: Node, scope: Scope) -> None:
-        self._visits[body.id] = self._visits.get(body.id, 0) + 1
+        self._call_counts[body.id] = self._call_counts.get(body.id, 0) + 1
         self._statement(body, scope)
 
     def _leads(self, body: Node) -> bool:

@@ -32,8 +32,8 @@ from preflight_analysis.source.cpp_text import (
 from preflight_analysis.source.cpp_values import Argument, Calls, CppType, Instance, Scope
 from preflight_analysis.source.python_values import UNKNOWN
 
-_MAX_TURNS = 64
-_FEW_TURNS = 8
+_MAX_ITERATIONS = 64
+_FEW_ITERATIONS = 8
 _FOREVER = frozenset({"(true)", "(1)"})
 
 
@@ -92,7 +92,7 @@ class _Interpreter(Expressions):
         self._late = self._branches.late = True
         for waiting in self._waiting:  # grows while it is gone through
             body = waiting.text.body if waiting.text is not None else waiting.body
-            if body is not None and not self._visits.get(body.id):
+            if body is not None and not self._call_counts.get(body.id):
                 with contextlib.suppress(ExitError):
                     self._call_value(waiting, [])
 
@@ -255,7 +255,7 @@ class _Interpreter(Expressions):
             self._value(first, scope)
         if body is None:
             return
-        for _ in range(self._most_turns(body)):
+        for _ in range(self._most_iterations(body)):
             known = truth(self._value(condition, scope)) if condition is not None else None
             if known is None:
                 for name in counters:
@@ -267,9 +267,9 @@ class _Interpreter(Expressions):
             if update is not None:
                 self._value(update, scope)
 
-    def _most_turns(self, body: Node) -> int:
+    def _most_iterations(self, body: Node) -> int:
         """How often a loop is gone through: only where a library is called a large number is worth it."""
-        return _MAX_TURNS if self._leads(body) else _FEW_TURNS
+        return _MAX_ITERATIONS if self._leads(body) else _FEW_ITERATIONS
 
     def _once(self, body: Node, scope: Scope) -> None:
         """Go through what may be done any number of times."""
@@ -295,7 +295,7 @@ class _Interpreter(Expressions):
             return
         first, done = node.type == "do_statement", False
         literal = text_of(condition) in _FOREVER
-        for _ in range(1 if literal else self._most_turns(body)):
+        for _ in range(1 if literal else self._most_iterations(body)):
             known = True if first else truth(self._condition(condition, scope))
             first = False
             if known is None and not done:

@@ -23,7 +23,7 @@ from preflight_analysis.source.python_values import (
 )
 
 _MAX_DEPTH = 30
-_MAX_VISITS = 40
+_MAX_CALLS = 40
 _OBJECT_METHODS = frozenset({"keys", "values", "items", "get", "copy", "index", "count"})
 
 
@@ -35,7 +35,7 @@ class CallExpressions(Expressions):
         super().__init__(calls)
         self._depth = 0
         self._active: set[int] = set()
-        self._visits: dict[int, int] = {}
+        self._call_counts: dict[int, int] = {}
         self._waiting: list[Function] = []
         self._returns: list[list[Any]] = []
 
@@ -124,8 +124,8 @@ class CallExpressions(Expressions):
         self._step()
         node = function.node
         key = id(node)
-        self._visits[key] = self._visits.get(key, 0) + 1
-        if key in self._active or self._depth >= _MAX_DEPTH or self._visits[key] > _MAX_VISITS:
+        self._call_counts[key] = self._call_counts.get(key, 0) + 1
+        if key in self._active or self._depth >= _MAX_DEPTH or self._call_counts[key] > _MAX_CALLS:
             return UNKNOWN
         names = self._parameters(function, args, kwargs, unknown)
         parent = function.scope if function.scope.names is not function.scope.module.names else None

@@ -39,7 +39,7 @@ class _Interpreter(CallExpressions):
                 self._call_function(function, [], {})
             self._branches.late = True
             for function in self._waiting:  # grows while it is gone through
-                if not self._visits.get(id(function.node)):
+                if not self._call_counts.get(id(function.node)):
                     self._call_function(function, [], {}, unknown=True)
         except (TooLargeError, ExitError, RecursionError):
             return

@@ -68,7 +68,7 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
         "ROS_DOMAIN_ID": "0",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         EXPECTED: request.node,
-        SHARES: json.dumps(_shares(environment)),
+        SHARES: json.dumps(_source_packages(environment)),
     }
     if preload is not None:
         env["LD_PRELOAD"] = recipes.preloading(preload, stable)
@@ -89,7 +89,7 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
     it as to nodes: xacro's `$(find)` asks `ament_index_python` for them."""
     stable = variables(environment, ())
     interpreter, python = recipes.shebang_interpreter(environment.ros2_python, executable, stable["PATH"])
-    env = recipes.inside(stable) | {SHARES: json.dumps(_shares(environment))}
+    env = recipes.inside(stable) | {SHARES: json.dumps(_source_packages(environment))}
     argv, workspaces = (*interpreter, executable, *args), environment.workspace_folders
     return Recipe(argv, env, stable, cwd, python, workspaces=workspaces)
 
@@ -144,7 +144,7 @@ def _installed(environment: Environment) -> Iterable[str]:
         yield from python_folders(prefix)
 
 
-def _shares(environment: Environment) -> dict[str, str]:
+def _source_packages(environment: Environment) -> dict[str, str]:
     """Packages that the index of ament does not have, because they are not built."""
     installed = tuple(os.path.join(prefix, "") for prefix in environment.ament_prefixes)
     return {

@@ -1,6 +1,6 @@
 """The workspace index: which launch files there are, who includes whom with what, and which roots reach a file.
 
-DESIGN, "Contexts": a *root* is a file that nothing includes, or one that the settings name, with arguments. An index is
+A *root* is a file that nothing includes, or one that the settings name, with arguments. An index is
 a snapshot: plain data that is never changed, only replaced.
 """
 

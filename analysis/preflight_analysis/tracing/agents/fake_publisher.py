@@ -95,8 +95,8 @@ class FakePublisher:
         if self._goals[topic]:
             _message(connection, _result(self._goals[topic]))
         else:
-            for turn in range(MESSAGES):
-                _message(connection, _ONE if turn % 2 else _ZEROS)
+            for number in range(MESSAGES):
+                _message(connection, _ONE if number % 2 else _ZEROS)
                 time.sleep(SECONDS_BETWEEN)
         with self._lock:
             self._waiting.pop(topic, None)

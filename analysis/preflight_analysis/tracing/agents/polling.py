@@ -168,7 +168,7 @@ class Watch:
                 self._fed.add(id(impl))
                 mock_replies.made_up("poll", impl.resolved_name)
         mock_replies.everywhere()
-        forget_turns()
+        forget_iterations()
         self._turned = self._announced = False
         channel.send("state", state="fed", seconds=min(self._period, MAX_PERIOD))
         for impl in starved:
@@ -189,20 +189,20 @@ def watch() -> Watch:
 
 
 told_states: set[str] = set()
-turns: set[Any] = set()
+iterations: set[Any] = set()
 """Of the main thread's loop: what was told of it, and the places that it has come to."""
 
 
-def forget_turns() -> None:
+def forget_iterations() -> None:
     """After an answer the loop that was seen may be over; another one is told of anew."""
     told_states.clear()
-    turns.clear()
+    iterations.clear()
 
 
 def _feed(impl: Any) -> None:
-    for turn in range(FEEDS):
+    for number in range(FEEDS):
         for callback, more in list(impl.callbacks or ()):
-            message = mock_replies.empty(impl.data_class, yes=turn % 2 == 1)
+            message = mock_replies.empty(impl.data_class, yes=number % 2 == 1)
             message._connection_header = {"topic": impl.resolved_name, "callerid": "/", "type": impl.type}
             try:
                 callback(message) if more is None else callback(message, more)

@@ -43,7 +43,7 @@ constexpr int kMaxEvents = 5000;
 constexpr size_t kMaxName = 300;
 
 char fifo[256];
-std::atomic<int> told{0};
+std::atomic<int> sent{0};
 std::atomic<bool> answered{false};  // the main thread, so that whatever comes may be due to it
 thread_local bool answered_here = false;
 thread_local int depth = 0;  // of hooks: what the library calls on the node's behalf is told once
@@ -64,7 +64,7 @@ struct Depth {
 };
 
 void write_line(const std::string& line) {
-  if (fifo[0] == 0 || line.size() > kMaxLine || told.fetch_add(1) >= kMaxEvents) return;
+  if (fifo[0] == 0 || line.size() > kMaxLine || sent.fetch_add(1) >= kMaxEvents) return;
   // Opened anew each time: the node may close descriptors that it does not know.
   int descriptor = open(fifo, O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -171,13 +171,13 @@ void tell_woven() {
 }
 
 // Runs what tells; whatever goes wrong stays here.
-template <typename Tell>
-void quietly(Tell tell) noexcept {
+template <typename Report>
+void quietly(Report report) noexcept {
   Errno kept;
   Depth nested;
   try {
     tell_woven();
-    tell();
+    report();
   } catch (...) {
   }
 }

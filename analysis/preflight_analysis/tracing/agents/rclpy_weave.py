@@ -395,7 +395,7 @@ def _spins(flush: Callable[[], None]) -> Callable[..., Any]:
     return advice
 
 
-def _turns_once(flush: Callable[[], None]) -> Callable[..., Any]:
+def _iterates_once(flush: Callable[[], None]) -> Callable[..., Any]:
     """A call that stands in a loop of the main thread."""
 
     @_quiet
@@ -578,7 +578,7 @@ def _first_message(flush: Callable[[], None]) -> Callable[..., Any]:
 # Packages that were not built
 
 
-def _shares(not_found: Any) -> Callable[..., Any]:
+def _source_packages(not_found: Any) -> Callable[..., Any]:
     """`get_package_share_directory`: of a package that is there as source only, the folder of the source."""
 
     def advice(original: Callable[..., Any]) -> Callable[..., Any]:
@@ -603,7 +603,7 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
     name = module.__name__
     if name == "rclpy":
         _wrap(found, "spin", _spins(flush))
-        _wrap(found, "spin_once", _turns_once(flush))
+        _wrap(found, "spin_once", _iterates_once(flush))
         _wrap(found, "spin_until_future_complete", _completes(flush))
         for function in ("shutdown", "try_shutdown"):
             _wrap(found, function, _ends)
@@ -631,9 +631,9 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
         _wrap(found.Executor, "spin", _spins(flush))
         _wrap(found.Executor, "spin_until_future_complete", _completes(flush))
         for executor in (found.SingleThreadedExecutor, found.MultiThreadedExecutor):
-            _wrap(executor, "spin_once", _turns_once(flush))
+            _wrap(executor, "spin_once", _iterates_once(flush))
     elif name == "rclpy.timer":
-        _wrap(found.Rate, "sleep", _turns_once(flush))
+        _wrap(found.Rate, "sleep", _iterates_once(flush))
     elif name == "rclpy.action.client":
         client = found.ActionClient
         ready = client.server_is_ready
@@ -644,4 +644,4 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
     elif name == "rclpy.wait_for_message":
         _wrap(found, "wait_for_message", _first_message(flush))
     elif name == "ament_index_python.packages":
-        _wrap(found, "get_package_share_directory", _shares(found.PackageNotFoundError))
+        _wrap(found, "get_package_share_directory", _source_packages(found.PackageNotFoundError))

@@ -276,7 +276,7 @@ HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHan
     return;
   }
   give_time();
-  Wait told("message", names.given);
+  Wait waiting("message", names.given);
   std::string topic = options.topic;  // the library resolves it in its place
   double most = grace() * 1e-3, began = now();
   auto seconds = static_cast<int32_t>(timeout), nanoseconds = static_cast<int32_t>(timeout >> 32);
@@ -428,7 +428,7 @@ HOOK bool preflight_wait_for_action(void* self, const int32_t* timeout, NodeHand
     name = monitors()[self];
   });
   if (name.empty()) return wait(self, timeout, handle);
-  Wait told("action", name);
+  Wait waiting("action", name);
   const int32_t shorter[2] = {0, grace() * 1000000};
   if (wait(self, shorter, handle)) return true;
   quietly([&] {

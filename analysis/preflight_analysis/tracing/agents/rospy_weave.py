@@ -262,7 +262,7 @@ def _spin(flush: Callable[[], None], watch: polling.Watch) -> Callable[[Advised]
     return _before(report)
 
 
-def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Callable[[Advised], Advised]:
+def _iteration(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Callable[[Advised], Advised]:
     """A call that stands in a loop of the main thread: always (`loops`), or if it comes twice from the same place.
 
     A single `rospy.sleep` may be a pause before more endpoints are made.
@@ -274,8 +274,8 @@ def _turn(flush: Callable[[], None], watch: polling.Watch, loops: bool) -> Calla
         file, line, internal = caller()
         if internal:
             return
-        again = (file, line) in polling.turns
-        polling.turns.add((file, line))
+        again = (file, line) in polling.iterations
+        polling.iterations.add((file, line))
         state = "looped" if again else "idle"
         duration = arguments.get("duration", getattr(arguments.get("self"), "sleep_dur", 0.0))
         seconds = duration.to_sec() if hasattr(duration, "to_sec") else float(duration)
@@ -435,10 +435,10 @@ def weave(rospy: ModuleType, flush: Callable[[], None]) -> None:
     function(services, "wait_for_service", _wait(root, flush, watch, "service", "service", there), rospy)
     aspectlib.weave(services.ServiceProxy, _call(services.ServiceException), methods=["call"], subclasses=False)
     aspectlib.weave(root.topics.Publisher, _publishes(watch), methods=["publish"], subclasses=False)
-    aspectlib.weave(root.timer.Rate, _turn(flush, watch, loops=True), methods=["sleep"], subclasses=False)
+    aspectlib.weave(root.timer.Rate, _iteration(flush, watch, loops=True), methods=["sleep"], subclasses=False)
     # Only the names that nodes use: rospy's own modules call these on every turn.
-    function(rospy, "sleep", _turn(flush, watch, loops=False))
-    function(rospy, "is_shutdown", _turn(flush, watch, loops=True))
+    function(rospy, "sleep", _iteration(flush, watch, loops=False))
+    function(rospy, "is_shutdown", _iteration(flush, watch, loops=True))
     for name, what in (
         ("get_name", ("name",)),
         ("get_caller_id", ("name",)),

@@ -69,9 +69,9 @@ export function follow(part) {
     go(nodeOf(part).places[0]);
     return;
   }
-  const ends = edgesOf(part);
-  const offers = ["publisher", "service", "action_server"];
-  go((ends.find((edge) => offers.includes(edge.role)) ?? ends[0]).places[0]);
+  const edges = edgesOf(part);
+  const providers = ["publisher", "service", "action_server"];
+  go((edges.find((edge) => providers.includes(edge.role)) ?? edges[0]).places[0]);
 }
 
 /** @param {Element} item */

@@ -24,7 +24,7 @@ const SECTIONS = [
   ["action_client", "Client of actions"],
 ];
 
-const ENDS = {
+const ENDPOINTS = {
   topic: ["Publishers", "Subscribers"],
   service: ["Clients", "Servers"],
   action: ["Clients", "Servers"],
@@ -77,12 +77,12 @@ function said(part) {
   }
   if (part.dataset.channel !== undefined) {
     const channel = channelOf(part);
-    const ends = edgesOf(part);
-    const lines = ends.slice(0, 10).map((edge) => {
+    const edges = edgesOf(part);
+    const lines = edges.slice(0, 10).map((edge) => {
       const how = make("span", { className: "dim" }, edgeShown(edge));
       return make("p", {}, `${graph.nodes[edge.node].name} ${DOES[edge.role]} `, how);
     });
-    const more = ends.length > 10 ? [make("p", { className: "dim" }, `and ${ends.length - 10} more`)] : [];
+    const more = edges.length > 10 ? [make("p", { className: "dim" }, `and ${edges.length - 10} more`)] : [];
     const head = make("b", {}, `${channel.kind} ${channel.name}`);
     return [head, ...liveShown(part), ...lines, ...more, ...findingsShown(channel.findings)];
   }
@@ -161,7 +161,7 @@ export function detail(item, on) {
     }
   } else {
     const channel = channelOf(item);
-    const [first, second] = ENDS[channel.kind];
+    const [first, second] = ENDPOINTS[channel.kind];
     const from = channel.external ? ", used from outside of the launch" : "";
     parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${from}`));
     parts.push(...channel.types.map((type) => make("p", {}, type)), ...findingsShown(channel.findings));

@@ -25,9 +25,9 @@ const char* word(int value, std::initializer_list<std::pair<int, const char*>> w
 // The policies that are settled, in JSON; what is left to the middleware is left out.
 std::string told_qos(const Qos* qos) {
   if (qos == nullptr) return "{}";
-  std::string told;
+  std::string policies;
   auto add = [&](const char* key, const std::string& value) {
-    told += std::string(told.empty() ? "\"" : ",\"") + key + "\":" + value;
+    policies += std::string(policies.empty() ? "\"" : ",\"") + key + "\":" + value;
   };
   auto add_word = [&](const char* key, const char* value) {
     if (value != nullptr) add(key, std::string("\"") + value + "\"");
@@ -44,7 +44,7 @@ std::string told_qos(const Qos* qos) {
   };
   add_time("deadline", qos->deadline);
   add_time("lease_duration", qos->lease);
-  return "{" + told + "}";
+  return "{" + policies + "}";
 }
 
 void tell_endpoint(const char* role, const Handle* node, const std::string& name, const std::string& type,

@@ -44,7 +44,7 @@ void tell_state(const std::string& state, bool main) {
 }
 
 void tell_turn(const WaitSet* waited_for, int64_t timeout) {
-  static std::atomic<int> turns{0};
+  static std::atomic<int> iterations{0};
   bool main = in_main_thread();
   bool works = waited_for->subscriptions.count + waited_for->timers.count + waited_for->clients.count +
                    waited_for->services.count >
@@ -52,7 +52,7 @@ void tell_turn(const WaitSet* waited_for, int64_t timeout) {
   if (!main && !works) return;  // rclcpp has a thread that looks for changes of the graph
   if (works) ask_for_parameters();
   // Whoever waits without end in the main thread is there. Else it may be a wait before more is made.
-  std::string state = main && (timeout < 0 || turns.fetch_add(1) > 0) ? "looped" : "idle";
+  std::string state = main && (timeout < 0 || iterations.fetch_add(1) > 0) ? "looped" : "idle";
   std::lock_guard<std::mutex> locked(turns_mutex);
   if (told_states.count(state + (main ? "" : "*")) != 0) return;
   if (busy > 0) {

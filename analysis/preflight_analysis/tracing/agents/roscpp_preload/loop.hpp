@@ -31,7 +31,7 @@ class Loop {
  public:
   void turn(void* place, double seconds) {
     Place* known = find(place);
-    bool again = known != nullptr && known->turns++ > 0;
+    bool again = known != nullptr && known->iterations++ > 0;
     double period = 0;
     if (known != nullptr) {
       works_ = works_ || (again && published > known->published);
@@ -39,21 +39,21 @@ class Loop {
       period = again ? now() - known->at : 0;
       known->at = now();
     }
-    if (works_ && starving_told_) {
-      starving_told_ = false;
+    if (works_ && starving_sent_) {
+      starving_sent_ = false;
       Event("state").add("state", std::string("busy")).send();
     }
-    if (told_looped_ && !starving_told_) return;
+    if (sent_looped_ && !starving_sent_) return;
     bool starving = !works_ && (polls_params() || needs_time() || !starved().empty());
     if (again && starving && now() - last_new >= kQuiet && feed(period)) return;
-    tell(again, seconds, starving);
+    report(again, seconds, starving);
   }
 
  private:
   static constexpr double kQuiet = 0.25;
   struct Place {
     void* place;
-    int turns, published;
+    int iterations, published;
     double at;
   };
 
@@ -66,12 +66,12 @@ class Loop {
     return &places_[count_++];
   }
 
-  void tell(bool again, double seconds, bool starving) {
+  void report(bool again, double seconds, bool starving) {
     if (!again && seconds >= 0) {
       Event("state").add("state", std::string("sleep")).raw("seconds", std::to_string(seconds)).send();
-    } else if (again ? !told_looped_ || (starving_told_ && !starving) : !told_idle_) {
-      (again ? told_looped_ : told_idle_) = true;
-      starving_told_ = starving;
+    } else if (again ? !sent_looped_ || (starving_sent_ && !starving) : !sent_idle_) {
+      (again ? sent_looped_ : sent_idle_) = true;
+      starving_sent_ = starving;
       int own = threads_now() - 1 - library_threads;
       Event("state")
           .add("state", std::string(again ? "looped" : "idle"))
@@ -97,7 +97,7 @@ class Loop {
     }
     // It may leave the loop now, and has to show another one.
     count_ = 0;
-    told_idle_ = told_looped_ = starving_told_ = works_ = false;
+    sent_idle_ = sent_looped_ = starving_sent_ = works_ = false;
     last_new = now();
     // Another turn takes the messages, the next one may go on.
     Event("state").add("state", std::string("fed")).raw("seconds", std::to_string(2.5 * period)).send();
@@ -106,7 +106,7 @@ class Loop {
 
   Place places_[64];
   int count_ = 0;
-  bool told_idle_ = false, told_looped_ = false, starving_told_ = false, works_ = false;
+  bool sent_idle_ = false, sent_looped_ = false, starving_sent_ = false, works_ = false;
 };
 
 void tell_turn(void* place, double seconds) {

@@ -46,7 +46,7 @@ bool wait_for_transform(const void* buffer, const std::string& target, const std
     return ask(timeout) || polled_transform(core, target, source, place);
   }
   give_time();
-  Wait told("transform", frames(target, source));
+  Wait waiting("transform", frames(target, source));
   double most = grace() * 1e-3, began = now();
   if (seconds > 0 || nanoseconds > most * 1e9) timeout = static_cast<int64_t>(most * 1e9) << 32;
   if (ask(timeout)) return true;

@@ -14,17 +14,17 @@ class Wait {
     quietly([&] {
       kind_ = kind;
       name_ = name;
-      tell("wait");
+      report("wait");
     });
     ++depth;
   }
   ~Wait() {
     --depth;
-    quietly([&] { tell("resume"); });
+    quietly([&] { report("resume"); });
   }
 
  private:
-  void tell(const char* state) {
+  void report(const char* state) {
     if (!outermost_) return;
     Event("state")
         .add("state", std::string(state))
@@ -48,7 +48,7 @@ std::string name_of_client(void* client) {
 // Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for
 // rospy (answers.py).
 bool wait_briefly(const std::string& name) {
-  Wait told("service", name);
+  Wait waiting("service", name);
   if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace())) return true;
   quietly([&] { tell_answered("service", name); });
   return true;
