@@ -9,7 +9,8 @@ from preflight_analysis.documents.document import Document, SyntaxProblem
 from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Span
-from preflight_analysis.documents.xml_scanner import NAME, Scan, scan
+from preflight_analysis.documents.xml_patterns import NAME
+from preflight_analysis.documents.xml_scanner import Scan, scan
 
 MAX_PROBLEMS = 100
 """A text that is no XML at all has one per character or so; nobody reads them."""

@@ -8,7 +8,7 @@ from typing import Literal
 
 from preflight_analysis.documents.document import Attribute, Comment, Document, Element, Node, Text
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.xml_scanner import NAME
+from preflight_analysis.documents.xml_patterns import NAME
 
 PlaceKind = Literal["element", "end-tag", "attribute", "value", "content"]
 
