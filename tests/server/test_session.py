@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from pathlib import Path
 from typing import Any
 
 import pytest
 from lsprotocol import types
-from preflight_analysis.workspace.workspace import Workspace
+from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.app import PreflightServer
-from preflight_server.lsp.session import Session
+from preflight_server.lsp.session import LARGE, Session
 from preflight_server.lsp.settings import Settings
 
 
@@ -36,4 +37,43 @@ async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypat
             assert len(tried) <= 2 * version, "once for the edit, and once when the index came"
         assert await session.view(launch_file.as_uri()) is None
     finally:
+        await asyncio.get_running_loop().run_in_executor(None, session.close)
+
+
+@pytest.mark.parametrize(("nodes", "first"), [(LARGE, False), (LARGE - 1, True)])
+async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, nodes: int, first: bool
+) -> None:
+    may_go_on = threading.Event()
+    whole = Workspace.with_interfaces
+
+    def waits(self: Workspace, *args: Any) -> Analysis:
+        may_go_on.wait(20)
+        return whole(self, *args)
+
+    monkeypatch.setattr(Workspace, "with_interfaces", waits)
+    monkeypatch.setattr(PreflightServer, "client_capabilities", types.ClientCapabilities())
+    server = PreflightServer()
+    session = Session(server, str(tmp_path), Settings(), trusted=False)
+    launch_file = tmp_path / "a.launch"
+    text = "".join(f'<node pkg="nowhere" type="t" name="n{number}"/>\n' for number in range(nodes))
+    try:
+        document = server.texts.open(launch_file.as_uri(), "roslaunch", 1, f"<launch>{text}</launch>")
+        session.takes(document)
+        session.text_changed(document, own=True, quiet=0)
+        if first:
+            may_go_on.set()
+        await asyncio.wait_for(session.settled(), 20)
+        view = await session.view(launch_file.as_uri())
+        assert view is not None
+        assert {finding.rule for finding in view.findings} >= {"PKG001"}
+        assert (view.analysis.graph is not None) == first
+        may_go_on.set()
+        while view.analysis.graph is None:
+            await asyncio.sleep(0.05)
+            view = await session.view(launch_file.as_uri())
+            assert view is not None
+        assert any(finding.rule == "PKG001" for finding in view.findings)
+    finally:
+        may_go_on.set()
         await asyncio.get_running_loop().run_in_executor(None, session.close)

@@ -138,4 +138,5 @@ def serve() -> int:
         finally:
             if server.folders is not None:
                 server.folders.close()
+    gc.freeze()  # or the last collections look through all of it for seconds: it goes with the process anyway
     return 0 if server.protocol.was_shut_down else 1

@@ -12,7 +12,7 @@ import logging
 import threading
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
@@ -46,6 +46,8 @@ _T = TypeVar("_T")
 PAUSE_AFTER_TYPING = 0.5
 """Seconds without an edit before anything is done but to analyse the root in whose context the file is shown: half a
 word is no argument to run a node with."""
+LARGE = 100
+"""From so many nodes on, what can be said of a launch without the graph is shown first."""
 MAX_ROOTS = 8
 """How many of the roots that reach a file are analysed while it is open, the one that it is shown in first."""
 
@@ -75,6 +77,8 @@ class _Round:
     kept: Kept
     converter: Converter
     """What made them, for the next round."""
+    preliminary: bool = False
+    """Whether the graph of the one that was analysed is still missing."""
 
 
 class Session:
@@ -450,6 +454,9 @@ class Session:
             self._dirty.pop(root, None)
         if round_ is not None:
             self._commit(round_)
+            if round_.preliminary and root is not None:
+                self._dirty[root] = self._edits
+                self._settled.set()
         elif root is not None:
             self._broken[root] = self._edits
 
@@ -465,10 +472,14 @@ class Session:
         kept, before = Kept(self._kept), self._converter
 
         def work() -> _Round:
+            preliminary = False
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
-                analyses[root] = with_known(workspace, static, known, why, analyses.get(root))
-            return self._merge(analyses, stale, explicit, selected, kept, before)
+                preliminary = root not in analyses and len(static.tree.nodes) >= LARGE
+                whole = static if preliminary else with_known(workspace, static, known, why, analyses.get(root))
+                analyses[root] = whole
+            merged = self._merge(analyses, stale, explicit, selected, kept, before)
+            return replace(merged, preliminary=preliminary)
 
         try:
             return await self.in_pool(work)
