@@ -97,6 +97,25 @@ def test_environments_have_a_stack_of_their_own(harness: PythonHarness) -> None:
     assert names == ["/a_two_end_two", "/b_two_end_one", "/c_one_one", "/d_none"]
 
 
+def test_a_configuration_that_is_unset_is_none(harness: PythonHarness) -> None:
+    used = "n(['a_', LaunchConfiguration('c', default='none')])"
+    names = _started(harness, "SetLaunchConfiguration('c', 'one')", used, "UnsetLaunchConfiguration('c')", used)
+    assert names == ["/a_one", "/a_none"]
+
+
+def test_events_that_are_emitted_and_states_of_nodes_start_nothing(harness: PythonHarness) -> None:
+    state = "LifecycleTransition(lifecycle_node_names=['n'], transition_ids=[1])"
+    tree = harness.launch(_described(harness, "EmitEvent(event=None)", state, "n('n')")).tree
+    assert [node.name for node in tree.nodes] == ["/n"]
+    assert not tree.unknowns
+
+
+def test_what_a_coroutine_does_is_not_known(harness: PythonHarness) -> None:
+    tree = harness.launch(_described(harness, "OpaqueCoroutine(coroutine=None)", "n('n')")).tree
+    assert [node.name for node in tree.nodes] == ["/n"]
+    assert [unknown.what for unknown in tree.unknowns] == ["OpaqueCoroutine"]
+
+
 @pytest.mark.parametrize("kind", ["Environment", "LaunchConfigurations"])
 def test_a_pop_without_a_push_stops_launch(harness: PythonHarness, kind: str) -> None:
     path = _described(harness, f"Push{kind}()", f"Pop{kind}()", f"Pop{kind}()")

@@ -35,8 +35,10 @@ def _tag(
     children: tuple[str, ...] = (),
     text: bool = False,
     refused: tuple[str, ...] = (),
+    named_by: tuple[str, ...] = (),
+    detail: tuple[str, ...] = (),
 ) -> Tag:
-    return Tag(doc, {a.name: a for a in (*attributes, *_CONDITIONS)}, children, text, refused)
+    return Tag(doc, {a.name: a for a in (*attributes, *_CONDITIONS)}, children, text, refused, named_by, detail)
 
 
 _SCOPE = ("node", "include", "arg", "param", "rosparam", "remap", "group", "env", "machine", "test")
@@ -44,7 +46,7 @@ _NODE = ("param", "rosparam", "remap", "env")
 
 _PKG = Attribute("pkg", "The package of the node.", "package", required=True)
 _TYPE = Attribute("type", "The executable: a file of this name in the package.", "executable", required=True)
-_NAME = Attribute("name", "The name of the node, without a namespace.")
+_NAME = Attribute("name", "The name of the node, without a namespace.", "node")
 _ARGS = Attribute("args", "Command-line arguments for the node.")
 _NS = Attribute("ns", "Start the node in this namespace.", "namespace")
 _CLEAR = _flag("clear_params", "Delete all parameters in the node's private namespace before it starts.")
@@ -70,6 +72,7 @@ TAGS: Mapping[str, Tag] = {
         Attribute("ns", "Put everything in the group into this namespace.", "namespace"),
         _flag("clear_params", "Delete all parameters in the group's namespace before the launch; needs `ns`."),
         children=_SCOPE,
+        named_by=("ns",),
     ),
     "node": _tag(
         "Starts a node.",
@@ -87,12 +90,13 @@ TAGS: Mapping[str, Tag] = {
         _CWD,
         _CLEAR,
         children=_NODE,
+        named_by=("name", "type"),
     ),
     "test": _tag(
         "Runs a test node; only `rostest` does, `roslaunch` leaves it out.",
         _PKG,
         _TYPE,
-        Attribute("test-name", "The name of the test in the results.", required=True),
+        Attribute("test-name", "The name of the test in the results.", "node", required=True),
         replace(_NAME, doc="The name of the node, without a namespace; that of the test where it is left out."),
         _ARGS,
         _NS,
@@ -105,6 +109,7 @@ TAGS: Mapping[str, Tag] = {
         _REQUIRED,
         children=_NODE,
         refused=("respawn", "respawn_delay", "output"),
+        named_by=("test-name", "name", "type"),
     ),
     "include": _tag(
         "Reads another launch file. It sees only the arguments that are passed to it.",
@@ -113,6 +118,7 @@ TAGS: Mapping[str, Tag] = {
         _flag("clear_params", "Delete all parameters in the namespace before the launch; needs `ns`."),
         _flag("pass_all_args", "Pass on all arguments of this file as well."),
         children=("arg", "env"),
+        named_by=("file",),
     ),
     "arg": _tag(
         "Declares an argument of this file; inside of an `<include>`: passes one on.",
@@ -120,6 +126,8 @@ TAGS: Mapping[str, Tag] = {
         Attribute("default", "The value where none is passed. Without `default` and `value` one has to be."),
         Attribute("value", "The value, which nobody can override."),
         Attribute("doc", "What it is for, shown by `roslaunch --ros-args`.", "prose"),
+        named_by=("name",),
+        detail=("value", "default"),
     ),
     "param": _tag(
         "Sets a parameter; inside of a `<node>` a private one.",
@@ -135,6 +143,8 @@ TAGS: Mapping[str, Tag] = {
         Attribute("textfile", "Set it to the text of this file.", "file"),
         Attribute("binfile", "Set it to the bytes of this file.", "file"),
         Attribute("command", "Set it to what this command prints."),
+        named_by=("name",),
+        detail=("value", "textfile", "binfile", "command"),
     ),
     "rosparam": _tag(
         "Sets parameters from YAML, in a file or between the tags.",
@@ -150,20 +160,25 @@ TAGS: Mapping[str, Tag] = {
         Attribute("ns", "Put the parameters into this namespace.", "namespace"),
         _flag("subst_value", "Resolve `$(...)` in the YAML text."),
         text=True,
+        named_by=("param", "file", "ns"),
     ),
     "remap": _tag(
         "Gives a topic, service or action another name, for the nodes that come later in the same scope.",
         Attribute("from", "The name that the node uses.", "remap-from", required=True),
         Attribute("to", "The name that it gets instead.", "remap-to", required=True),
+        named_by=("from",),
+        detail=("to",),
     ),
     "env": _tag(
         "Sets an environment variable for the nodes that come later in the same scope.",
         Attribute("name", "The name of the variable.", "variable", required=True),
         Attribute("value", "Its value.", required=True),
+        named_by=("name",),
+        detail=("value",),
     ),
     "machine": _tag(
         "Declares a machine on which nodes can be started.",
-        Attribute("name", "The name for the attribute `machine` of nodes.", required=True),
+        Attribute("name", "The name for the attribute `machine` of nodes.", "machine", required=True),
         Attribute("address", "The host's name or address.", required=True),
         Attribute("env-loader", "A script on the machine that sets up the environment and runs what follows."),
         Attribute("ssh-port", "The port of its SSH server.", "integer", default="22"),
@@ -179,5 +194,6 @@ TAGS: Mapping[str, Tag] = {
         ),
         Attribute("timeout", "Seconds to wait for a node to start.", "number", default="10"),
         refused=("ros-root", "ros-package-path", "ros-ip", "ros-hostname", "env"),
+        named_by=("name",),
     ),
 }

@@ -9,10 +9,11 @@ from preflight_analysis.documents.document import Element, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
+from preflight_analysis.evaluation.tags import scopes_of
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution
 from preflight_analysis.launch.substitutions import SubstitutionSyntaxError, find_substitutions
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
-from preflight_analysis.workspace.facts import SCOPES, ArgDeclaration, declaration
+from preflight_analysis.workspace.facts import ArgDeclaration, declaration
 from preflight_analysis.workspace.workspace import Analysis
 
 
@@ -21,7 +22,7 @@ def accepted(launch_file: LaunchFile) -> tuple[ArgDeclaration, ...]:
     in ROS 1, those with a `value` cannot be overridden. One that is declared several times (under conditions) counts
     once."""
     found: dict[str, ArgDeclaration] = {}
-    scopes = SCOPES if launch_file.generation == 2 else ()
+    scopes = scopes_of(2) if launch_file.generation == 2 else frozenset[str]()
     for action in _below(launch_file.root, scopes) if launch_file.root is not None else ():
         if action.kind == "arg" and action.attribute("name") is not None:
             each = declaration(action)
@@ -40,19 +41,20 @@ def _below(scope: Action, scopes: Collection[str]) -> Iterator[Action]:
 def visible(launch_file: LaunchFile, offset: int) -> tuple[ArgDeclaration, ...]:
     """The arguments that this file declares for a place: first those before it, then those that come too late."""
     found: dict[str, ArgDeclaration] = {}
-    for action in _visible(launch_file.root, offset) if launch_file.root is not None else ():
+    scopes = scopes_of(launch_file.generation)
+    for action in _visible(launch_file.root, offset, scopes) if launch_file.root is not None else ():
         each = declaration(action)
         found.setdefault(each.name, each)
     return tuple(sorted(found.values(), key=lambda each: each.span.start > offset))
 
 
-def _visible(scope: Action, offset: int) -> Iterator[Action]:
+def _visible(scope: Action, offset: int, scopes: frozenset[str]) -> Iterator[Action]:
     for action in scope.children:
         named = action.kind in ("arg", "let") and action.attribute("name") is not None
         if named and not action.span.contains(offset):
             yield action
-        elif action.kind in SCOPES and action.span.contains(offset):
-            yield from _visible(action, offset)
+        elif action.kind in scopes and action.span.contains(offset):
+            yield from _visible(action, offset, scopes)
 
 
 def included_file(analysis: Analysis, files: Files, file: str, include: Element) -> LaunchFile | None:

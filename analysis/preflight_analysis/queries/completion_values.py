@@ -50,7 +50,19 @@ _OPERATORS = ("and", "or", "not", "in", "if", "else")
 
 _NOTHING = Element("", Span(0, 0), (), (), Span(0, 0), Span(0, 0))
 _TAKES_ARGUMENTS: frozenset[Kind] = frozenset(
-    {"text", "condition", "flag", "integer", "number", "choice", "launch-file", "yaml-file", "file", "namespace"}
+    {
+        "text",
+        "node",
+        "condition",
+        "flag",
+        "integer",
+        "number",
+        "choice",
+        "launch-file",
+        "yaml-file",
+        "file",
+        "namespace",
+    }
 )
 
 
@@ -276,7 +288,7 @@ def _plain(asked: Asked, before: str, trigger: str | None) -> Completion | None:
     whole = list(_of_attribute(asked, attribute)) if one_word or kind not in _TAKES_ARGUMENTS else []
     if kind not in _TAKES_ARGUMENTS:
         return Completion(asked.place.word, tuple(whole)) if "$" not in asked.written else None
-    if trigger is not None and kind == "text":
+    if trigger is not None and kind in ("text", "node"):
         return None  # what can stand anywhere is only shown to those who ask
     pieces = list(_pieces(asked, kind))
     span = asked.place.word if whole else asked.word(typed, _NAME_END)

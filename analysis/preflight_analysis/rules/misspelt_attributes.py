@@ -6,9 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.ros2.actions.registry import tags
+from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.launch.problems import MissingAttribute
-from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problems_of
 from preflight_analysis.rules.rule import Context
@@ -27,7 +26,8 @@ class Misspelt:
 def misspelt(context: Context, tag: Tag, file: str, needed: Iterable[str]) -> Misspelt | None:
     """The attribute of a tag that was probably meant to be one of those needed."""
     kind = tag.action.kind
-    schema = tags().get(kind) if context.tree.generation == 2 else TAGS.get(kind.lower())
+    tags = tags_of(context.tree.generation)
+    schema = tags.get(kind) or tags.get(kind.lower())
     known = schema.attributes if schema is not None else {}
     unknown = {attribute.name: attribute for attribute in tag.action.attributes if attribute.name not in known}
     for name in needed:

@@ -7,8 +7,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.tags import scopes_of, tags_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Substitution, Value
 from preflight_analysis.launch.references import NAMES, Named, arg_references, first_word
+from preflight_analysis.launch.schema import Kind as ValueKind
+from preflight_analysis.launch.schema import Tag
 from preflight_analysis.launch.substitutions_ros2 import nested
 from preflight_analysis.workspace.observations import Observation
 
@@ -32,9 +35,19 @@ Kind = Literal[
 `param` and remaps: the name as written; `env`: in `$(env)`, `$(optenv)` or an `<env>` tag; `machine`: declared or
 used."""
 
+_OF_VALUE: Mapping[ValueKind, Kind] = {
+    "package": "package",
+    "executable": "executable",
+    "component": "component",
+    "node": "node",
+    "launch-file": "include",
+    "parameter": "param",
+    "remap-from": "remap-from",
+    "remap-to": "remap-to",
+    "variable": "env",
+    "machine": "machine",
+}
 _OF_SUBSTITUTION: Mapping[Named | None, Kind] = {"package": "package", "variable": "env"}
-SCOPES = ("group", "timer", "ros_timer", "inline", "for", "for_each")
-"""Tags whose children are read as if they stood in the file itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,9 +98,10 @@ class FileFacts:
 def facts_of(launch_file: LaunchFile) -> FileFacts:
     """The facts of a file, whether well-formed or not."""
     root, named = launch_file.root, launch_file.named
-    mentions = tuple(_mentions(root, None, substitutions=named is None)) if root is not None else ()
+    tags, scopes = tags_of(launch_file.generation), scopes_of(launch_file.generation)
+    mentions = tuple(_mentions(root, None, tags, substitutions=named is None)) if root is not None else ()
     mentions += tuple(m for part in named or () for m in _of_substitution(part, Span(0, 0)))
-    args = tuple(declaration(action) for action in _declarations(root)) if root is not None else ()
+    args = tuple(declaration(action) for action in _declarations(root, scopes)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
     passing_all = frozenset(_passing_all(root, launch_file.generation)) if root is not None else frozenset[Span]()
     return FileFacts(launch_file.path, launch_file.document.version, args, mentions, has_nodes, passing_all)
@@ -107,12 +121,12 @@ def may_be_true(value: Value) -> bool:
     return not value.is_literal or value.text.strip().lower() in ("true", "1")
 
 
-def _declarations(action: Action) -> Iterator[Action]:
+def _declarations(action: Action, scopes: frozenset[str]) -> Iterator[Action]:
     for child in action.children:
         if child.kind == "arg" and child.attribute("name") is not None:
             yield child
-        elif child.kind in SCOPES:
-            yield from _declarations(child)
+        elif child.kind in scopes:
+            yield from _declarations(child, scopes)
 
 
 def declaration(action: Action) -> ArgDeclaration:
@@ -130,9 +144,11 @@ def _of_substitution(part: Substitution, action: Span) -> Iterator[Mention]:
         yield Mention(kind, *first_word(part), action)
 
 
-def _mentions(action: Action, parent: Action | None, *, substitutions: bool) -> Iterator[Mention]:
+def _mentions(
+    action: Action, parent: Action | None, tags: Mapping[str, Tag], *, substitutions: bool
+) -> Iterator[Mention]:
     for attribute in action.attributes:
-        yield from _of_attribute(action, attribute, parent)
+        yield from _of_attribute(action, attribute, parent, tags)
         if not substitutions:
             continue
         if attribute.value.problem is None and "$" in attribute.value.text:
@@ -146,42 +162,23 @@ def _mentions(action: Action, parent: Action | None, *, substitutions: bool) -> 
         for name, span in arg_references(action.body):
             yield Mention("arg-use", name, span, action.head_span)
     for child in action.children:
-        yield from _mentions(child, action, substitutions=substitutions)
+        yield from _mentions(child, action, tags, substitutions=substitutions)
 
 
-def _of_attribute(action: Action, attribute: ActionAttribute, parent: Action | None) -> Iterator[Mention]:
-    def mention(kind: Kind, name: str = attribute.value.text) -> Mention:
-        where = parent.head_span if kind == "arg-passed" and parent is not None else action.head_span
-        return Mention(kind, name, attribute.value.span, where)
-
-    match action.kind, attribute.name:
-        case "let" | "keep", "name":
-            yield mention("arg-declaration")
-        case "arg", "name":
-            passed = parent is not None and parent.kind == "include"
-            yield mention("arg-passed" if passed else "arg-declaration")
-        case "node" | "test" | "node_container" | "lifecycle_node" | "composable_node", "pkg":
-            yield mention("package")
-        case ("node" | "test", "type") | ("node" | "node_container" | "lifecycle_node", "exec"):
+def _of_attribute(
+    action: Action, attribute: ActionAttribute, parent: Action | None, tags: Mapping[str, Tag]
+) -> Iterator[Mention]:
+    tag = tags.get(action.kind)
+    known = tag.attributes.get(attribute.name) if tag is not None else None
+    if known is None or action.kind == "rosparam":  # whose `param` is what several parameters have in common
+        return
+    name, span = attribute.value.text, attribute.value.span
+    if known.kind == "argument":
+        passed = parent is not None and parent.kind == "include"
+        where = parent.head_span if passed and parent is not None else action.head_span
+        yield Mention("arg-passed" if passed else "arg-declaration", name, span, where)
+    elif (kind := _OF_VALUE.get(known.kind)) is not None:
+        if kind in ("executable", "component"):
             package = action.value("pkg")
-            yield mention("executable", f"{package.text if package else ''}/{attribute.value.text}")
-        case "composable_node", "plugin":
-            package = action.value("pkg")
-            yield mention("component", f"{package.text if package else ''}/{attribute.value.text}")
-        case ("node" | "node_container" | "lifecycle_node" | "composable_node", "name") | (
-            "test",
-            "name" | "test-name",
-        ):
-            yield mention("node")
-        case "node" | "test" | "machine", "machine" | "name":
-            yield mention("machine")
-        case "include", "file":
-            yield mention("include")
-        case "param" | "set_parameter", "name":
-            yield mention("param")
-        case "remap" | "set_remap", "from":
-            yield mention("remap-from")
-        case "remap" | "set_remap", "to":
-            yield mention("remap-to")
-        case "env" | "set_env" | "unset_env" | "append_env", "name":
-            yield mention("env")
+            name = f"{package.text if package else ''}/{name}"
+        yield Mention(kind, name, span, action.head_span)

@@ -77,8 +77,8 @@ ENTITIES = (
             named_by=("name", "plugin"),
         ),
         python=(
-            PythonClass("launch_ros.descriptions.ComposableNode", keywords=KEYWORDS),
-            PythonClass("launch_ros.descriptions.ComposableLifecycleNode", keywords=KEYWORDS),
+            PythonClass("launch_ros.descriptions.ComposableNode", keywords={"pkg": "package"}),
+            PythonClass("launch_ros.descriptions.ComposableLifecycleNode", keywords={"pkg": "package"}),
         ),
         of=("node_container", "load_composable_node"),
         starts=True,

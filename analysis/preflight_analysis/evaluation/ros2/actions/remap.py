@@ -13,6 +13,7 @@ ENTITIES = (
             Attribute("from", "The name that the node uses.", "remap-from", required=True),
             Attribute("to", "The name that it gets instead.", "remap-to", required=True),
             named_by=("from",),
+            detail=("to",),
         ),
         python=(),
         parameter="remappings",

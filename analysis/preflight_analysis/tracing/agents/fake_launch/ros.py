@@ -349,8 +349,7 @@ class ComposableNodeContainer(Node):
 class LifecycleNode(Node):
     preflight_kind = "lifecycle_node"
 
-    def __init__(self, *, name: Any, namespace: Any, **kwargs: Any) -> None:
-        autostart = kwargs.pop("autostart", None)
+    def __init__(self, *, name: Any, namespace: Any, autostart: Any = None, **kwargs: Any) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.preflight_autostart = autostart
 
