@@ -16,7 +16,8 @@ from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
-from preflight_analysis.source.roscpp_calls import LIBRARIES, RoscppCalls
+from preflight_analysis.source.roscpp_api import LIBRARIES
+from preflight_analysis.source.roscpp_calls import RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
 from preflight_analysis.tracing.nodelets import nodelet_of
 
@@ -55,7 +56,7 @@ class CppAnalysis:
                     Endpoint("client", f"{nodelet.manager}/load_nodelet", "nodelet/NodeletLoad")
                 )
         elif (program := files.executable(package, executable)) is not None:
-            calls.includes = program.includes
+            calls.include(program.includes)
             interpret_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
             for loaded in calls.nodelets:
                 calls.loaded = loaded
@@ -103,7 +104,7 @@ class CppAnalysis:
         found = files.plugin(plugin, _NODELET)
         if found is not None:
             program, cls = found
-            calls.includes = program.includes
+            calls.include(program.includes)
             interpret_class(program, cls, "onInit", calls)
 
     def _file(self, path: str, text: Callable[[str], tuple[str, str] | None]) -> FileText | None:
