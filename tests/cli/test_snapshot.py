@@ -6,13 +6,13 @@ import os
 import shutil
 import signal
 import subprocess
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from support.editor_harness import Harness
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -73,13 +73,6 @@ def revisions(harness: Harness) -> list[Path]:
 def runs(harness: Harness) -> bool:
     """Whether the talker is being run."""
     return any("talker.py" in command for command in harness.processes())
-
-
-def until(condition: Callable[[], bool]) -> None:
-    give_up = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < give_up
-        time.sleep(0.02)
 
 
 def test_a_snapshot_reads_well_and_is_the_same_as_what_it_was_made_of(harness: Harness, preflight: Run) -> None:

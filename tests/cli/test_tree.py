@@ -184,7 +184,7 @@ import time
 from launch import LaunchDescription
 from launch_ros.actions import Node
 began = time.time()
-time.sleep(2)
+time.sleep(2)  # in its sandbox it sees nothing of the others: all it can do is to take long
 def generate_launch_description():
     times = f'{began} {time.time()}'
     return LaunchDescription([Node(package='arm', executable='a', name=NAME, parameters=[{'times': times}])])

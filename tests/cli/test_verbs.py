@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from preflight_analysis.rules.registry import all_rules
 from support.editor_harness import Harness
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -193,8 +194,7 @@ def test_an_interrupt_ends_the_runs(harness: Harness) -> None:
         # Tests that a shell started in the background inherit that the signal is ignored, and so would the command.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as process:
-        while harness.sandbox_starts() < 3:
-            time.sleep(0.05)
+        until(lambda: harness.sandbox_starts() >= 3)
         started = time.monotonic()
         os.kill(process.pid, signal.SIGINT)
         out, err = process.communicate(timeout=10)

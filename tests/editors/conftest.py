@@ -2,13 +2,13 @@ from __future__ import annotations
 
 import os
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from support.editor_harness import Harness, create_harness
+from support.waiting import until
 
 
 @contextmanager
@@ -17,10 +17,7 @@ def harness(workspace_name: str, *, server_on_path: bool = True) -> Iterator[Har
     with tempfile.TemporaryDirectory(prefix="editor-") as folder:
         created = create_harness(Path(folder), workspace_name, server_on_path=server_on_path)
         yield created
-        deadline = time.monotonic() + 20
-        while created.processes() and time.monotonic() < deadline:
-            time.sleep(0.1)
-        assert created.processes() == [], "the editor left these running"
+        until(lambda: created.processes() == [], 20, "the editor left processes running")
 
 
 @pytest.fixture

@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 from support.editor_harness import ROOT, Harness
 from support.editor_launch_files import create_formats, create_robot
-from support.live_harness import Ros1System, until
+from support.live_harness import Ros1System
+from support.waiting import until
 
 pytestmark = [pytest.mark.editor, pytest.mark.vscode]
 

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from support.live_harness import COMMAND, LIMIT_SECONDS, Ros1System, preflight, until
+from support.live_harness import COMMAND, LIMIT_SECONDS, Ros1System, preflight
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 

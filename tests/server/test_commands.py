@@ -50,12 +50,7 @@ async def hovered(editor: Editor, path: Path, needle: str) -> str:
 
 async def shown(editor: Editor, path: Path, needle: str, text: str) -> str:
     """The hover over `needle`, once it has `text`."""
-    for _ in range(100):
-        found = await hovered(editor, path, needle)
-        if text in found:
-            return found
-        await asyncio.sleep(0.1)
-    raise AssertionError(f"no {text!r} in {found!r}")
+    return await editor.once(lambda: hovered(editor, path, needle), lambda found: text in found)
 
 
 async def test_nodes_run_with_what_the_command_printed(harness: Harness, robot: Path) -> None:

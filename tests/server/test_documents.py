@@ -46,7 +46,7 @@ async def test_an_edit_during_the_first_analysis_of_a_file_is_not_lost(harness: 
             path = harness.workspace / f"first_{attempt}.launch"
             path.write_text(EMPTY)
             editor.open(path, f"<launch>\n{filling}</launch>\n")
-            await asyncio.sleep(0.03 * attempt)
+            await asyncio.sleep(0.03 * attempt)  # each is another stage of the analysis
             editor.change(path, UNDECLARED)
             assert ("nothing", "parameter") in await editor.tokens(path)
             await editor.having(path, "ARG001")
@@ -250,7 +250,7 @@ async def test_rapid_edits_end_where_a_fresh_server_starts(harness: Harness) -> 
             end += text[end - 1 : end + 1] == "\r\n"
             editor.replace(path, start, end, chance.choice(pieces))
             if step % 50 == 0:
-                await asyncio.sleep(0.02)
+                await asyncio.sleep(0.02)  # so that some of the states in between are analysed, whichever they are
         text = editor.texts[path]
         await editor.until(lambda: editor.diagnostics(path) is not None)
         edited = editor.diagnostics(path)

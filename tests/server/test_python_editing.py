@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import TypeVar
 
@@ -280,17 +278,9 @@ def line(text: str, needle: str) -> int:
     return text[: text.index(needle)].count("\n") + 1
 
 
-async def answered(ask: Callable[[], Awaitable[T]], wanted: Callable[[T], bool]) -> T:
-    """The first answer that is so: what it is made of is found out in the background."""
-    deadline = asyncio.get_running_loop().time() + 60
-    while not wanted(found := await ask()):
-        assert asyncio.get_running_loop().time() < deadline, found
-    return found
-
-
 async def indexed(editor: Editor, path: Path) -> None:
     """Wait until both includers of the file are known."""
-    await answered(
+    await editor.once(
         lambda: editor.lenses(path),
         lambda found: "2 includers" in [lens.command.title for lens in found if lens.command],
     )
@@ -360,7 +350,7 @@ async def test_values_of_a_file_that_was_run(harness: Harness, package: Path) ->
     async with editing(harness, trusted=True, folder=package.parents[1]) as editor:
         text = INNER.replace("name='listener'", "name=LaunchConfiguration('model')")
         editor.open(inner, text, language="python")
-        found = await answered(lambda: editor.hints(inner), lambda found: "= true" in [hint.label for hint in found])
+        found = await editor.once(lambda: editor.hints(inner), lambda found: "= true" in [hint.label for hint in found])
         lines = [hint.position.line + 1 for hint in found if hint.label == "= true"]
         assert lines == [line(text, "name=LaunchConfiguration"), line(text, "condition=")]
 
@@ -393,5 +383,5 @@ async def test_a_container_of_a_python_file_is_renamed_where_it_is_named(harness
             except JsonRpcException:  # as long as it was not run
                 return None
 
-        editor.apply(await answered(renamed, lambda edit: edit is not None))
+        editor.apply(await editor.once(renamed, lambda edit: edit is not None))
         assert editor.texts[path] == text.replace("'box'", "'crate'")

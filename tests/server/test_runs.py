@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import uuid
 from pathlib import Path
 
 import pytest
 from lsprotocol import types
 from support.editor_harness import Harness
 from support.lsp_client import Editor, editing
+from support.tracing_harness import processes_with
 
 pytestmark = pytest.mark.ros
 
@@ -54,7 +56,8 @@ async def test_the_user_can_cancel(harness: Harness, slow: Path) -> None:
         assert editor.progress[token][-1]["kind"] == "end"
         starts = harness.sandbox_starts()
         editor.replace(slow, 8, 8, "\n")
-        await asyncio.sleep(1.5)
+        await editor.having(slow, "TRC004")  # of the text after the edit
+        await asyncio.sleep(1.5)  # nothing tells that a run will not come
         assert harness.sandbox_starts() == starts, "an edit does not undo the user's decision"
         editor.save(slow)
         await editor.until(lambda: harness.sandbox_starts() > starts)
@@ -171,13 +174,17 @@ async def test_a_half_typed_tag_starts_no_run(harness: Harness) -> None:
 
 
 READS_FIRST = """#!/usr/bin/env python3
-import os, time
-name = open(os.path.join(os.path.dirname(__file__), "name.txt")).read()
+import os, subprocess, time
+read = lambda: open(os.path.join(os.path.dirname(__file__), "name.txt")).read()
+name = read()
 import rospy
 from std_msgs.msg import String
 rospy.init_node("late")
 rospy.Publisher("a", String, queue_size=1)
-time.sleep(1)
+if name == "before":
+    shown = subprocess.Popen(["sleep", "MARKER"])
+    while read() in ("", "before"): time.sleep(0.02)
+    shown.kill()
 rospy.Publisher(name, String, queue_size=1)
 rospy.spin()
 """
@@ -185,7 +192,8 @@ rospy.spin()
 
 async def test_a_file_that_changes_during_the_run_that_read_it(harness: Harness) -> None:
     script = harness.launch_file.parents[1] / "scripts/late.py"
-    script.write_text(READS_FIRST)
+    marker = f"{uuid.uuid4().int % 1_000_000 + 600}"  # seconds, which no other process sleeps
+    script.write_text(READS_FIRST.replace("MARKER", marker))
     script.chmod(0o755)
     name = script.with_name("name.txt")
     name.write_text("before")
@@ -197,8 +205,7 @@ async def test_a_file_that_changes_during_the_run_that_read_it(harness: Harness)
     )
     async with editing(harness, trusted=True) as editor:
         editor.open(path)
-        await running(editor, harness)
-        await asyncio.sleep(0.7)  # it has read the name, and not used it yet
+        await editor.until(lambda: processes_with(marker))  # it has read the name, and not used it yet
         name.write_text("after")
         editor.watched(name)
         await editor.having(path, "TOP001")
@@ -209,11 +216,7 @@ async def test_a_file_that_changes_during_the_run_that_read_it(harness: Harness)
             assert isinstance(hover.contents, types.MarkupContent)
             return hover.contents.value
 
-        for _ in range(100):
-            if "/after" in await seen():
-                break
-            await asyncio.sleep(0.1)
-        assert "/after" in await seen()
+        await editor.once(seen, lambda text: "/after" in text)
         assert "/before" not in await seen()
 
 

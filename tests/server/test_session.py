@@ -33,7 +33,7 @@ async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypat
             session.takes(document)
             session.text_changed(document, own=True, quiet=0)
             await asyncio.wait_for(session.settled(), 10)
-            await asyncio.sleep(0.2)
+            await asyncio.sleep(0.2)  # nothing tells that it is not tried again
             assert len(tried) <= 2 * version, "once for the edit, and once when the index came"
         assert await session.view(launch_file.as_uri()) is None
     finally:

@@ -42,7 +42,7 @@ async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(harness
         assert "not trusted" in found.message
         for _ in range(10):
             assert children(editor.pid) == []
-            await asyncio.sleep(0.1)
+            await asyncio.sleep(0.1)  # nothing tells that no process will come
         assert editor.rules(harness.launch_file) == ["TOP001", "TRC004"]
         from_source = await editor.having(harness.launch_file, "TOP001")
         assert from_source.severity == types.DiagnosticSeverity.Information

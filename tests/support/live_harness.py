@@ -26,13 +26,6 @@ LIMIT_SECONDS = 60
 COMMAND = Path(sys.executable).with_name("ros-preflight")
 
 
-def until(condition: Callable[[], Any]) -> None:
-    give_up = time.monotonic() + LIMIT_SECONDS
-    while not condition():
-        assert time.monotonic() < give_up
-        time.sleep(0.02)
-
-
 def private_port() -> int:
     """A port that is free, and that no outgoing connection takes: those have higher numbers."""
     while True:

@@ -7,7 +7,6 @@ import shlex
 import threading
 import time
 import uuid
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,6 +15,7 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from support.tracing_harness import environment, processes_with, write_node
+from support.waiting import until
 from support.xacro_package import create_robot
 
 pytestmark = pytest.mark.ros
@@ -314,7 +314,7 @@ def test_it_cannot_take_for_ever(harness: Harness, monkeypatch: pytest.MonkeyPat
         assert found.status == "not-run", found
         assert found.reason in ("it did not end within 1 s", "it printed more than 8 MiB")
     assert time.monotonic() - began < 60
-    wait_for(lambda: processes_with(marker) == [])
+    until(lambda: processes_with(marker) == [])
 
 
 @pytest.mark.parametrize("line", ["cat /dev/zero", "yes", "bash -c 'yes | head -c 10000000'"])
@@ -342,7 +342,7 @@ def test_what_it_forks_dies_with_it(harness: Harness) -> None:
         print("done")
     """)
     assert harness.run(f"{line} {marker}").output == "done\n"
-    wait_for(lambda: processes_with(marker) == [])
+    until(lambda: processes_with(marker) == [])
 
 
 def test_lies_on_the_supervisors_output(harness: Harness) -> None:
@@ -362,10 +362,10 @@ def test_lies_on_the_supervisors_output(harness: Harness) -> None:
 def test_cancelling_kills_it(harness: Harness) -> None:
     marker = f"preflight-{uuid.uuid4()}"
     cancel = threading.Event()
-    threading.Timer(0.3, cancel.set).start()
-    found = harness.runner.run(f"bash -c 'sleep 60' {marker}", cancel)
+    threading.Thread(target=lambda: until(lambda: processes_with(marker)) and cancel.set()).start()
+    found = harness.runner.run(f"bash -c 'sleep 60; :' {marker}", cancel)
     assert found == CommandResult("not-run", reason="the run was cancelled")
-    wait_for(lambda: processes_with(marker) == [])
+    until(lambda: processes_with(marker) == [])
 
 
 def test_without_a_working_sandbox_nothing_runs(harness: Harness, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -373,10 +373,3 @@ def test_without_a_working_sandbox_nothing_runs(harness: Harness, monkeypatch: p
     monkeypatch.setattr(sandbox, "probe", lambda: status)
     assert harness.run("echo 1") == CommandResult("not-run", reason="no sandbox: no permission for namespaces")
     assert harness.starts == 0
-
-
-def wait_for(what: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 60
-    while not what() and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert what()

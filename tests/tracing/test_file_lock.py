@@ -7,7 +7,6 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,17 +14,11 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.file_lock import file_lock
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import environment, request, write_node
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 
 GENEROUS = 60.0
-
-
-def _until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + GENEROUS
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 def test_one_after_the_other(tmp_path: Path) -> None:
@@ -34,7 +27,7 @@ def test_one_after_the_other(tmp_path: Path) -> None:
     def work() -> None:
         with file_lock(path, threading.Event(), GENEROUS):
             inside.append(1)
-            time.sleep(0.02)
+            time.sleep(0.02)  # time for others to come in if they could
             most.append(len(inside))
             inside.pop()
 
@@ -63,14 +56,14 @@ def test_nobody_waits_for_ever(tmp_path: Path) -> None:
 def _hold(path: str) -> None:
     with file_lock(Path(path), threading.Event(), GENEROUS):
         Path(path).with_name("held").touch()
-        time.sleep(GENEROUS)
+        threading.Event().wait(GENEROUS)
 
 
 def test_a_process_that_died_in_its_turn_keeps_nobody(tmp_path: Path) -> None:
     path = tmp_path / "a.lock"
     process = multiprocessing.get_context("spawn").Process(target=_hold, args=(str(path),))
     process.start()
-    _until((tmp_path / "held").exists)
+    until((tmp_path / "held").exists)
     assert process.pid is not None
     os.kill(process.pid, signal.SIGKILL)
     process.join(GENEROUS)

@@ -14,6 +14,7 @@ import pytest
 from preflight_analysis.tracing import run, sandbox
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import environment, own, processes_with, request, trace, write_node
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 
@@ -43,10 +44,7 @@ def test_forked_children_that_ignore_sigterm_die_with_the_run(tmp_path: Path) ->
     found = trace(script, args=(marker,))
     assert found.outcome.status == "spinning"
     assert own(found) == {("publisher", "news", "std_msgs/String")}
-    deadline = time.monotonic() + 30
-    while processes_with(marker) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert processes_with(marker) == []
+    until(lambda: processes_with(marker) == [])
 
 
 def test_nothing_is_written_to_the_disk(tmp_path: Path) -> None:
@@ -289,7 +287,7 @@ def test_terminal_escapes_are_stripped(tmp_path: Path) -> None:
 def test_cancelling_kills_the_run(tmp_path: Path) -> None:
     script = write_node(tmp_path, "import time\ntime.sleep(60)\n")
     cancel = threading.Event()
-    threading.Timer(0.5, cancel.set).start()
+    threading.Thread(target=lambda: until(lambda: processes_with(str(script))) and cancel.set()).start()
     began = time.monotonic()
     found = Tracer(environment(tmp_path), None).trace(request(script), cancel)
     assert (found.outcome.status, found.outcome.reason) == ("not-run", "the run was cancelled")
@@ -307,11 +305,8 @@ trace(Path(sys.argv[1]))
 
 
 def nothing_left(folder: Path) -> bool:
-    """Whether no sandbox and no node of this folder runs, or stops running soon."""
-    deadline = time.monotonic() + 30
-    while processes_with(str(folder)) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    return processes_with(str(folder)) == []
+    """Wait until no sandbox and no node of this folder runs."""
+    return until(lambda: processes_with(str(folder)) == [])
 
 
 @pytest.mark.usefixtures("each_backend")
@@ -327,7 +322,7 @@ def test_when_the_host_is_killed_the_sandbox_dies_too(tmp_path: Path, millisecon
     )
     assert host.stdout is not None
     assert host.stdout.readline() == b"tracing\n"
-    time.sleep(milliseconds / 1000)
+    time.sleep(milliseconds / 1000)  # each is another stage of the start
     host.kill()
     host.wait()
     host.stdout.close()
@@ -341,7 +336,7 @@ def test_cancelling_at_the_start_leaves_nothing(tmp_path: Path, milliseconds: in
     cancel = threading.Event()
     tracer = Tracer(environment(tmp_path), None)
     sandbox.probe()
-    threading.Timer(milliseconds / 1000, cancel.set).start()
+    threading.Timer(milliseconds / 1000, cancel.set).start()  # each is another stage of the start
     assert tracer.trace(request(script), cancel).outcome.status == "not-run"
     assert nothing_left(tmp_path)
 
