@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
 from pathlib import Path
 from typing import TypeVar, cast
 
@@ -20,10 +21,23 @@ K = TypeVar("K", bound=ProblemKind)
 
 
 def problems_of(context: Context, *kinds: type[K]) -> Iterator[Problem[K]]:
-    """The problems of these kinds."""
-    for problem in context.tree.problems:
-        if isinstance(problem.kind, kinds):
-            yield cast(Problem[K], problem)
+    """The problems of these kinds, in the order in which they were met."""
+    return (problem for _, problem in numbered_problems(context, *kinds))
+
+
+def numbered_problems(context: Context, *kinds: type[K]) -> list[tuple[int, Problem[K]]]:
+    """As `problems_of`, with their places among all problems of the tree."""
+    by_kind = context.once(_by_kind)
+    found = sorted(chain.from_iterable(by_kind.get(kind, ()) for kind in kinds))
+    return cast(list[tuple[int, Problem[K]]], found)
+
+
+def _by_kind(context: Context) -> dict[type[ProblemKind], list[tuple[int, Problem[ProblemKind]]]]:
+    """All rules about problems look here, lest each looks at all of them."""
+    found: dict[type[ProblemKind], list[tuple[int, Problem[ProblemKind]]]] = {}
+    for numbered in enumerate(context.tree.problems):
+        found.setdefault(type(numbered[1].kind), []).append(numbered)
+    return found
 
 
 def problem_finding(

@@ -20,7 +20,7 @@ from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
-from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain
+from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain, numbered_problems
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
 _log = logging.getLogger(__name__)
@@ -120,8 +120,8 @@ def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iter
     One place can stop it in several ways: where a file is included twice, each time with other arguments.
     """
     met: dict[Location, deque[int]] = {}
-    for number, problem in enumerate(context.tree.problems):
-        if problem.fatal and isinstance(problem.kind, rule.problems):
+    for number, problem in numbered_problems(context, *rule.problems):
+        if problem.fatal:
             met.setdefault(problem.location, deque()).append(number)
     for finding in findings:
         numbers = met.get(finding.location) if finding.stops_launch else None
