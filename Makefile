@@ -12,7 +12,7 @@ PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_prel
 LUA = $(shell git ls-files '*.lua')
 BENCHMARKS := editing completion index trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks fuzz wheel vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks fuzz endurance wheel vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -94,6 +94,10 @@ fuzz: SECONDS = 600
 fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together; what was found lies in out/fuzz
 	@$(BIN)/python -m pip install --quiet --group fuzz || echo "atheris is not to be had here: inputs do not follow the coverage"
 	$(BIN)/python tests/tools/fuzz.py --seconds $(SECONDS)
+
+endurance: EDITS = 100000
+endurance: setup ## EDITS=100000 through the protocol of one server, and what it does without disk, HOME, ...: bench/endurance.md
+	$(BIN)/python tests/tools/endurance --edits $(EDITS) $(if $(filter 100000,$(EDITS)),--write)
 
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .

@@ -89,6 +89,16 @@ async def test_an_include_that_cannot_be_read(harness: Harness, make: object) ->
         assert "inner.launch" in found.message
 
 
+async def test_a_launch_file_whose_name_is_no_utf8(harness: Harness) -> None:
+    path = Path(os.fsdecode(os.fsencode(harness.workspace / "gr") + b"\xf6\xdfe.launch"))
+    outer = harness.workspace / "outer.launch"
+    async with editing(harness) as editor:
+        editor.open(outer, '<launch>\n  <include file="no.launch"/>\n</launch>\n')
+        await editor.having(outer, "LCH013")
+        editor.open(path, "<launch>\n")
+        assert (await editor.having(path, "LCH001")).code == "LCH001"
+
+
 async def test_an_include_that_is_malformed_is_reported_in_its_own_file(harness: Harness) -> None:
     inner = harness.workspace / "inner.launch"
     inner.write_text('<launch>\n  <node pkg="a"</launch>')

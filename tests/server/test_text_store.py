@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -80,6 +82,8 @@ def test_half_a_surrogate_pair_is_replaced_by_one_character_of_its_width() -> No
         ("untitled:Untitled-1", None),
         ("git:/w/a.launch?%7B%7D", None),
         ("file:///w/a%00b", None),
+        ("file:///w/gr%F6%DFe.launch", "/w/gr\udcf6\udcdfe.launch"),
+        ("file:///w/\ud835.launch", "/w/\udced\udca0\udcb5.launch"),
         ("file://[bad", None),
         ("", None),
     ],
@@ -92,3 +96,14 @@ def test_uris_and_paths(uri: str, path: str | None) -> None:
 def test_every_path_survives_its_uri(name: str) -> None:
     path = "/w/" + name.replace("/", "_").replace("..", "_").strip(".")
     assert to_path(to_uri(path)) == path.rstrip("/")
+
+
+@given(st.binary(min_size=1, max_size=20))
+def test_every_name_on_a_disk_survives_its_uri(name: bytes) -> None:
+    path = os.path.normpath(os.fsdecode(b"/w/" + name.replace(b"/", b"_").replace(b"\0", b"_")))
+    assert to_uri(path).isascii()
+    assert to_path(to_uri(path)) == path
+
+
+def test_a_name_that_no_disk_has_does_not_break_its_uri() -> None:
+    assert to_uri("/w/\ud835") == "file:///w/%3F"

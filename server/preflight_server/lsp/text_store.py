@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from urllib.parse import quote, unquote, urlsplit
+from urllib.parse import quote, unquote_to_bytes, urlsplit
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 from preflight_analysis.documents.span import LineIndex
@@ -19,16 +19,22 @@ def to_path(uri: str) -> str | None:
         parts = urlsplit(uri)
     except ValueError:
         return None
-    if parts.scheme != "file" or parts.netloc not in ("", "localhost") or "\0" in unquote(parts.path):
+    if parts.scheme != "file" or parts.netloc not in ("", "localhost"):
         return None
     # A file name may hold `?` and `#` only quoted, but some clients leave them as they are.
     path = uri.split(":", 1)[1].removeprefix("//").removeprefix("localhost")
-    return os.path.normpath(unquote(path)) if path.startswith("/") else None
+    name = unquote_to_bytes(path.encode("utf-8", "surrogatepass"))
+    return os.path.normpath(os.fsdecode(name)) if name.startswith(b"/") and b"\0" not in name else None
 
 
 def to_uri(path: str) -> str:
-    """The `file:` URI of an absolute path."""
-    return "file://" + quote(path, safe="/~")
+    """The `file:` URI of an absolute path: its bytes, whatever the locale's encoding. A name that no file can have
+    there, as a text may have one, is the URI of no file."""
+    try:
+        name = os.fsencode(path)
+    except UnicodeEncodeError:
+        name = path.encode("utf-8", "replace")
+    return "file://" + quote(name, safe="/~")
 
 
 @dataclass(frozen=True, slots=True)
