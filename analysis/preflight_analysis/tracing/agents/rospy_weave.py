@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import inspect
 import json
 import sys
@@ -14,6 +13,7 @@ from typing import Any, Callable, Optional
 import aspectlib  # type: ignore[import-untyped]
 
 from . import channel, mock_replies, polling, tf_frames
+from .weaving import in_main_thread, quiet
 
 Advised = Callable[..., Any]
 
@@ -59,27 +59,9 @@ def caller() -> tuple[Optional[str], Optional[int], bool]:
     return frame.f_code.co_filename, frame.f_lineno, internal
 
 
-def in_main_thread() -> bool:
-    """Whether the calling thread is the one that reaches the event loop."""
-    return threading.current_thread() is threading.main_thread()
-
-
-def _quiet(report: Callable[..., None]) -> Callable[..., None]:
-    """An advice that fails must not fail the node."""
-
-    @functools.wraps(report)
-    def safe(*args: Any, **kwargs: Any) -> None:
-        try:
-            report(*args, **kwargs)
-        except Exception as error:
-            channel.send("weave-failed", message=repr(error))
-
-    return safe
-
-
 def _before(report: Callable[..., None]) -> Callable[[Advised], Advised]:
     """Aspect: `report(bound arguments)` before the call."""
-    report = _quiet(report)
+    report = quiet(report)
 
     def aspect(cutpoint: Advised) -> Advised:
         signature = inspect.signature(cutpoint)
@@ -99,7 +81,7 @@ def _before(report: Callable[..., None]) -> Callable[[Advised], Advised]:
 
 def _after(report: Callable[..., None]) -> Callable[[Advised], Advised]:
     """Aspect: `report(bound arguments)` after the call returned."""
-    report = _quiet(report)
+    report = quiet(report)
 
     def aspect(cutpoint: Advised) -> Advised:
         signature = inspect.signature(cutpoint)
@@ -302,7 +284,7 @@ def _wait(
 ) -> Callable[[Advised], Advised]:
     """The node blocks until somebody else is there; if nobody comes, `answer(bound arguments)` is returned."""
 
-    @_quiet
+    @quiet
     def report(state: str, name: str) -> None:
         file, line, _ = caller()
         channel.send("state", state=state, kind=kind, name=name, file=file, line=line, main=in_main_thread())
