@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from preflight_analysis.environment.cmake import Build, Made, read_build
+from preflight_analysis.environment.build import Build, Made
+from preflight_analysis.environment.cmake import read_build
 
 
 def read(path: str) -> str | None:

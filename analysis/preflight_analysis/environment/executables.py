@@ -14,7 +14,7 @@ import stat
 from collections.abc import Iterator
 
 from preflight_analysis.documents.reading import Text, read_text
-from preflight_analysis.environment.cmake import Build, Made
+from preflight_analysis.environment.build import Build, Made
 from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.environment.packages import crawl

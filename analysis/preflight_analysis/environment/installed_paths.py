@@ -12,7 +12,8 @@ from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, read_text
-from preflight_analysis.environment.cmake import Build, read_build
+from preflight_analysis.environment.build import Build
+from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.setup_py import PythonBuild, read_python_build
 

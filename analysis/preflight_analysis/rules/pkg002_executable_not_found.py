@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from os.path import relpath
 from pathlib import PurePath
 
-from preflight_analysis.environment.cmake import Made
+from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode

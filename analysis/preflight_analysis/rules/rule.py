@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.environment.cmake import Made
+from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree

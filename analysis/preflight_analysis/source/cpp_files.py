@@ -12,7 +12,8 @@ from pathlib import PurePath
 
 from lxml import etree
 
-from preflight_analysis.environment.cmake import LISTS, Build, Target, read_build
+from preflight_analysis.environment.build import Build, Target
+from preflight_analysis.environment.cmake import LISTS, read_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import FileText

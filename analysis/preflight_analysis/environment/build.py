@@ -1,0 +1,105 @@
+"""What a package builds and installs, as its build files say."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """An executable or a library. `output` is the name of its file, of a library without `lib` and ending."""
+
+    name: str
+    kind: Literal["executable", "library"]
+    output: str
+    sources: tuple[str, ...]
+    links: tuple[str, ...] = ()
+    """What it is linked with: names of targets of the package and others."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A script that is installed. `relayed`: a build makes it known already, by a file in the devel space."""
+
+    path: str
+    relayed: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Installed:
+    """A file or folder that is installed, and the folder below the prefix in which it then is."""
+
+    source: str
+    destination: str
+    name: str
+    """What it is called there; "" where only what is in the folder is installed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """Where an executable comes from: the file in the source, and whether `catkin_make` makes it known already or
+    only `install` does."""
+
+    source: str
+    by_build: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Build:
+    """What one package builds and installs."""
+
+    targets: Mapping[str, Target] = field(default_factory=dict)
+    programs: Mapping[str, Program] = field(default_factory=dict)
+    """Scripts by the name they get."""
+    installed: tuple[Installed, ...] = ()
+    """Files and folders other than programs and targets."""
+    components: Mapping[str, str] = field(default_factory=dict)
+    """Library by the class of each rclcpp component that it registers."""
+    parameter_libraries: Mapping[str, str] = field(default_factory=dict)
+    """The YAML file of each library of generate_parameter_library, by the name that its header has."""
+    component_programs: Mapping[str, str] = field(default_factory=dict)
+    """The class of the one component that an executable is made to run, by the name of the executable."""
+    complete: bool = False
+    """Whether all that it installs is known: no command that is not known here may install more."""
+
+    def executable(self, name: str) -> Target | None:
+        """The target whose file has this name."""
+        return next((t for t in self.targets.values() if t.kind == "executable" and t.output == name), None)
+
+    def made_of(self, name: str) -> Made | None:
+        """What the executable of this name is made of."""
+        target = self.executable(name)
+        if target is not None:
+            likely = sorted(target.sources, key=lambda path: _stem(path) not in (name.lower(), "main"))
+            return Made(likely[0], True) if likely else None
+        program = self.programs.get(name)
+        return Made(program.path, program.relayed) if program is not None else None
+
+    def library(self, name: str) -> Target | None:
+        """The library whose file is `lib<name>.so` (the `lib` may stand in `name`)."""
+        stem = name.removesuffix(".so")
+        for output in (stem, stem.removeprefix("lib")):
+            for target in self.targets.values():
+                if target.kind == "library" and target.output == output:
+                    return target
+        return None
+
+    def sources(self, target: Target) -> tuple[str, ...]:
+        """The sources of a target and of the libraries of the package that it is linked with, its own first."""
+        found: dict[str, None] = {}
+        pending, seen = [target], {target.name}
+        while pending:
+            current = pending.pop(0)
+            found.update(dict.fromkeys(current.sources))
+            for link in current.links:
+                if link in self.targets and link not in seen:
+                    seen.add(link)
+                    pending.append(self.targets[link])
+        return tuple(found)
+
+
+def _stem(path: str) -> str:
+    return os.path.splitext(os.path.basename(path))[0].lower()

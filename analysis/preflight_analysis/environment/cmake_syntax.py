@@ -1,0 +1,81 @@
+"""The commands of a `CMakeLists.txt`, in the order in which they stand, those of a block within it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+MAX_DEPTH = 20
+"""Of blocks, of folders, and of calls."""
+_TOKEN = re.compile(
+    r"""\#\[(?P<mark>=*)\[.*?\](?P=mark)\]      # bracket comment
+      | \#[^\n]*
+      | \[(?P<equals>=*)\[(?P<bracket>.*?)\](?P=equals)\]
+      | "(?P<quoted>(?:[^"\\]|\\.)*)"
+      | (?P<paren>[()])
+      | (?P<word>(?:[^\s()#"\\]|\\.)+)
+    """,
+    re.DOTALL | re.VERBOSE,
+)
+_ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction", "if": "endif"}
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """One argument of a command, with its variables not yet replaced."""
+
+    text: str
+    quoted: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command, its name in small letters."""
+
+    name: str
+    words: tuple[Word, ...]
+    inner: tuple[Command, ...] = ()
+    """What stands between an `if`, `foreach`, `macro` or `function` and its end."""
+
+
+def commands(text: str) -> tuple[Command, ...]:
+    """All of a file. Nothing raises; what is no command is left out."""
+    flat = iter(list(_flat(text)))
+    return _nested(flat, None, 0)
+
+
+def _flat(text: str) -> Iterator[Command]:
+    name: str | None = None
+    words: list[Word] = []
+    depth = 0
+    for token in _TOKEN.finditer(text):
+        paren, word = token["paren"], token["word"]
+        if paren == "(":
+            depth += 1
+        elif paren == ")":
+            depth = max(depth - 1, 0)
+            if not depth and name is not None:
+                yield Command(name, tuple(words))
+                name, words = None, []
+        elif word is not None and not depth:
+            name, words = word.lower(), []
+        elif word is not None:
+            words.append(Word(word))
+        elif token["quoted"] is not None:
+            words.append(Word(re.sub(r"\\(.)", r"\1", token["quoted"]), True))
+        elif token["bracket"] is not None:
+            words.append(Word(token["bracket"], True))
+
+
+def _nested(flat: Iterator[Command], end: str | None, depth: int) -> tuple[Command, ...]:
+    found: list[Command] = []
+    for command in flat:
+        if command.name == end:
+            break
+        if command.name in _ENDS and depth < MAX_DEPTH:
+            inner = _nested(flat, _ENDS[command.name], depth + 1)
+            found.append(Command(command.name, command.words, inner))
+        else:
+            found.append(command)
+    return tuple(found)
