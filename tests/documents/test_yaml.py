@@ -64,12 +64,18 @@ def test_what_the_parsers_disagree_on_is_left_to_pyyaml(text: str) -> None:
         assert shape(parse_yaml("a.yaml", text).node) == shape(expected)
 
 
-@pytest.mark.parametrize("depth", [100, 310, 1_000, 1_990, 100_000])
+@pytest.mark.parametrize("depth", [100, 1_000, 1_990, 100_000])
 @pytest.mark.parametrize("pair", [("[", "]"), ("{a: ", "}"), ("- ", "a")])
 def test_no_depth_ends_the_process(pair: tuple[str, str], depth: int) -> None:
     opened, closed = pair
     parsed = parse_yaml("a.yaml", opened * depth + closed * (depth if closed != "a" else 1))
-    assert parsed.document.problems or parsed.node is not None
+    problems = [problem.message for problem in parsed.document.problems]
+    assert (problems, parsed.node is None) == (([], False) if depth == 100 else (["nested too deeply"], True))
+
+
+@pytest.mark.parametrize(("text", "problems"), [("[" * 310 + "]" * 310, 1), ("- " * 310 + "a", 0)])
+def test_as_deep_as_only_lists_below_each_other_may_be(text: str, problems: int) -> None:
+    assert len(parse_yaml("a.yaml", text).document.problems) == problems
 
 
 @pytest.mark.parametrize("text", [r'a: "\UDEADBEEF"', r'"\U00110000": 1', f"%YAML {'9' * 5000}.1\n---\na: 1\n"])

@@ -254,4 +254,4 @@ PIECES = [*'()"#[]=${};\\ \nab', "set", "foreach", "endforeach", "macro", "add_e
 @settings(deadline=None)
 @given(st.lists(st.sampled_from(PIECES)).map("".join))
 def test_any_text_is_read(text: str) -> None:
-    read_build("/nowhere", "demo", lambda path: text)
+    assert read_build("/nowhere", "demo", lambda path: text) == read_build("/nowhere", "demo", lambda path: text)

@@ -76,15 +76,18 @@ def test_half_of_it() -> None:
 @settings(max_examples=150, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.integers(0, len(WHOLE)), st.integers(0, 40), st.text(max_size=20))
 def test_any_text_is_read(at: int, removed: int, added: str) -> None:
-    _read(WHOLE[:at] + added + WHOLE[at + removed :])
+    text = WHOLE[:at] + added + WHOLE[at + removed :]
+    for action in _read(text):
+        assert 0 <= action.span.start <= action.span.end <= len(text)
 
 
 def test_strange_texts() -> None:
-    for text in ("", "\f\r\n\r", "Node(" * 3000, "(" * 100_000, "[" * 500 + "]" * 500, "\ufeffNode()", "x = '\ud800'"):
-        _read(text)
+    for text in ("", "\f\r\n\r", "Node(" * 3000, "(" * 100_000, "[" * 500 + "]" * 500, "x = '\ud800'"):
+        assert _read(text) == (), text[:20]
+    assert [action.kind for action in _read("\ufeffNode()")] == ["node"]
     deep = "Node(name=" + "[" * 80 + "'x'" + "]" * 80 + ")"
-    _read(deep)
-    _read(Path(__file__).read_text(encoding="utf-8"))
+    assert [action.kind for action in _read(deep)] == ["node"]
+    assert _read(Path(__file__).read_text(encoding="utf-8")) == ()
 
 
 def test_what_is_remembered_of_a_mistake_keeps_nothing_of_who_asked() -> None:

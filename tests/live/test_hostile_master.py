@@ -54,14 +54,14 @@ def serve() -> Iterator[Callable[[Answer], str]]:
 def dripping_head(connection: socket.socket, asked: bytes) -> None:
     for letter in HEAD * 1000:
         connection.sendall(bytes([letter]))
-        time.sleep(SLOW)
+        time.sleep(SLOW)  # the answer is what is slow
 
 
 def dripping_body(connection: socket.socket, asked: bytes) -> None:
     connection.sendall(HEAD + b"Content-Length: 100000\r\n\r\n<?xml version='1.0'?>")
     while True:
         connection.sendall(b" ")
-        time.sleep(SLOW)
+        time.sleep(SLOW)  # the answer is what is slow
 
 
 def endless(connection: socket.socket, asked: bytes) -> None:
@@ -106,7 +106,7 @@ def test_an_answer_has_a_deadline_and_a_size(serve: Callable[[Answer], str], ans
 
 def test_nodes_that_do_not_answer_cost_one_look(serve: Callable[[Answer], str]) -> None:
     """A master that names a thousand nodes, each at an address that only listens."""
-    silent = serve(lambda connection, asked: time.sleep(60))
+    silent = serve(lambda connection, asked: time.sleep(60))  # longer than anybody waits
     state = [[["/t", [f"/n{index}" for index in range(1000)]]], [], []]
 
     def answer(connection: socket.socket, asked: bytes) -> None:

@@ -129,8 +129,10 @@ def test_to_the_declaration_in_the_source(tmp_path: Path) -> None:
 )
 def test_nothing_that_is_typed_raises(pieces: list[str], cursor: int) -> None:
     text = "".join(pieces)
-    completed(text[:cursor] + "$0" + text[cursor:])
-    hovered(text[:cursor] + "$0" + text[cursor:])
+    fixture = text[:cursor] + "$0" + text[cursor:]
+    found = labels(fixture)
+    assert len(found) == len(set(found))
+    assert isinstance(hovered(fixture), str)
 
 
 def test_from_a_param_tag_to_the_declaration(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.app import PreflightServer
 from preflight_server.lsp.session import LARGE, Session
 from preflight_server.lsp.settings import Settings
+from support.waiting import answered
 
 
 async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -69,10 +70,11 @@ async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
         assert {finding.rule for finding in view.findings} >= {"PKG001"}
         assert (view.analysis.graph is not None) == first
         may_go_on.set()
-        while view.analysis.graph is None:
-            await asyncio.sleep(0.05)
-            view = await session.view(launch_file.as_uri())
-            assert view is not None
+        view = await answered(
+            lambda: session.view(launch_file.as_uri()),
+            lambda view: view is not None and view.analysis.graph is not None,
+        )
+        assert view is not None
         assert any(finding.rule == "PKG001" for finding in view.findings)
     finally:
         may_go_on.set()

@@ -712,8 +712,10 @@ def test_hostile_programs_end_soon_and_raise_nothing(harness: Harness, text: str
 
 def test_any_cut_of_a_program_is_read(harness: Harness) -> None:
     whole = HEAD + textwrap.dedent(NODELET) + BEFORE + "  p::Filter f; f.onInit();\n}\n"
-    for end in range(0, len(whole), 23):
-        harness.read(whole[:end] + "\n" + whole[end + 11 :])
+    found = [harness.read(whole[:end] + "\n" + whole[end + 11 :]) for end in range(0, len(whole), 23)]
+    everything = {end[:2] for end in ends(harness.read(whole))}
+    assert len(everything) == 4
+    assert {end[:2] for each in found if each is not None for end in ends(each)} == everything
 
 
 def test_what_is_not_there_tells_nothing(harness: Harness) -> None:

@@ -16,6 +16,7 @@ from pytest_lsp import LanguageClient
 from pytest_lsp.client import DEFAULT_CLIENT_FEATURES, register_lsp_features
 
 from support.editor_harness import Harness
+from support.waiting import answered
 
 ENCODINGS = ("utf-8", "utf-16", "utf-32")
 T = TypeVar("T")
@@ -216,11 +217,7 @@ class Editor:
 
     async def once(self, ask: Callable[[], Awaitable[T]], is_so: Callable[[T], bool], seconds: float = 60) -> T:
         """Ask again and again until the answer is as expected."""
-        deadline = asyncio.get_running_loop().time() + seconds
-        while not is_so(found := await ask()):
-            assert asyncio.get_running_loop().time() < deadline, f"waited {seconds} s; last answer: {found}"
-            await asyncio.sleep(0.1)
-        return found
+        return await answered(ask, is_so, seconds)
 
     def summary(self) -> dict[str, list[str]]:
         return {uri: [f"{d.code} {d.message}" for d in p.diagnostics] for uri, p in self.published.items()}

@@ -74,7 +74,7 @@ def shown(master, wanted):
     while time.time() - since < (ABSENT_SECONDS if absent else STABLE_SECONDS):
         if time.time() - began > LIMIT_SECONDS:
             raise SystemExit("the graph did not become stable, or lacks %s: %s" % (absent, last))
-        time.sleep(0.1)
+        time.sleep(0.1)  # between two looks
         try:
             now = state(master)
         except (OSError, rosgraph.MasterException):

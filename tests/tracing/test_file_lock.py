@@ -78,7 +78,8 @@ def test_where_nothing_can_be_written_there_are_no_turns(tmp_path: Path) -> None
     entered = []
     with file_lock(tmp_path / "file" / "a.lock", threading.Event(), GENEROUS):
         entered.append(1)
-    assert entered
+    assert entered == [1]
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
 def test_two_tracers_of_one_cache_run_a_node_once(tmp_path: Path) -> None:

@@ -97,4 +97,6 @@ def test_a_listener_that_raises_does_not_stop_the_others() -> None:
 
 
 def test_nothing_to_do() -> None:
-    trace_all(Recorder(), [], on_done=lambda *_: None, cancel=threading.Event())
+    tracer, done = Recorder(), {}
+    trace_all(tracer, [], on_done=done.__setitem__, cancel=threading.Event())
+    assert (tracer.order, done) == ([], {})
