@@ -12,7 +12,7 @@ from .base import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from .substitutions import Worded
+from .worded import Worded
 
 VALID_TRUE_EXPRESSIONS = ["true", "1"]
 VALID_FALSE_EXPRESSIONS = ["false", "0"]

@@ -10,14 +10,8 @@ import importlib.util
 import os
 from typing import Any, List, Optional
 
-from .actions import AnyLaunchDescriptionSource, IncludeLaunchDescription
-from .base import (
-    LaunchContext,
-    LaunchDescription,
-    NotHereError,
-    Substitution,
-    normalize_to_list_of_substitutions,
-)
+from .base import LaunchContext, LaunchDescription, NotHereError, Substitution, normalize_to_list_of_substitutions
+from .includes import AnyLaunchDescriptionSource, IncludeLaunchDescription
 from .substitutions import Written
 from .typed import is_typing_list
 

@@ -21,8 +21,10 @@ from .base import (
 )
 from .conditions import IfCondition, LaunchConfigurationEquals
 from .processes import ExecuteProcess
-from .ros import ComposableNode, ParameterValue
-from .substitutions import FindPackage, Worded
+from .ros_nodes import ComposableNode
+from .ros_parameters import ParameterValue
+from .ros_substitutions import FindPackage
+from .worded import Worded
 
 MAX_ACTIONS = 20_000
 MAX_DEPTH = 100

@@ -1,5 +1,4 @@
-"""`launch.substitutions` and `launch_ros.substitutions`. `words` are what the host performs them from; `perform` is for
-code of the user's that asks for the text in the middle of a run."""
+"""The other ones of `launch.substitutions`."""
 
 from __future__ import annotations
 
@@ -10,9 +9,8 @@ import os
 import shlex
 import shutil
 import subprocess
-from typing import Any, List, Optional
+from typing import Any, Optional
 
-from .ament import get_package_share_directory, prefix_of
 from .base import (
     RECORDER,
     LaunchContext,
@@ -20,36 +18,8 @@ from .base import (
     Substitution,
     ensure_argument_type,
     normalize_to_list_of_substitutions,
-    perform_substitutions,
 )
-
-Parts = List[Substitution]
-
-
-class SubstitutionFailure(RuntimeError):
-    def __init__(self, msg: str) -> None:
-        super().__init__(msg)
-
-
-def _truth(text: str) -> bool:
-    if text.lower() in ("true", "1", "yes", "on"):
-        return True
-    if text.lower() in ("false", "0", "no", "off"):
-        return False
-    raise SubstitutionFailure(f"Failed to convert '{text}' to a boolean")
-
-
-class Worded(Substitution):
-    """One that the host knows by `command`, with the texts that `words` are."""
-
-    command = ""
-    words: tuple[Parts, ...] = ()
-
-    def _words(self, *values: Any) -> None:
-        self.words = tuple(normalize_to_list_of_substitutions(value) for value in values)
-
-    def _text(self, context: LaunchContext, index: int) -> str:
-        return perform_substitutions(context, self.words[index])
+from .worded import Parts, SubstitutionFailure, Worded
 
 
 class LaunchConfiguration(Worded):
@@ -254,95 +224,6 @@ class FileContent(Worded):
             return file.read()
 
 
-class IfElseSubstitution(Worded):
-    command = "if"
-
-    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        if if_value == else_value == "":
-            raise RuntimeError("One of if_value and else_value must be specified")
-        self._words(condition, if_value, else_value)
-
-    def perform(self, context: LaunchContext) -> str:
-        return self._text(context, 1 if _truth(self._text(context, 0)) else 2)
-
-
-class NotSubstitution(Worded):
-    command = "not"
-
-    def __init__(self, value: Any) -> None:
-        self._words(value)
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(not _truth(self._text(context, 0))).lower()
-
-
-class AndSubstitution(Worded):
-    command = "and"
-
-    def __init__(self, left: Any, right: Any) -> None:
-        self._words(left, right)
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(_truth(self._text(context, 0)) and _truth(self._text(context, 1))).lower()
-
-
-class OrSubstitution(Worded):
-    command = "or"
-
-    def __init__(self, left: Any, right: Any) -> None:
-        self._words(left, right)
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(_truth(self._text(context, 0)) or _truth(self._text(context, 1))).lower()
-
-
-class AnySubstitution(Worded):
-    command = "any"
-
-    def __init__(self, *args: Any) -> None:
-        self._words(*args)
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(any(_truth(self._text(context, i)) for i in range(len(self.words)))).lower()
-
-
-class AllSubstitution(Worded):
-    command = "all"
-
-    def __init__(self, *args: Any) -> None:
-        self._words(*args)
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(all(_truth(self._text(context, i)) for i in range(len(self.words)))).lower()
-
-
-class EqualsSubstitution(Worded):
-    command = "equals"
-
-    def __init__(self, left: Any, right: Any) -> None:
-        self._words(_as_text(left), _as_text(right))
-
-    def _equal(self, context: LaunchContext) -> bool:
-        left, right = self._text(context, 0), self._text(context, 1)
-        booleans = ("true", "false", "1", "0")
-        if left.lower() in booleans and right.lower() in booleans:
-            return _truth(left) == _truth(right)
-        try:
-            return math.isclose(float(left), float(right))
-        except ValueError:
-            return left == right
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(self._equal(context)).lower()
-
-
-class NotEqualsSubstitution(EqualsSubstitution):
-    command = "not-equals"
-
-    def perform(self, context: LaunchContext) -> str:
-        return str(not self._equal(context)).lower()
-
-
 class LocalSubstitution(Worded):
     command = "local"
 
@@ -424,81 +305,3 @@ class Written(Worded):
 
     def perform(self, context: LaunchContext) -> str:
         raise NotHereError("a substitution that is written as a text is performed when it is launched")
-
-
-class FindPackage(Worded):
-    """What finds a package in one way or another: classes made from it say where."""
-
-    command = "find-pkg"
-
-    def __init__(self, package: Any) -> None:
-        self._words(package)
-
-    @property
-    def package(self) -> Parts:
-        return self.words[0]
-
-    def find(self, package_name: str) -> str:
-        raise NotImplementedError
-
-    def perform(self, context: LaunchContext) -> str:
-        return self.find(self._text(context, 0))
-
-
-class FindPackageShare(FindPackage):
-    command = "find-pkg-share"
-
-    def find(self, package_name: str) -> str:
-        return get_package_share_directory(package_name)
-
-
-class FindPackagePrefix(FindPackage):
-    command = "find-pkg-prefix"
-
-    def find(self, package_name: str) -> str:
-        return prefix_of(package_name, get_package_share_directory(package_name))
-
-
-class ExecutableInPackage(FindPackagePrefix):
-    command = "exec-in-pkg"
-
-    def __init__(self, executable: Any, package: Any) -> None:
-        self._words(executable, package)
-
-    @property
-    def executable(self) -> Parts:
-        return self.words[0]
-
-    def perform(self, context: LaunchContext) -> str:
-        package = self._text(context, 1)
-        return os.path.join(self.find(package), "lib", package, self._text(context, 0))
-
-
-class Parameter(Worded):
-    command = "param"
-
-    def __init__(self, name: Any, *, default: Any = None) -> None:
-        self._words(*((name,) if default is None else (name, str(default) if _plain(default) else default)))
-
-    @property
-    def name(self) -> Parts:
-        return self.words[0]
-
-    def perform(self, context: LaunchContext) -> str:
-        name = self._text(context, 0)
-        for pair in context.launch_configurations.get("global_params", ()):
-            if isinstance(pair, (list, tuple)) and pair[0] == name:
-                return str(pair[1])
-        if len(self.words) == 2:
-            return self._text(context, 1)
-        raise SubstitutionFailure(f"parameter '{name}' not found")
-
-
-def _plain(value: Any) -> bool:
-    return isinstance(value, (bool, int, float))
-
-
-def _as_text(value: Any) -> Any:
-    if value is None:
-        return ""
-    return str(value).lower() if isinstance(value, bool) else str(value) if _plain(value) else value
