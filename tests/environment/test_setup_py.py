@@ -3,6 +3,8 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.installed_paths import python_build
+from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.setup_py import read_python_build
 
 ENTRY = (
@@ -47,3 +49,26 @@ def test_patterns_do_not_leave_the_package_by_links(tmp_path: Path) -> None:
 def test_a_deeply_nested_pyproject_is_left_out(tmp_path: Path) -> None:
     for text in ("a=" + "[" * 50_000, "a=" + "{a=" * 50_000, "a." * 50_000, "[a" + ".a" * 50_000 + "]"):
         assert read_python_build(str(tmp_path), "p", {str(tmp_path / "pyproject.toml"): text}.get).scripts == {}
+
+
+def test_a_link_that_leads_to_itself_hides_nothing_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "launch" / "a.launch.py").touch()
+    (tmp_path / "launch" / "ring").symlink_to("ring")
+    text = "setup(data_files=[('share/p', glob('launch/*'))])"
+    found = read_python_build(str(tmp_path), "p", {str(tmp_path / "setup.py"): text}.get)
+    assert sorted(found.data) == ["a.launch.py", "ring"]
+
+
+def test_files_that_come_and_go_are_installed_and_are_not(tmp_path: Path) -> None:
+    (tmp_path / "setup.py").write_text("setup(data_files=[('share/p/l', glob('launch/**', recursive=True))])")
+    package = Package("p", str(tmp_path), str(tmp_path / "package.xml"), build_type="ament_python")
+    assert python_build(package).data == {}
+    for below in ("launch", "launch/deep", "launch/deep/er"):
+        (tmp_path / below).mkdir()
+        (tmp_path / below / "a.launch.py").touch()
+        assert python_build(package).data == {"l/a.launch.py": str(tmp_path / below / "a.launch.py")}
+    (tmp_path / "launch/deep/er/b.launch.py").touch()
+    assert sorted(python_build(package).data) == ["l/a.launch.py", "l/b.launch.py"]
+    (tmp_path / "launch/deep/er/b.launch.py").unlink()
+    assert sorted(python_build(package).data) == ["l/a.launch.py"]

@@ -154,8 +154,11 @@ def test_files_of_a_package(tmp_path: Path) -> None:
     for name in ("launch/inner.launch", "launch/old/x.launch", "launch/notes.txt", "launch/.hidden.launch", "a.yaml"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
+    (tmp_path / "launch" / ".ring").symlink_to(".ring")
+    (tmp_path / "launch" / "old" / "ring").symlink_to("ring")
     package = f"\n//- {tmp_path}/package.xml\n<package/>"
     find = f"$(find {tmp_path.name})"
+    assert offered(f"<launch><include file='{find}/launch/old/$0'/></launch>{package}") == ["x.launch"]
     assert offered(f"<launch><include file='{find}/$0'/></launch>{package}") == ["launch/"]
     assert offered(f"<launch><include file='{find}/launch/in$0'/></launch>{package}", "/") == ["inner.launch", "old/"]
     assert offered(f"<launch><rosparam file='{find}/$0'/></launch>{package}") == ["a.yaml", "launch/"]

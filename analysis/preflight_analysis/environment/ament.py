@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.environment.walk import is_folder
 
 INDEX = os.path.join("share", "ament_index", "resource_index", "packages")
 RCLPY = os.path.join("rclpy", "__init__.py")
@@ -43,7 +44,7 @@ def workspace_prefixes(workspace: str) -> Iterator[str]:
         return
     try:
         with os.scandir(install) as entries:
-            folders = sorted(entry.path for entry in entries if entry.is_dir())
+            folders = sorted(entry.path for entry in entries if is_folder(entry))
     except OSError:
         return
     yield from (folder for folder in folders if os.path.isdir(os.path.join(folder, INDEX)))

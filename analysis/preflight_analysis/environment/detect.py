@@ -17,6 +17,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, OF_ROS1, Found, crawl, find_packages
 from preflight_analysis.environment.reach import named_folders, workspace_folders
 from preflight_analysis.environment.view import by_generation, is_installed_ros1
+from preflight_analysis.environment.walk import is_folder
 
 BUILT = frozenset({"build", "devel", "install", "log", "logs", "build_isolated", "devel_isolated", "install_isolated"})
 """Folders of a workspace that its build makes: what is in them was copied from the source folder."""
@@ -346,7 +347,7 @@ def _spaces(
 def _subfolders(folder: str) -> list[str]:
     try:
         with os.scandir(folder) as entries:
-            return [entry.path for entry in entries if entry.is_dir()]
+            return [entry.path for entry in entries if is_folder(entry)]
     except OSError:
         return []
 

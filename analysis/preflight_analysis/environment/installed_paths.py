@@ -8,7 +8,9 @@ long as the package installs them so; what it installs under other names, or mak
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, read_text
@@ -124,14 +126,40 @@ def installed_at(package: Package, path: str) -> tuple[str, ...]:
 
 
 def python_build(package: Package) -> PythonBuild:
-    """What `setup.py` and its like say, as they are now."""
-    signature = tuple(_signature(os.path.join(package.share, name)) for name in ("setup.py", "setup.cfg"))
-    return _python_build(package.share, package.name, signature)
+    """What `setup.py` and its like say, as they and the folders that they list are now."""
+    key = package.share, package.name
+    known = _PYTHON_BUILDS.get(key)
+    if known is not None and known.is_current():
+        return known.build
+    at = time.time_ns()
+    build = read_python_build(*key, _text)
+    if known is not None and known.build == build:
+        build = known.build
+    if len(_PYTHON_BUILDS) >= _MOST_BUILDS:
+        _PYTHON_BUILDS.clear()
+    _PYTHON_BUILDS[key] = _KnownBuild(build, {path: _signature(path) for path in build.looked_at}, at)
+    return build
 
 
-@lru_cache(maxsize=256)
-def _python_build(share: str, name: str, _: object) -> PythonBuild:
-    return read_python_build(share, name, _text)
+@dataclass(frozen=True, slots=True)
+class _KnownBuild:
+    """What was read, of files and folders that looked so, and when (nanoseconds)."""
+
+    build: PythonBuild
+    signatures: Mapping[str, tuple[int, int] | None]
+    at: int
+
+    def is_current(self) -> bool:
+        """Whether all of it looks as it did, and was not changed so shortly before that another change may not show."""
+        newest = max((signature[0] for signature in self.signatures.values() if signature is not None), default=0)
+        same = all(_signature(path) == signature for path, signature in self.signatures.items())
+        return same and newest + _TICK < self.at
+
+
+_PYTHON_BUILDS: dict[tuple[str, str], _KnownBuild] = {}
+_MOST_BUILDS = 256
+_TICK = 50_000_000
+"""Nanoseconds in which a file system may give two changes the same time."""
 
 
 def cmake_build(package: Package) -> Build:

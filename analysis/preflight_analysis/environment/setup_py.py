@@ -18,6 +18,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from preflight_analysis.environment.walk import is_folder
+
 _TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"
 
 Read = Callable[[str], "str | None"]
@@ -59,6 +61,11 @@ class PythonBuild:
     complete: bool = False
     file: str | None = None
     """The file that says so, where a fix goes."""
+    looked_at: frozenset[str] = frozenset()
+    """The files and folders of the package, there or not, that decide all of this."""
+
+
+_FILES = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
 def read_python_build(folder: str, package: str, read: Read) -> PythonBuild:
@@ -70,6 +77,7 @@ def read_python_build(folder: str, package: str, read: Read) -> PythonBuild:
     found = _Setup(folder, text) if text is not None else None
     complete = found is not None and found.complete
     file = setup if found is not None else None
+    looked_at = {os.path.join(folder, name) for name in _FILES} | (found.listed if found is not None else set())
     for path, reader in (("setup.cfg", _from_cfg), ("pyproject.toml", _from_toml)):
         content = read(os.path.join(folder, path))
         if content is not None:
@@ -86,7 +94,7 @@ def read_python_build(folder: str, package: str, read: Read) -> PythonBuild:
             below = where[len(share) :].lstrip("/")
             for source in sources[:_MAX_FILES]:
                 data[os.path.join(below, os.path.basename(source))] = os.path.normpath(os.path.join(folder, source))
-    return PythonBuild(scripts, data, complete, file)
+    return PythonBuild(scripts, data, complete, file, frozenset(looked_at))
 
 
 def _entry_point(folder: str, name: str, target: str, line: int) -> EntryPoint:
@@ -142,6 +150,8 @@ class _Setup:
         self.scripts: dict[str, tuple[str, int]] = {}
         self.data_files: list[tuple[str, list[str]]] = []
         self.complete = True
+        self.listed: set[str] = set()
+        """Folders whose names decide what patterns stand for."""
         self._steps = 0
         self._real = os.path.join(os.path.realpath(folder), "")
         self._looked_at = 0
@@ -321,6 +331,7 @@ class _Setup:
         """What `glob` gives for a pattern in a folder of the package, without going through links out of it."""
         first, *rest = pattern
         here = os.path.join(self._folder, folder)
+        self.listed.add(here)
         if first != "" and not glob.has_magic(first):
             if rest and os.path.isdir(os.path.join(here, first)):
                 yield from self._below(os.path.join(folder, first), rest, recursive)
@@ -336,19 +347,19 @@ class _Setup:
         any_depth = recursive and first == "**"
         if any_depth:
             yield from self._below(folder, rest, recursive) if rest else ([os.path.join(folder, "")] if folder else [])
-        for name, is_folder in self._listed(here):
+        for name, is_a_folder in self._listed(here):
             if name.startswith(".") and not first.startswith("."):
                 continue
             path = os.path.join(folder, name)
             if any_depth:
-                if is_folder:
+                if is_a_folder:
                     yield from self._below(path, pattern, recursive)
                 elif not rest:
                     yield path
             elif fnmatch.fnmatchcase(name, first):
                 if not rest:
                     yield path
-                elif is_folder:
+                elif is_a_folder:
                     yield from self._below(path, rest, recursive)
 
     def _listed(self, folder: str) -> list[tuple[str, bool]]:
@@ -363,7 +374,7 @@ class _Setup:
                     self._looked_at += 1
                     if self._looked_at > _MAX_ENTRIES:
                         raise _Unknown
-                    found.append((entry.name, entry.is_dir()))
+                    found.append((entry.name, is_folder(entry)))
         except OSError:
             return []
         return found

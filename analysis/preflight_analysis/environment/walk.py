@@ -53,7 +53,7 @@ def walk(top: str, skip: Collection[str] = ()) -> Iterator[tuple[str, list[str],
             linked += is_outside
             with os.scandir(folder) as entries:
                 for entry in entries:
-                    if not _is_folder(entry):
+                    if not is_folder(entry):
                         files.append(entry.name)
                     elif not entry.name.startswith(".") and entry.name not in skipped:
                         if entry.is_symlink():
@@ -77,7 +77,8 @@ def _holds(folder: str, path: str) -> bool:
     return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
-def _is_folder(entry: os.DirEntry[str]) -> bool:
+def is_folder(entry: os.DirEntry[str]) -> bool:
+    """Whether an entry is a folder or leads to one. A link that leads to itself is none, where `is_dir` raises."""
     try:
         return entry.is_dir()
     except OSError:

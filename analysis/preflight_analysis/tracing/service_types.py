@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 
 from preflight_analysis.documents.reading import Unreadable, read_text
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.walk import is_folder
 from preflight_analysis.tracing.interface import Interface
 
 _BUILTIN = re.compile(r"(u?int(8|16|32|64)|float(32|64)|string|bool|char|byte|time|duration)\Z")
@@ -184,7 +185,7 @@ class ServiceTypes:
 def _folders(top: str) -> list[str]:
     try:
         with os.scandir(top) as entries:
-            return [entry.path for entry in entries if entry.is_dir()]
+            return [entry.path for entry in entries if is_folder(entry)]
     except OSError:
         return []
 

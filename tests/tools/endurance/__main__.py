@@ -37,6 +37,8 @@ from tools.endurance.shrink import shrunk
 from tools.endurance.sitting import Figures, Runner
 
 OUT = materials.REPOSITORY / "out" / "endurance"
+REPLAY_SECONDS = 15.0
+"""For both servers to come to the same in a replay, of which there are many."""
 SITTING = 1_000
 """Edits in the workspaces of one seed."""
 
@@ -84,7 +86,8 @@ def replay(packages: Sequence[materials.Package], path: Path, seconds: float) ->
 
     def failure(steps: Sequence[Step]) -> str | None:
         with tempfile.TemporaryDirectory(prefix="preflight-endurance-") as scratch:
-            runner = Runner(packages, Path(scratch), [written["base"], written["seed"]])
+            seeds = [written["base"], written["seed"]]
+            runner = Runner(packages, Path(scratch), seeds, equal_seconds=REPLAY_SECONDS)
             try:
                 runner.replay(written["seed"], steps)
             except Failure as error:

@@ -86,11 +86,18 @@ class Runner:
     """One long-lived server below `scratch`, and the desk in front of it."""
 
     def __init__(
-        self, packages: Sequence[materials.Package], scratch: Path, seeds: Sequence[int], *, trusted: bool = False
+        self,
+        packages: Sequence[materials.Package],
+        scratch: Path,
+        seeds: Sequence[int],
+        *,
+        trusted: bool = False,
+        equal_seconds: float = EQUAL_SECONDS,
     ) -> None:
         self.scratch = scratch
         self.root = scratch / "root"
         self.trusted = trusted
+        self.equal_seconds = equal_seconds
         self.figures = Figures()
         self.steps: list[Step] = []
         """Of the present sitting."""
@@ -214,7 +221,7 @@ class Runner:
         self.check_faults()
 
     def _until_equal(self, fresh: LspProcess) -> None:
-        deadline = time.monotonic() + EQUAL_SECONDS
+        deadline = time.monotonic() + self.equal_seconds
         while True:
             both = self.server.still(STILL_SECONDS) and fresh.still(STILL_SECONDS)
             if both and self.server.state() == fresh.state():
