@@ -32,7 +32,7 @@ def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, di
         "ROS_PACKAGE_PATH": str(packages),
         **({"DISPLAY": display} if display else {}),
     }
-    script = Path(__file__).parent / "tracing" / "observe_launch.py"
+    script = Path(__file__).parents[1] / "tracing" / "observe_launch.py"
     done = subprocess.run(
         [SYSTEM_PYTHON, str(script), str(launch_file), str(free_port())],
         env=env,
