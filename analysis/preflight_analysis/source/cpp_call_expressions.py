@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from abc import abstractmethod
+from dataclasses import replace
 from typing import Any
 
 from tree_sitter import Node
@@ -22,6 +23,7 @@ from preflight_analysis.source.cpp_text import FunctionText, Path, path_of
 from preflight_analysis.source.cpp_types import CALLABLE, SMART_POINTERS, STANDARD, standard
 from preflight_analysis.source.cpp_values import (
     Argument,
+    Call,
     Calls,
     CppType,
     Fluent,
@@ -93,11 +95,12 @@ class CallExpressions(Objects):
             held = variable.names.get(variable.name) if variable is not None else None
             if isinstance(held, Function):
                 return self._call_value(held, args)
-        taken = self._calls.takes(None if len(path) > 1 else scope.this, name, types, args)
+        call = Call(name, types, args, place, self._store)
+        taken = self._calls.takes(None if len(path) > 1 else scope.this, call)
         function = self._function(path, scope, len(args)) if not taken else None
         if function is not None and function.text is not None:
             if function.instance is not None:
-                self._calls.notice(function.instance, name, types, args, place)
+                self._calls.notice(function.instance, call)
             return self._call_text(function.text, function.instance, args, self._given(function.text, types))
         type_ = self._type(callee, scope)
         if type_ is not None and (self._class(type_) is not None or type_.name != "::".join(p for p in path if p)):
@@ -105,12 +108,12 @@ class CallExpressions(Objects):
         if type_ is not None and (name in SMART_POINTERS or standard(type_.name) in STANDARD | CALLABLE):
             return self._make(type_, args, place, scope)
         if len(path) == 1 and scope.this is not None:
-            found = self._library_method(scope.this, name, types, args, place)
+            found = self._library_method(scope.this, call)
             if found is not UNKNOWN:
                 return found
         self._may_be_set(path, args)
         written = type_.name if type_ is not None else "::".join(path)
-        return self._calls.function(written, types, args, place, self._store)
+        return self._calls.function(replace(call, name=written))
 
     def _call_method(self, callee: Node, listed: Node | None, types: list[CppType], place: Place, scope: Scope) -> Any:
         target = callee.child_by_field_name("argument")
@@ -123,10 +126,11 @@ class CallExpressions(Objects):
         name = path[-1]
         if name == "get" and not args and not types and not isinstance(owner, (str, list, dict)):
             return owner
-        if isinstance(owner, Instance) and not self._calls.takes(owner, name, types, args):
+        call = Call(name, types, args, place, self._store)
+        if isinstance(owner, Instance) and not self._calls.takes(owner, call):
             text = self._method(owner, name, len(args))
             if text is not None:
-                self._calls.notice(owner, name, types, args, place)
+                self._calls.notice(owner, call)
                 return self._call_text(text, owner, args, self._given(text, types))
         if name == "reset" and len(args) == 1 and not isinstance(owner, (str, list, dict, Stream)):
             reference = self._lvalue(target, scope)
@@ -146,7 +150,7 @@ class CallExpressions(Objects):
             self._may_be_set(path, args)
         if owner is UNKNOWN:
             return UNKNOWN
-        found = self._library_method(owner, name, types, args, place)
+        found = self._library_method(owner, call)
         if isinstance(owner, Fluent) and isinstance(found, type(owner)):
             self._changed(target, found, scope)
         return found
@@ -205,10 +209,10 @@ class CallExpressions(Objects):
             return None
         return items_method(owner, name, values(args))
 
-    def _library_method(self, owner: Any, name: str, types: list[CppType], args: list[Argument], place: Place) -> Any:
-        found = self._calls.method(owner, name, types, args, place, self._store)
+    def _library_method(self, owner: Any, call: Call) -> Any:
+        found = self._calls.method(owner, call)
         for base in owner.bases if isinstance(owner, Instance) and found is UNKNOWN else ():
-            found = self._calls.method(base, name, types, args, place, self._store)
+            found = self._calls.method(base, call)
             if found is not UNKNOWN:
                 break
         return found

@@ -149,6 +149,17 @@ Store = Callable[[Argument, Any], None]
 """Changes the variable that was given as an argument."""
 
 
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A call: `types` are its template arguments, `store` changes a variable that was given as an argument."""
+
+    name: str
+    types: Sequence[CppType]
+    args: Sequence[Argument]
+    place: Place
+    store: Store
+
+
 class Calls(Protocol):
     """What is known of libraries. Each answer is a value, UNKNOWN if it cannot be told."""
 
@@ -159,13 +170,11 @@ class Calls(Protocol):
     def begin(self, branches: Branches) -> None:
         """The program begins; `branches` tells what may well not be done."""
 
-    def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
+    def takes(self, owner: Any, call: Call) -> bool:
         """Whether a call is told here although the program has the function: what it does is known. `owner` is None
         for a free function."""
 
-    def notice(
-        self, owner: Instance, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place
-    ) -> None:
+    def notice(self, owner: Instance, call: Call) -> None:
         """A call of a method of the program, which is gone through next."""
 
     def dead_code(self, begins: bool) -> bool:
@@ -183,20 +192,10 @@ class Calls(Protocol):
     def make(self, type_: CppType, args: Sequence[Argument], place: Place) -> Any:
         """An object of a class that is not of the program."""
 
-    def function(
-        self, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place, store: Store
-    ) -> Any:
+    def function(self, call: Call) -> Any:
         """A call of a function that is not of the program, by its qualified name as written."""
 
-    def method(
-        self,
-        owner: Any,
-        name: str,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
+    def method(self, owner: Any, call: Call) -> Any:
         """A call of a method that is not of the program; of an `Instance` it is one of a library's base class."""
 
 

@@ -14,12 +14,12 @@ from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.cpp_operators import converted
 from preflight_analysis.source.cpp_values import (
     Argument,
+    Call,
     Constant,
     CppType,
     Function,
     Instance,
     Place,
-    Store,
     Unmade,
     value_at,
     values,
@@ -96,20 +96,20 @@ class RclcppCalls(Parameters):
         self.collected.unknown_node()
         self.collected.use(ParamUse("/", "list"))
 
-    def takes(self, owner: Any, name: str, types: Sequence[CppType], args: Sequence[Argument]) -> bool:
+    def takes(self, owner: Any, call: Call) -> bool:
         """What declares parameters in the way of a library, and what gives the node itself."""
-        if name in DECLARE_FUNCTIONS or name == ADD_ARGUMENT:
+        if call.name in DECLARE_FUNCTIONS or call.name == ADD_ARGUMENT:
             return True
-        return name in ITSELF and not args and node_of(owner) is not None
+        return call.name in ITSELF and not call.args and node_of(owner) is not None
 
-    def notice(
-        self, owner: Instance, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place
-    ) -> None:
+    def notice(self, owner: Instance, call: Call) -> None:
         """What a class has in the place of a method of rclcpp makes the same end; here is where it is asked for."""
         node = node_of(owner)
-        role, kind = METHODS.get(name, ("publisher", ""))
-        if node is not None and kind and (type_ := self._first(types, kind)) is not None:
-            self._endpoint(role, node.name(value_at(args, 0)), type_, _qos(args[1:]) if kind == "msg" else {}, place)
+        role, kind = METHODS.get(call.name, ("publisher", ""))
+        if node is not None and kind and (type_ := self._first(call.types, kind)) is not None:
+            self._endpoint(
+                role, node.name(value_at(call.args, 0)), type_, _qos(call.args[1:]) if kind == "msg" else {}, call.place
+            )
 
     # Objects.
 
@@ -232,120 +232,107 @@ class RclcppCalls(Parameters):
 
     # Calls.
 
-    def function(
-        self, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place, store: Store
-    ) -> Any:
+    def function(self, call: Call) -> Any:
         """Note what a free function makes; its value where it has one that is known."""
-        name = name.removeprefix("::")
-        space, _, leaf = name.rpartition("::")
-        if (message := parameter_message(name)) is not None:
+        full = call.name.removeprefix("::")
+        space, _, leaf = full.rpartition("::")
+        if (message := parameter_message(full)) is not None:
             return message
-        if name in WITH_NODE:
-            self._with_node(name, types, args, place)
+        if full in WITH_NODE:
+            self._with_node(full, call.types, call.args, call.place)
             return UNKNOWN
         if space == "image_transport" and leaf in IMAGES:
             role, with_info = IMAGES[leaf]
-            self._image(role, with_info, args, place)
+            self._image(role, with_info, call.args, call.place)
             return UNKNOWN
         if leaf in DECLARE_FUNCTIONS:
-            at = next((i for i, arg in enumerate(args[:2]) if node_of(arg.value) is not None), 0)
-            return self._declare_call(first_node(values(args)), types, args[at + 1 :], place)
+            at = next((i for i, arg in enumerate(call.args[:2]) if node_of(arg.value) is not None), 0)
+            return self._declare_call(first_node(values(call.args)), call.types, call.args[at + 1 :], call.place)
         if leaf == ADD_ARGUMENT:
-            known, option, new = value_at(args, 0), value_at(args, 1), value_at(args, 3)
-            store(args[0], [*known, option, new] if isinstance(known, list) else UNKNOWN)
+            known, option, new = value_at(call.args, 0), value_at(call.args, 1), value_at(call.args, 3)
+            call.store(call.args[0], [*known, option, new] if isinstance(known, list) else UNKNOWN)
             return UNKNOWN
-        if name == "rclcpp::wait_for_message":
-            text = next((v for v in values(args) if isinstance(v, str)), UNKNOWN)
-            message = value_at(args, 0)
+        if full == "rclcpp::wait_for_message":
+            text = next((v for v in values(call.args) if isinstance(v, str)), UNKNOWN)
+            message = value_at(call.args, 0)
             type_ = self._type(message.type, "msg") if isinstance(message, Unmade) else None
             self._endpoint(
-                "subscriber", first_node(values(args)).name(text), type_ or self._first(types, "msg"), {}, place
+                "subscriber",
+                first_node(values(call.args)).name(text),
+                type_ or self._first(call.types, "msg"),
+                {},
+                call.place,
             )
             return UNKNOWN
-        if name == "rclcpp::init_and_remove_ros_arguments":
-            return value_at(args, 1)
-        known = name in NODES or name in FIXED or name.startswith(("rclcpp::", "image_transport::"))
-        if known or rclcpp_qos.make(name, ()) is not None:
-            return self.make(CppType(name, tuple(types)), args, place)
-        self._unknown_library(name, values(args), place)
+        if full == "rclcpp::init_and_remove_ros_arguments":
+            return value_at(call.args, 1)
+        known = full in NODES or full in FIXED or full.startswith(("rclcpp::", "image_transport::"))
+        if known or rclcpp_qos.make(full, ()) is not None:
+            return self.make(CppType(full, tuple(call.types)), call.args, call.place)
+        self._unknown_library(full, values(call.args), call.place)
         return UNKNOWN
 
-    def method(
-        self,
-        owner: Any,
-        name: str,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
+    def method(self, owner: Any, call: Call) -> Any:
         """Note what a method makes; its value where it has one that is known."""
         if isinstance(owner, Qos):
-            return rclcpp_qos.changed(owner, name, values(args))
-        if isinstance(owner, Options) and name == "arguments" and not args:
+            return rclcpp_qos.changed(owner, call.name, values(call.args))
+        if isinstance(owner, Options) and call.name == "arguments" and not call.args:
             return list(owner.arguments)
         if isinstance(owner, Options):
-            return changed_options(owner, name, args)
+            return changed_options(owner, call.name, call.args)
         if isinstance(owner, Parameter):
-            if _VALUE_OF.match(name):
-                return converted(owner.value, types[0] if types else None)
-            if name == "get_type" and not owner.is_set:
+            if _VALUE_OF.match(call.name):
+                return converted(owner.value, call.types[0] if call.types else None)
+            if call.name == "get_type" and not owner.is_set:
                 return Constant("PARAMETER_NOT_SET")
-            return owner if name == "get_parameter_value" else UNKNOWN
+            return owner if call.name == "get_parameter_value" else UNKNOWN
         node = node_of(owner)
         if node is not None:
-            return self._of_node(owner, node, name, types, args, place, store)
+            return self._of_node(owner, node, call)
         if isinstance(owner, Unmade):
-            return self._of_made(owner, name, args, place)
+            return self._of_made(owner, call)
         return UNKNOWN
 
-    def _of_made(self, owner: Unmade, name: str, args: Sequence[Argument], place: Place) -> Any:
+    def _of_made(self, owner: Unmade, call: Call) -> Any:
         kind = qualified(owner.type)
-        if name == "get_params" and kind in self._structs:
+        if call.name == "get_params" and kind in self._structs:
             return self._structs[kind]
-        if kind == "image_transport::ImageTransport" and name in IMAGES:
-            role, with_info = IMAGES[name]
-            self._image(role, with_info, args, place)
-        elif kind == "image_transport::SubscriberFilter" and name == "subscribe":
-            self._image("subscriber", False, args, place)
-        elif kind == "image_transport::TransportHints" and name == "getTransport":
+        if kind == "image_transport::ImageTransport" and call.name in IMAGES:
+            role, with_info = IMAGES[call.name]
+            self._image(role, with_info, call.args, call.place)
+        elif kind == "image_transport::SubscriberFilter" and call.name == "subscribe":
+            self._image("subscriber", False, call.args, call.place)
+        elif kind == "image_transport::TransportHints" and call.name == "getTransport":
             return UNKNOWN
-        elif kind == "message_filters::Subscriber" and name == "subscribe":
-            self._with_node(kind, owner.type.args, args, place)
+        elif kind == "message_filters::Subscriber" and call.name == "subscribe":
+            self._with_node(kind, owner.type.args, call.args, call.place)
         else:
-            self._unknown_library(kind, values(args), place)
+            self._unknown_library(kind, values(call.args), call.place)
         return UNKNOWN
 
-    def _of_node(
-        self,
-        owner: Any,
-        node: NodeObject,
-        name: str,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
-        first = value_at(args, 0)
-        if name in METHODS:
-            role, kind = METHODS[name]
-            type_ = self._first(types, kind) or (self._heard(args) if role == "subscriber" else None)
-            self._endpoint(role, node.name(first), type_, _qos(args[1:]) if kind == "msg" else {}, place)
+    def _of_node(self, owner: Any, node: NodeObject, call: Call) -> Any:
+        first = value_at(call.args, 0)
+        if call.name in METHODS:
+            role, kind = METHODS[call.name]
+            type_ = self._first(call.types, kind) or (self._heard(call.args) if role == "subscriber" else None)
+            self._endpoint(role, node.name(first), type_, _qos(call.args[1:]) if kind == "msg" else {}, call.place)
             return Unmade(CppType("rclcpp::Publisher")) if role == "publisher" else UNKNOWN
-        if name in GENERIC:
-            type_text = value_at(args, 1)
+        if call.name in GENERIC:
+            type_text = value_at(call.args, 1)
             known = type_text if isinstance(type_text, str) and _TYPE_TEXT.match(type_text) else None
-            self._endpoint(GENERIC[name], node.name(first), known, rclcpp_qos.of(value_at(args, 2)), place)
+            self._endpoint(
+                GENERIC[call.name], node.name(first), known, rclcpp_qos.of(value_at(call.args, 2)), call.place
+            )
             return UNKNOWN
-        if name in DECLARE:
-            return self._declare_call(node, types, args, place)
-        match name:
+        if call.name in DECLARE:
+            return self._declare_call(node, call.types, call.args, call.place)
+        match call.name:
             case "declare_parameters":
-                self._declare_all(node, types, args, place)
+                self._declare_all(node, call)
             case "get_parameter" | "get_parameter_or":
-                return self._read(node, name, types, args, place, store)
+                return self._read(node, call)
             case "list_parameters":
-                self._any_parameter(place)
+                self._any_parameter(call.place)
             case "has_parameter":
                 return True if isinstance(first, str) and node.param(first) in self._declared else UNKNOWN
             case "get_name":
@@ -360,9 +347,9 @@ class RclcppCalls(Parameters):
             case "create_sub_node":
                 below = first if isinstance(first, str) else ""
                 return NodeObject(node.full if below else UNKNOWN, f"{node.below}/{below}".strip("/"))
-            case _ if name in ITSELF or name == "lock":
+            case _ if call.name in ITSELF or call.name == "lock":
                 return owner
-            case _ if name.startswith("get_node_") and name.endswith("_interface"):
+            case _ if call.name.startswith("get_node_") and call.name.endswith("_interface"):
                 return owner
         return UNKNOWN
 

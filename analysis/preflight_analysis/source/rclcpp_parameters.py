@@ -12,11 +12,11 @@ from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.cpp_operators import converted
 from preflight_analysis.source.cpp_values import (
     Argument,
+    Call,
     Constant,
     CppType,
     Instance,
     Place,
-    Store,
     Unmade,
     value_at,
 )
@@ -120,21 +120,21 @@ class Parameters:
             return parameter_of(found)
         return UNKNOWN if found is UNSET else converted(found, type_)
 
-    def _declare_all(self, node: NodeObject, types: Sequence[CppType], args: Sequence[Argument], place: Place) -> None:
-        space, given = value_at(args, 0), value_at(args, 1)
+    def _declare_all(self, node: NodeObject, call: Call) -> None:
+        space, given = value_at(call.args, 0), value_at(call.args, 1)
         pairs = list(given.items()) if isinstance(given, dict) else given
         if not isinstance(space, str) or not isinstance(pairs, list):
-            self._any_parameter(place)
+            self._any_parameter(call.place)
             return
         for pair in pairs:
             if not isinstance(pair, (list, tuple)) or not pair or not isinstance(pair[0], str):
-                self._any_parameter(place)
+                self._any_parameter(call.place)
                 continue
             name = f"{space}.{pair[0]}" if space else pair[0]
             value = pair[1] if len(pair) > 1 else UNKNOWN
             value = value[0] if isinstance(value, list) and len(value) == 2 and isinstance(value[1], Unmade) else value
-            default = given_parameter(Argument(value), types[0] if types else None)
-            self._declare(node, name, default.value, True, place)
+            default = given_parameter(Argument(value), call.types[0] if call.types else None)
+            self._declare(node, name, default.value, True, call.place)
 
     def _declare(
         self,
@@ -170,27 +170,19 @@ class Parameters:
         self._declared[full] = default if has_default else UNSET
         return self._value(full)
 
-    def _read(
-        self,
-        node: NodeObject,
-        name: str,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
+    def _read(self, node: NodeObject, call: Call) -> Any:
         """`get_parameter("x")`, which gives it, or `get_parameter("x", variable)`, which tells whether it is there."""
-        param, into = value_at(args, 0), args[1] if len(args) > 1 else None
-        or_else = name == "get_parameter_or"
+        param, into = value_at(call.args, 0), call.args[1] if len(call.args) > 1 else None
+        or_else = call.name == "get_parameter_or"
         full = node.param(param) if isinstance(param, str) and param else UNKNOWN
         found: Any = UNKNOWN
         if isinstance(full, str):
             found = self._value(full)
             if full not in self._declared:
-                self.collected.use(ParamUse(full, "get", None, False, False, place.file, place.line))
+                self.collected.use(ParamUse(full, "get", None, False, False, call.place.file, call.place.line))
         if or_else and (found is UNKNOWN or found is UNSET):
-            found = value_at(args, len(args) - 1)
-        if into is None or (or_else and len(args) == 2):
+            found = value_at(call.args, len(call.args) - 1)
+        if into is None or (or_else and len(call.args) == 2):
             return found if or_else else parameter_of(found)
         if found is UNSET:
             return False
@@ -199,7 +191,7 @@ class Parameters:
         of_parameter = isinstance(into.value, Parameter) or (
             isinstance(into.value, Unmade) and qualified(into.value.type) == "rclcpp::Parameter"
         )
-        store(into, parameter_of(found) if of_parameter else found)
+        call.store(into, parameter_of(found) if of_parameter else found)
         return True if full in self._declared else UNKNOWN
 
     def _value(self, full: str) -> Any:

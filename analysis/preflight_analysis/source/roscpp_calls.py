@@ -8,7 +8,16 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.collector import is_name
 from preflight_analysis.source.config_params import Config
-from preflight_analysis.source.cpp_values import Argument, CppType, Instance, Place, Store, Unmade, value_at, values
+from preflight_analysis.source.cpp_values import (
+    Argument,
+    Call,
+    CppType,
+    Instance,
+    Place,
+    Unmade,
+    value_at,
+    values,
+)
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN
 from preflight_analysis.source.roscpp_api import (
@@ -181,14 +190,12 @@ class RoscppCalls(Parameters):
 
     # Calls.
 
-    def function(
-        self, name: str, types: Sequence[CppType], args: Sequence[Argument], place: Place, store: Store
-    ) -> Any:
+    def function(self, call: Call) -> Any:
         """Note what a free function makes; its value where it has one that is known."""
-        name = name.removeprefix("::")
-        first = value_at(args, 0)
-        space, _, leaf = name.rpartition("::")
-        match name:
+        full = call.name.removeprefix("::")
+        first = value_at(call.args, 0)
+        space, _, leaf = full.rpartition("::")
+        match full:
             case "ros::this_node::getName":
                 return self._node
             case "ros::this_node::getNamespace":
@@ -196,132 +203,121 @@ class RoscppCalls(Parameters):
             case "ros::names::clean" if isinstance(first, str):
                 return names.canonicalize(first)
             case "ros::names::append" if isinstance(first, str):
-                second = value_at(args, 1)
+                second = value_at(call.args, 1)
                 return names.canonicalize(f"{first}/{second}") if isinstance(second, str) else UNKNOWN
             case "ros::names::remap":
                 found = self._resolved(first)
                 return found if found in self._remaps.values() else first
-            case "ros::removeROSArgs" if isinstance(value_at(args, 1), list):
-                store(args[-1], list(args[1].value))
+            case "ros::removeROSArgs" if isinstance(value_at(call.args, 1), list):
+                call.store(call.args[-1], list(call.args[1].value))
                 return UNKNOWN
             case "ros::names::resolve":
-                last = value_at(args, len(args) - 1)
+                last = value_at(call.args, len(call.args) - 1)
                 asked = last if isinstance(last, str) else first
                 return self._resolved(asked)
             case "ros::topic::waitForMessage":
-                handle = handle_of(next((v for v in values(args) if is_handle(v)), None))
-                self._endpoint("subscriber", handle.name(first), self._types.first(types), place)
+                handle = handle_of(next((v for v in values(call.args) if is_handle(v)), None))
+                self._endpoint("subscriber", handle.name(first), self._types.first(call.types), call.place)
                 return UNKNOWN
             case "ros::service::waitForService" | "ros::service::exists":
                 if leaf == "waitForService":
-                    self.collected.await_service(Endpoint("client", first, None, None, {}, place.file, place.line))
+                    self.collected.await_service(
+                        Endpoint("client", first, None, None, {}, call.place.file, call.place.line)
+                    )
                 return UNKNOWN
             case "ros::service::call":
-                self._endpoint("client", first, self._types.service_of(value_at(args, 1)), place)
+                self._endpoint("client", first, self._types.service_of(value_at(call.args, 1)), call.place)
                 return UNKNOWN
             case "ros::service::createClient":
-                self._endpoint("client", first, self._types.first(types), place)
+                self._endpoint("client", first, self._types.first(call.types), call.place)
                 return UNKNOWN
         if space == "ros::param" and leaf in FREE_PARAMS:
-            return self._param_call(PARAMS[leaf], Handle(""), leaf == "param", types, args, place, store)
+            return self._param_call(PARAMS[leaf], Handle(""), leaf == "param", call)
         if space in ("ros::AdvertiseOptions", "ros::SubscribeOptions", "ros::AdvertiseServiceOptions"):
-            return Options(first, self._types.first(types))
-        known = name in FIXED or name in AT_HANDLE or name in ACTIONS or name == HANDLE
-        if known or name.startswith(("image_transport::", "message_filters::")):
-            return self.make(CppType(name, tuple(types)), args, place)
+            return Options(first, self._types.first(call.types))
+        known = full in FIXED or full in AT_HANDLE or full in ACTIONS or full == HANDLE
+        if known or full.startswith(("image_transport::", "message_filters::")):
+            return self.make(CppType(full, tuple(call.types)), call.args, call.place)
         return UNKNOWN
 
-    def method(
-        self,
-        owner: Any,
-        name: str,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
+    def method(self, owner: Any, call: Call) -> Any:
         """Note what a method makes; its value where it has one that is known."""
         if isinstance(owner, Instance):
-            space = NODELET_HANDLES.get(name)
+            space = NODELET_HANDLES.get(call.name)
             if space is not None:
                 return Handle(self._private() if space == "~" else space)
-            return self._node if name == "getName" else UNKNOWN
+            return self._node if call.name == "getName" else UNKNOWN
         if is_handle(owner):
-            return self._of_handle(handle_of(owner), name, types, args, place, store)
+            return self._of_handle(handle_of(owner), call)
         if isinstance(owner, Made):
-            return self._of_made(owner, name, args, place)
-        if isinstance(owner, Unmade) and owner.type.name == "nodelet::Loader" and name == "load":
-            loaded, plugin, remaps = (value_at(args, index) for index in range(3))
+            return self._of_made(owner, call)
+        if isinstance(owner, Unmade) and owner.type.name == "nodelet::Loader" and call.name == "load":
+            loaded, plugin, remaps = (value_at(call.args, index) for index in range(3))
             if isinstance(loaded, str) and isinstance(plugin, str) and len(self.nodelets) < _MAX_NODELETS:
                 self.nodelets.append(Loaded(loaded, plugin, self._remaps_of(remaps)))
-        if isinstance(owner, Unmade) and name == "advertise" and owner.type.name in ANY_MESSAGE:
-            handle = value_at(args, 0)
-            topic = handle_of(handle).name(value_at(args, 1)) if is_handle(handle) else UNKNOWN
-            self._endpoint("publisher", topic, None, place)
+        if isinstance(owner, Unmade) and call.name == "advertise" and owner.type.name in ANY_MESSAGE:
+            handle = value_at(call.args, 0)
+            topic = handle_of(handle).name(value_at(call.args, 1)) if is_handle(handle) else UNKNOWN
+            self._endpoint("publisher", topic, None, call.place)
         if (
             isinstance(owner, Unmade)
             and owner.type.name == "urdf::Model"
-            and name in ("initParam", "initParamWithNodeHandle")
+            and call.name in ("initParam", "initParamWithNodeHandle")
         ):
-            first = value_at(args, 0)
-            self._param("get", first if is_name(first) else UNKNOWN, UNKNOWN, False, place)
+            first = value_at(call.args, 0)
+            self._param("get", first if is_name(first) else UNKNOWN, UNKNOWN, False, call.place)
         return UNKNOWN
 
-    def _of_handle(
-        self,
-        handle: Handle,
-        name: str,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
-        first = value_at(args, 0)
+    def _of_handle(self, handle: Handle, call: Call) -> Any:
+        first = value_at(call.args, 0)
         topic = handle.name(first)
-        match name:
+        match call.name:
             case "advertise":
                 if isinstance(first, Options):
-                    self._endpoint("publisher", handle.name(first.name), first.type, place)
+                    self._endpoint("publisher", handle.name(first.name), first.type, call.place)
                 else:
-                    self._endpoint("publisher", topic, self._types.first(types), place, _qos(args))
+                    self._endpoint("publisher", topic, self._types.first(call.types), call.place, _qos(call.args))
             case "subscribe":
                 if isinstance(first, Options):
-                    self._endpoint("subscriber", handle.name(first.name), first.type, place)
+                    self._endpoint("subscriber", handle.name(first.name), first.type, call.place)
                 else:
                     self._endpoint(
-                        "subscriber", topic, self._types.first(types) or self._types.of_callback(args), place
+                        "subscriber",
+                        topic,
+                        self._types.first(call.types) or self._types.of_callback(call.args),
+                        call.place,
                     )
             case "advertiseService":
                 if isinstance(first, Options):
-                    self._endpoint("service", handle.name(first.name), first.type, place)
+                    self._endpoint("service", handle.name(first.name), first.type, call.place)
                 else:
-                    self._endpoint("service", topic, self._types.of_service_callback(types, args), place)
+                    self._endpoint("service", topic, self._types.of_service_callback(call.types, call.args), call.place)
             case "serviceClient":
-                self._endpoint("client", topic, self._types.first(types[:1]), place)
+                self._endpoint("client", topic, self._types.first(call.types[:1]), call.place)
             case "getNamespace" | "getUnresolvedNamespace":
                 return self._resolved(handle.space)
             case "resolveName":
                 return self._resolved(topic)
-            case _ if name in PARAMS and name not in ("get", "has", "set", "search", "del", "getCached"):
-                return self._param_call(PARAMS[name], handle, name == "param", types, args, place, store)
-        return Unmade(CppType("ros::Publisher")) if name == "advertise" else UNKNOWN
+            case _ if call.name in PARAMS and call.name not in ("get", "has", "set", "search", "del", "getCached"):
+                return self._param_call(PARAMS[call.name], handle, call.name == "param", call)
+        return Unmade(CppType("ros::Publisher")) if call.name == "advertise" else UNKNOWN
 
-    def _of_made(self, owner: Made, name: str, args: Sequence[Argument], place: Place) -> Any:
-        given = values(args)
+    def _of_made(self, owner: Made, call: Call) -> Any:
+        given = values(call.args)
         if owner.type.name in ("message_filters::Subscriber", "image_transport::SubscriberFilter"):
-            if name == "subscribe":
-                self._filter(owner, given, place)
+            if call.name == "subscribe":
+                self._filter(owner, given, call.place)
         elif owner.type.name == "image_transport::ImageTransport":
-            topic = owner.handle.name(value_at(args, 0))
-            if name in ("advertise", "advertiseCamera"):
-                self._endpoint("publisher", topic, IMAGE, place, _qos(args))
-            elif name in ("subscribe", "subscribeCamera"):
-                self._image("subscriber", topic, given[1:], place)
-            if name in ("advertiseCamera", "subscribeCamera") and isinstance(topic, str):
+            topic = owner.handle.name(value_at(call.args, 0))
+            if call.name in ("advertise", "advertiseCamera"):
+                self._endpoint("publisher", topic, IMAGE, call.place, _qos(call.args))
+            elif call.name in ("subscribe", "subscribeCamera"):
+                self._image("subscriber", topic, given[1:], call.place)
+            if call.name in ("advertiseCamera", "subscribeCamera") and isinstance(topic, str):
                 info = "camera_info" if "/" not in topic else f"{topic.rpartition('/')[0]}/camera_info"
                 if topic.startswith("~") and "/" not in topic:
                     info = "~camera_info"
-                self._endpoint("publisher" if name == "advertiseCamera" else "subscriber", info, INFO, place)
+                self._endpoint("publisher" if call.name == "advertiseCamera" else "subscriber", info, INFO, call.place)
         return UNKNOWN
 
     def _image(self, role: Role, topic: Any, given: Sequence[Any], place: Place) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.collector import Collector, is_name
 from preflight_analysis.source.cpp_operators import initialized
-from preflight_analysis.source.cpp_values import Argument, CppType, Place, Store, value_at
+from preflight_analysis.source.cpp_values import Call, Place, value_at
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 from preflight_analysis.source.roscpp_objects import Handle
@@ -24,36 +24,27 @@ class Parameters:
         self._params = params
         self.collected = Collector()
 
-    def _param_call(
-        self,
-        access: str,
-        handle: Handle,
-        has_default: bool,
-        types: Sequence[CppType],
-        args: Sequence[Argument],
-        place: Place,
-        store: Store,
-    ) -> Any:
-        name = handle.name(value_at(args, 0))
+    def _param_call(self, access: str, handle: Handle, has_default: bool, call: Call) -> Any:
+        full = handle.name(value_at(call.args, 0))
         if access == "search":
-            return self._search(handle, args, place, store)
+            return self._search(handle, call)
         if access != "get":
-            return self._param(access, name, UNKNOWN, False, place)
-        into = args[1] if len(args) > (2 if has_default else 1) else None
-        default = value_at(args, len(args) - 1) if has_default and len(args) > 1 else UNKNOWN
-        default = initialized(default, types[0] if types else None)
-        found = self._param("get", name, default, has_default, place)
+            return self._param(access, full, UNKNOWN, False, call.place)
+        into = call.args[1] if len(call.args) > (2 if has_default else 1) else None
+        default = value_at(call.args, len(call.args) - 1) if has_default and len(call.args) > 1 else UNKNOWN
+        default = initialized(default, call.types[0] if call.types else None)
+        found = self._param("get", full, default, has_default, call.place)
         if into is None:
             return found
         if has_default or found is not UNKNOWN:
-            store(into, found)
+            call.store(into, found)
         # Another node may set it; what the variable had is then what it starts with.
         return True if found is not UNKNOWN and not has_default else UNKNOWN
 
-    def _search(self, handle: Handle, args: Sequence[Argument], place: Place, store: Store) -> Any:
+    def _search(self, handle: Handle, call: Call) -> Any:
         """The parameter of that name in the handle's namespace or the nearest one around it."""
-        name, into = value_at(args, 0), args[-1] if len(args) > 1 else None
-        self._param("search", handle.name(name), UNKNOWN, False, place)
+        name, into = value_at(call.args, 0), call.args[-1] if len(call.args) > 1 else None
+        self._param("search", handle.name(name), UNKNOWN, False, call.place)
         space = self._resolved(handle.space)
         found: Any = UNKNOWN
         while is_name(name) and isinstance(space, str) and found is UNKNOWN:
@@ -63,7 +54,7 @@ class Parameters:
                 break
             space = names.parent(space).rstrip("/") or "/"
         if into is not None:
-            store(into, found)
+            call.store(into, found)
         return UNKNOWN if found is UNKNOWN else True
 
     def _param(self, access: str, name: Any, default: Any, has_default: bool, place: Place) -> Any:
