@@ -61,7 +61,7 @@ def test_a_link_that_leads_to_itself_hides_nothing_beside_it(tmp_path: Path) -> 
 
 
 def test_files_that_come_and_go_are_installed_and_are_not(tmp_path: Path) -> None:
-    (tmp_path / "setup.py").write_text("setup(data_files=[('share/p/l', glob('launch/**', recursive=True))])")
+    (tmp_path / "setup.py").write_text("setup(data_files=[('share/p/l', glob('launch/**/*.py', recursive=True))])")
     package = Package("p", str(tmp_path), str(tmp_path / "package.xml"), build_type="ament_python")
     assert python_build(package).data == {}
     for below in ("launch", "launch/deep", "launch/deep/er"):
