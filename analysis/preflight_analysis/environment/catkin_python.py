@@ -63,7 +63,7 @@ def workspace_packages(environment: Environment) -> Iterator[Package]:
     """The packages of ROS 1 that are there as source."""
     installed = tuple(os.path.join(prefix, "") for prefix in environment.system_prefixes)
     for package in environment.packages.values():
-        if package.generation == 1 and not package.share.startswith(installed):
+        if not package.is_ament and not package.share.startswith(installed):
             yield package
 
 

@@ -257,7 +257,7 @@ def _is_ros2(
     if variables.get("ROS_VERSION") in ("1", "2"):
         return variables["ROS_VERSION"] == "2"
     own = _own(workspace, packages)
-    ament = sum(package.generation == 2 for package in own)
+    ament = sum(package.is_ament for package in own)
     return (
         ament > sum(package.build_type in OF_ROS1 for package in own)
         if own

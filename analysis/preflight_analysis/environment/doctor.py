@@ -27,7 +27,7 @@ def describe(environment: Environment) -> tuple[tuple[str, str], ...]:
     rows += [("devel space", space) for space in environment.devel_spaces or (none,)]
     rows += [("system prefix", prefix) for prefix in environment.system_prefixes or (none,)]
     rows.append(("interpreter", environment.python or none))
-    if environment.generation == 2 or environment.ros2_python:
+    if environment.ros.needs_rclpy or environment.ros2_python:
         rows.append(("interpreter with rclpy", environment.ros2_python or none))
     rows += [("problem", problem) for problem in environment.problems]
     return tuple(rows)

@@ -66,7 +66,7 @@ class ExecutableIndex:
     def _is_ament(self, package: Package) -> bool:
         """Whether `launch_ros` looks for its executables. One that both generations build (`cmake`) is that of the
         environment."""
-        return package.generation == 2 or (package.build_type == "cmake" and self._environment.generation == 2)
+        return package.is_ament or (package.build_type == "cmake" and self._environment.ros.ament)
 
     def _find_ament(self, package: Package, name: str) -> Executable:
         """`lib/<package>` of the prefixes, as `launch_ros` looks for it, and what the package in the source will put

@@ -26,7 +26,7 @@ def located(environment: Environment, path: str) -> str:
     if os.path.exists(path):
         return path
     package = package_around(environment, path)
-    if package is None or package.generation != 2:
+    if package is None or not package.is_ament:
         return path
     below = os.path.relpath(path, package.share)
     source = installed_from(package, below)
@@ -86,7 +86,7 @@ def installed_from(package: Package, below: str) -> str | None:
 def installed_elsewhere(package: Package) -> list[tuple[str, str]]:
     """Paths in the share folder of a package of the workspace, and the files and folders of its source that they will
     lead to once it is built, where those lie elsewhere."""
-    if package.generation != 2:
+    if not package.is_ament:
         return []
     python = package.build_type == "ament_python"
     found = python_build(package).data.items() if python else _installed_by_cmake(package)

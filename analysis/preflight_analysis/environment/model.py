@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from preflight_analysis.generation import Generation, ros
+
 
 @dataclass(frozen=True, slots=True)
 class Package:
@@ -18,9 +20,14 @@ class Package:
     """`ament_cmake`, `ament_python` or `catkin`, None where the manifest does not say."""
 
     @property
+    def is_ament(self) -> bool:
+        """Whether ament builds it."""
+        return (self.build_type or "").startswith("ament")
+
+    @property
     def generation(self) -> int:
         """The ROS that it is for, as far as its build type tells."""
-        return 2 if (self.build_type or "").startswith("ament") else 1
+        return 2 if self.is_ament else 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,3 +80,12 @@ class Environment:
     """The folders of the workspace, whose links are not to be believed; as they are written and as they really are."""
     named_folders: tuple[str, ...] = ()
     """Folders and files that the user named, likewise: by variables, package path and interpreters. See `reach.py`."""
+
+    @property
+    def ros(self) -> Generation:
+        """What is so in its generation of ROS."""
+        return ros(self.generation)
+
+    def interpreter(self, generation: int) -> str | None:
+        """The one that has rospy or rclpy."""
+        return {1: self.python, 2: self.ros2_python}[generation]

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import OF_ROS1
+from preflight_analysis.generation import ros
 
 
 def of_generation(environment: Environment, generation: int) -> Environment:
@@ -19,7 +20,7 @@ def of_generation(environment: Environment, generation: int) -> Environment:
     shadowed: dict[str, tuple[Package, ...]] = {}
     for name, first in environment.packages.items():
         candidates = (first, *environment.shadowed.get(name, ()))
-        if generation == 2:
+        if ros(generation).ament:
             candidates = by_generation(p for p in candidates if not is_installed_ros1(p, installed, prefixes))
         else:  # rospkg takes what its path has, whatever it is built with
             candidates = tuple(p for p in candidates if p.share.startswith(path) or not p.share.startswith(prefixes))
@@ -58,7 +59,7 @@ def by_generation(packages: Iterable[Package]) -> tuple[Package, ...]:
 def is_installed_ros1(package: Package, installed: tuple[str, ...], prefixes: tuple[str, ...]) -> bool:
     """Whether it came with a ROS 1 that is installed there, which `ros2 launch` sees nothing of."""
     below = package.share.startswith(installed) and not package.share.startswith(prefixes)
-    return below and package.generation == 1
+    return below and not package.is_ament
 
 
 def _nearest(packages: Sequence[Package], file: str, sources: Sequence[str]) -> Package:

@@ -29,3 +29,11 @@ def parse_ros2_arguments(words: Iterable[str]) -> dict[str, str]:
     stops; here that is left out."""
     pairs = (word.partition(":=") for word in words)
     return {name: value for name, separator, value in pairs if name and separator and value}
+
+
+_PARSE = {1: parse_arguments, 2: parse_ros2_arguments}
+
+
+def arguments_of(generation: int, words: Iterable[str]) -> dict[str, str]:
+    """Those of the launcher of a generation of ROS."""
+    return _PARSE[generation](words)

@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.ros1.memo import Memo
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.generation import ROS1
 
 
 def evaluate_launch(
@@ -25,9 +26,9 @@ def evaluate_launch(
 ) -> LaunchTree:
     """What launching `path` with `name:=value...` would start; see `evaluate` and `evaluate_ros2`."""
     found = files.launch_file(path)
-    if not isinstance(found, Unreadable) and found.generation == 2:
-        # Who has launch files of ROS 1 alone starts faster without.
-        from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
+    if isinstance(found, Unreadable) or found.generation == ROS1.number:
+        return evaluate(path, args, files, executables, environment, cwd, commands, memo)
+    # Who has launch files of ROS 1 alone starts faster without.
+    from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 
-        return evaluate_ros2(path, args, files, executables, environment, cwd, commands)
-    return evaluate(path, args, files, executables, environment, cwd, commands, memo)
+    return evaluate_ros2(path, args, files, executables, environment, cwd, commands)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
+from preflight_analysis.generation import ROS1
 from preflight_analysis.launch.schema import Tag
 from preflight_analysis.launch.schema_ros1 import TAGS
 
 
 def tags_of(generation: int) -> Mapping[str, Tag]:
     """The tags by their names."""
-    if generation == 1:
+    if generation == ROS1.number:
         return TAGS
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.actions.registry import tags  # noqa: PLC0415
@@ -22,7 +23,7 @@ def tags_of(generation: int) -> Mapping[str, Tag]:
 @cache
 def scopes_of(generation: int) -> frozenset[str]:
     """The kinds of actions that have others inside, which count as if they stood in the file itself."""
-    if generation == 1:
+    if generation == ROS1.number:
         return frozenset({"group"})
     from preflight_analysis.evaluation.ros2.actions.registry import actions  # noqa: PLC0415
 

@@ -11,6 +11,7 @@ from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import Problem
+from preflight_analysis.generation import Generation, ros
 from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.problems import ProblemKind
 
@@ -273,6 +274,11 @@ class LaunchTree:
     """What would start nodes if a condition were another."""
     edited: Mapping[str, Edited] = field(default_factory=dict)
     """Python launch files whose text has no good run yet."""
+
+    @property
+    def ros(self) -> Generation:
+        """What is so in its generation of ROS."""
+        return ros(self.generation)
 
     @property
     def complete(self) -> bool:

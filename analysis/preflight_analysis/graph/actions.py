@@ -15,6 +15,7 @@ import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
+from preflight_analysis.generation import ros
 from preflight_analysis.tracing.interface import Endpoint, Role
 
 _FROM_CLIENT = ("goal", "cancel")
@@ -84,7 +85,7 @@ def actions_of(endpoints: Iterable[Endpoint], generation: int = 1) -> tuple[Acti
                 found[role, name] = action
     for endpoint in endpoints:
         if endpoint.role in ("action_client", "action_server"):
-            of_ros2 = generation == 2 or "/action/" in (endpoint.type or "")
+            of_ros2 = ros(generation).native_actions or "/action/" in (endpoint.type or "")
             found.setdefault(
                 (endpoint.role, endpoint.name), _declared_ros2(endpoint) if of_ros2 else _declared(endpoint)
             )

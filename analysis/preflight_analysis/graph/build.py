@@ -11,6 +11,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.remaps import source_for
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import ActionEndpoint, actions_of, moves_actions
 from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
@@ -106,10 +107,11 @@ def _of_node(node: LaunchNode, interface: Interface, generation: int, moves: boo
 def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap, str]]:
     """Resolved source to the remap and its resolved target; of two for one name the later wins in ROS 1, the first one
     in ROS 2, as in the clients."""
-    ordered = node.remaps if generation == 1 else reversed(node.remaps)
+    rules = ros(generation)
+    ordered = reversed(node.remaps) if rules.first_remap_wins else node.remaps
     found = {}
     for remap in ordered:
-        source = remap.source if generation == 1 else source_for(remap.source, node.name)
+        source = source_for(remap.source, node.name) if rules.remaps_of_nodes else remap.source
         if source is not None:
             found[names.resolve(source, node.name)] = remap, names.resolve(remap.target, node.name)
     return found

@@ -14,6 +14,7 @@ import yaml
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.annotations import CLASSES, worth_writing
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
@@ -58,7 +59,7 @@ def _captured(
         return Captured(node, None, f"it is registered and does not answer: {dead}")
     if live.nodes[name].count > 1:
         return Captured(node, None, "there are several nodes of this name")
-    if live.generation == 1 and (reason := _of_nodelets(node, nodes)) is not None:
+    if ros(live.generation).has_nodelets and (reason := _of_nodelets(node, nodes)) is not None:
         return Captured(node, None, reason)
     sources = {target: source for source, (_, target) in effective_remaps(node, live.generation).items()}
     found = (

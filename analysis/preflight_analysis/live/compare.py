@@ -12,6 +12,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.live.model import (
     Comparison,
@@ -107,7 +108,7 @@ def compare(expected: Expected, live: Observation) -> Comparison:
         if states.nodes.get(owner) == "present":
             inactive = live.nodes[owner].inactive
             issues += _of_endpoints(owner, of_owner, endpoints[owner], expected.generation, states, inactive)
-    issues += _wrong_topics(nodes, live, states) if expected.generation == 1 else ()
+    issues += _wrong_topics(nodes, live, states) if ros(expected.generation).has_master else ()
     for name, running in live.nodes.items():
         if running.inactive is not None and states.nodes.get(name) == "present":
             states.nodes[name] = "inactive"
@@ -300,7 +301,7 @@ def _similar(endpoint: ExpectedEndpoint, extra: Sequence[LiveEndpoint]) -> str |
 def _extra_endpoints(left: _LiveEndpoints, generation: int) -> Iterator[LiveEndpoint]:
     """What is there and was not expected; an action of ROS 1 as such."""
     endpoints = [endpoint for found in left.values() for endpoint in found]
-    if generation == 1:
+    if not ros(generation).native_actions:
         plain = [Endpoint(endpoint.role, endpoint.name, endpoint.type) for endpoint in endpoints]
         of_actions: set[tuple[str, str]] = set()
         for action in actions_of(plain):
@@ -316,7 +317,7 @@ def _different(node: str, endpoint: ExpectedEndpoint, there: Sequence[LiveEndpoi
     wanted = endpoint.type
     if wanted is not None and endpoint.parts:
         wanted += "Goal"
-    by_topic = generation == 1 and endpoint.role in ("publisher", "subscriber")
+    by_topic = ros(generation).has_master and endpoint.role in ("publisher", "subscriber")
     if wanted not in (None, "*") and types and not by_topic and _plain(wanted) not in map(_plain, types):
         actual = " | ".join(sorted(types))
         actual = actual.removesuffix("Goal") if endpoint.parts else actual

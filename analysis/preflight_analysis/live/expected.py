@@ -9,6 +9,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Place
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import topic_endpoints
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.live.model import Expected, ExpectedEndpoint, ExpectedNode
@@ -46,7 +47,7 @@ def _node(
 ) -> ExpectedNode:
     # The name of an executable is not that of the node, unless a run told it.
     certain = "$(" not in node.name and (node.named or (node.name_from_code and not node.name_inferred))
-    loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if generation == 1 else None
+    loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if ros(generation).has_nodelets else None
     manager = names.resolve(loaded.manager, node.name) if loaded is not None and loaded.manager is not None else None
     ended = interface.outcome.status == "exited" and not interface.outcome.exit_code
     return ExpectedNode(
@@ -75,7 +76,7 @@ def _endpoint(connection: Connection, generation: int, documents: Mapping[str, D
         endpoint.qos,
         not endpoint.uncertain,
         endpoint.on_demand,
-        topic_endpoints(endpoint.role, connection.name) if is_action and generation == 1 else (),
+        topic_endpoints(endpoint.role, connection.name) if is_action and not ros(generation).native_actions else (),
         _place(connection_location(connection), documents),
         Place(endpoint.source_file, endpoint.source_line) if endpoint.source_file and endpoint.source_line else None,
     )

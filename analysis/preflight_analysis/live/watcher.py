@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.generation import ros
 from preflight_analysis.live.compare import compare
 from preflight_analysis.live.model import CannotObserveError, Comparison, Expected, Issue, Observation
 from preflight_analysis.live.model import State as Status
@@ -61,9 +62,9 @@ Event = Waiting | Attached | State
 
 def observer(generation: int, environment: Environment) -> Observer:
     """What shows the system that the environment's variables lead to."""
-    if generation == 2:
-        return Ros2Observer(environment)
-    return Ros1Observer(environment.variables.get("ROS_MASTER_URI"))
+    if ros(generation).has_master:
+        return Ros1Observer(environment.variables.get("ROS_MASTER_URI"))
+    return Ros2Observer(environment)
 
 
 class Watcher:

@@ -14,6 +14,7 @@ import yaml
 from lxml import etree
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.generation import ros
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
 _GROUPS: Mapping[str, tuple[Role, str]] = {
@@ -114,7 +115,7 @@ def _type(type_: Any, role: Role, generation: int) -> str | None:
     package, name = parts[0], parts[-1]
     if len(parts) == 1 or not package or not name:
         return None
-    return f"{package}/{name}" if generation == 1 else f"{package}/{_KINDS[role]}/{name}"
+    return f"{package}/{_KINDS[role]}/{name}" if ros(generation).kinds_in_types else f"{package}/{name}"
 
 
 def _qos(said: Any) -> dict[str, Any]:

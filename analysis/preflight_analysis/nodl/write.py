@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from preflight_analysis.evaluation.json_values import json_value
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse, Role
@@ -86,7 +87,7 @@ def _endpoint(endpoint: Endpoint, generation: int) -> dict[str, Any] | str:
     """The entry of an endpoint, or why there can be none."""
     name = f"~/{endpoint.name[1:].lstrip('/')}" if endpoint.name.startswith("~") else endpoint.name
     type_ = endpoint.type or ""
-    if generation == 2 and endpoint.role.startswith("action"):
+    if ros(generation).native_actions and endpoint.role.startswith("action"):
         type_ = type_.removesuffix("Action")
     if not _TYPE.match(type_):
         return "type not known"
@@ -94,7 +95,7 @@ def _endpoint(endpoint: Endpoint, generation: int) -> dict[str, Any] | str:
         return "no name of ROS 2"
     entry: dict[str, Any] = {"name": name, "type": type_}
     if endpoint.role in ("publisher", "subscriber"):
-        entry["qos"] = _qos_1(endpoint.qos) if generation == 1 else _qos_2(endpoint.qos)
+        entry["qos"] = _qos_2(endpoint.qos) if ros(generation).has_qos else _qos_1(endpoint.qos)
     return entry
 
 

@@ -10,6 +10,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tags import scopes_of
+from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution
 from preflight_analysis.launch.substitutions import SubstitutionSyntaxError, find_substitutions
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
@@ -22,7 +23,8 @@ def accepted(launch_file: LaunchFile) -> tuple[ArgDeclaration, ...]:
     in ROS 1, those with a `value` cannot be overridden. One that is declared several times (under conditions) counts
     once."""
     found: dict[str, ArgDeclaration] = {}
-    scopes = scopes_of(2) if launch_file.generation == 2 else frozenset[str]()
+    number = launch_file.generation
+    scopes = scopes_of(number) if ros(number).shared_configurations else frozenset[str]()
     for action in _below(launch_file.root, scopes) if launch_file.root is not None else ():
         if action.kind == "arg" and action.attribute("name") is not None:
             each = declaration(action)
@@ -94,7 +96,7 @@ def resolved(analysis: Analysis, file: str, text: str, args: Mapping[str, str] |
     """
     if "$" not in text:
         return text
-    if analysis.tree.generation == 2:
+    if analysis.tree.ros.nested_substitutions:
         parsed = parse_value_ros2(SpannedText(text, Span(0, len(text))))
         return _put_together(analysis, file, parsed.parts, args) if parsed.problem is None else None
     pieces: list[str] = []

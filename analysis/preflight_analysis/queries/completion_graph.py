@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.documents.document import Element
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.markdown import code
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.launch.model import NODE_KINDS
@@ -60,14 +61,14 @@ def parameters(analysis: Analysis, file: str, place: Place, element: Element, be
 def own_name(use: ParamUse, generation: int) -> str | None:
     """The name of a node's own parameter as it is written in its tag; None for one of others. In ROS 2 all are its
     own."""
-    if generation == 2:
+    if ros(generation).own_parameters:
         return use.name.removeprefix("~")
     return use.name[1:] if use.name.startswith("~") else None
 
 
 def default_of(use: ParamUse, generation: int) -> str:
     """What a parameter is where it is not set; nodes of ROS 2 declare its type with that."""
-    if generation == 2:
+    if ros(generation).own_parameters:
         return default_text(use).replace("`", "")
     return f"default: {use.default!r}" if use.has_default else "no default" if use.mandatory else ""
 

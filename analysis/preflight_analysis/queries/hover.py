@@ -292,10 +292,10 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
             if connections:
                 lines += ["", title, *(_connection(c, interface) for c in sorted(connections, key=lambda c: c.name))]
         reads = [p for p in interface.params if not p.builtin]
-        if reads and analysis.tree.generation == 1:
+        if reads and not analysis.tree.ros.own_parameters:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]
         lines += [f"\n{escaped(note)}" for note in interface.notes]
-    if analysis.tree.generation == 2:
+    if analysis.tree.ros.own_parameters:
         lines += _own_params(analysis, node, interface or NOT_RUN)
     frames = frames_of(node, interface or NOT_RUN)
     if frames:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from preflight_analysis import generation
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.findings.markdown import code
@@ -49,9 +50,9 @@ class Language:
 ROS1 = Language(
     TAGS,
     SUBSTITUTIONS,
-    "arg",
-    "find",
-    "type",
+    generation.ROS1.argument,
+    generation.ROS1.find,
+    generation.ROS1.executable,
     also={"arg": ("default",), "param": ("value",), "rosparam": ("file",)},
     excludes={"arg": (("default", "value"),), "param": (("value", "textfile", "binfile", "command"),)},
     only_declared=frozenset({"default", "doc"}),
@@ -61,20 +62,22 @@ ROS1 = Language(
 ROS2 = Language(
     tags(),
     {command: (takes, doc) for command, (takes, doc, _) in SUBSTITUTIONS_ROS2.items()},
-    "var",
-    "find-pkg-share",
-    "exec",
+    generation.ROS2.argument,
+    generation.ROS2.find,
+    generation.ROS2.executable,
     also={"node": ("pkg", "exec", "name"), "arg": ("default",), "param": ("name", "value")},
     excludes={"arg": (("default", "value"),), "param": (("value", "from"), ("name", "from"))},
     only_declared=frozenset({"default", "description"}),
     suffixes={"launch-file": (".launch", ".xml", ".py", ".yaml", ".yml"), "yaml-file": (".yaml", ".yml")},
-    nests=True,
+    nests=generation.ROS2.nested_substitutions,
 )
+
+_BY_GENERATION = {1: ROS1, 2: ROS2}
 
 
 def language_of(launch_file: LaunchFile) -> Language:
     """The language of a launch file."""
-    return ROS2 if launch_file.generation == 2 else ROS1
+    return _BY_GENERATION[launch_file.generation]
 
 
 def place_in(launch_file: LaunchFile, offset: int) -> Place | None:

@@ -68,7 +68,7 @@ def node_tree(analysis: Analysis, findings: Mapping[str, Sequence[Finding]]) -> 
         space = top
         for part in node.name.split("/")[1:-1]:
             space = space.spaces.setdefault(part, _Namespace())
-        params = node.params if tree.generation == 2 else by_owner.get(node.name, ())
+        params = node.params if tree.ros.own_parameters else by_owner.get(node.name, ())
         space.items.append(_node(node, interface, params, marks, analysis.why_not_run))
     items = [*_namespace(top, "/"), *_includes(analysis)]
     if shared := by_owner.get("", ()):

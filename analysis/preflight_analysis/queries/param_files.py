@@ -36,7 +36,7 @@ class Reader:
 
 def is_param_file(analysis: Analysis, path: str) -> bool:
     """Whether the launch reads that file for its parameters."""
-    return analysis.tree.generation == 2 and is_yaml(path) and path not in analysis.launch_files
+    return analysis.tree.ros.own_parameters and is_yaml(path) and path not in analysis.launch_files
 
 
 def readers(analysis: Analysis, path: str) -> tuple[Reader, ...]:

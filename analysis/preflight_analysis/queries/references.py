@@ -104,7 +104,7 @@ def _parameters(context: QueryContext, symbol: NamedSymbol) -> Iterator[Referenc
             if name in symbol.names:
                 yield Reference(param.name_location or param.origin[-1], True)
         for read in analysis.graph.param_reads if analysis.graph else ():
-            name = own_parameter(read.node, read.use.name) if analysis.tree.generation == 2 else read.name
+            name = own_parameter(read.node, read.use.name) if analysis.tree.ros.own_parameters else read.name
             if name in symbol.names and (place := made_at(context, read.use)) is not None:
                 yield Reference(place, False)
         yield from _annotations(context, symbol, analysis.tree.nodes, parameters=True)

@@ -40,7 +40,7 @@ def _is_part_of_another(context: Context) -> bool:
     """Whether what is launched here is made to be included: it needs arguments, and in ROS 2 all that is configured
     where it is included is known in it, declared or not."""
     needed = any(problems_of(context, ArgumentNeeded))
-    return context.tree.generation == 2 and needed
+    return context.tree.ros.shared_configurations and needed
 
 
 def _unsure(

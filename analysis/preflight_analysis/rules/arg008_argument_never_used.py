@@ -41,7 +41,7 @@ class _Arguments:
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    if context.tree.generation == 2:
+    if context.tree.ros.shared_configurations:
         yield from _check_ros2(rule, context)
         return
     for launch_file, unused, substituted in filter(None, context.kept.each(_unused, context.launch_files.values())):

@@ -8,6 +8,6 @@ _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
 
 def has_ros(context: Context) -> bool:
     """Whether the ROS that the launch file is for is installed, and not only a workspace there."""
-    if context.tree.generation == 1:
+    if not context.tree.ros.ament:
         return context.environment.python is not None
     return not _CORE.isdisjoint(context.environment.packages)

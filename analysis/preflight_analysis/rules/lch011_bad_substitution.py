@@ -1,6 +1,6 @@
 """LCH011: a substitution that cannot be made."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from preflight_analysis.evaluation.problems import EvalFailed
 from preflight_analysis.findings.finding import Finding
@@ -9,13 +9,20 @@ from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
-_RENAMED = {
-    **{"arg": "var", "find": "find-pkg-share", "optenv": "env", "env-default": "env"},
-    **{"FindPackage": "find-pkg-share", "FindPackageShare": "find-pkg-share", "FindPackagePrefix": "find-pkg-prefix"},
-    **{"LaunchConfiguration": "var", "EnvironmentVariable": "env", "PythonExpression": "eval"},
-    **{"PathJoinSubstitution": "path-join", "ThisLaunchFileDir": "dirname", "ExecutableInPackage": "exec-in-pkg"},
+_RENAMED: Mapping[int, Mapping[str, str]] = {
+    1: {},
+    2: {
+        **{"arg": "var", "find": "find-pkg-share", "optenv": "env", "env-default": "env"},
+        **{
+            "FindPackage": "find-pkg-share",
+            "FindPackageShare": "find-pkg-share",
+            "FindPackagePrefix": "find-pkg-prefix",
+        },
+        **{"LaunchConfiguration": "var", "EnvironmentVariable": "env", "PythonExpression": "eval"},
+        **{"PathJoinSubstitution": "path-join", "ThisLaunchFileDir": "dirname", "ExecutableInPackage": "exec-in-pkg"},
+    },
 }
-"""What substitutions of ROS 1, and those of Python launch files, are called in XML and YAML of ROS 2."""
+"""By generation: what substitutions of ROS 1, and those of Python launch files, are called in XML and YAML of ROS 2."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -30,7 +37,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _meant(context: Context, bad: BadSubstitution) -> str | None:
     """The command that there is and that is probably meant."""
     near = nearest(bad.command, bad.commands) if bad.command else None
-    return _RENAMED.get(bad.command, near) if context.tree.generation == 2 and bad.commands else near
+    return _RENAMED[context.tree.generation].get(bad.command, near) if bad.commands else near
 
 
 RULE = Rule(

@@ -95,7 +95,7 @@ def _severity(text: str, in_package: str | None) -> Severity | None:
 def _in_package(text: str, context: Context) -> str | None:
     """The same file by `$(find ...)`, if the path has the folder of a known package in which that file exists."""
     packages = context.environment.packages
-    find = "find" if context.tree.generation == 1 else "find-pkg-share"
+    find = context.tree.ros.find
     for package in packages.values():
         share = package.share.rstrip("/")
         if text.startswith(share + "/"):

@@ -16,7 +16,7 @@ from preflight_analysis.rules.syntax import Tags, removal
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    if context.tree.generation == 2:
+    if context.tree.ros.first_remap_wins:
         yield from _behind_the_first(rule, context)
         return
     tags = Tags(context.launch_files)

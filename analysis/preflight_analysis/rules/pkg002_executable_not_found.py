@@ -26,7 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if found.path is not None or found.package_path is None or node.unknowns or was_removed(context, node):
             continue
-        location = attribute_location(context, node, "type" if context.tree.generation == 1 else "exec")
+        location = attribute_location(context, node, context.tree.ros.executable)
         chain = include_chain(node.origin)
         made_of = executables.made_of(node.package, node.executable)
         if found.not_executable and (made_of is None or not made_of.by_build):
@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(message, location, severity="info", confidence="likely", related=chain)
             continue
         names = executables.names(node.package)
-        if context.tree.generation == 2 and not names:
+        if context.tree.ros.ament and not names:
             continue  # neither installed, nor with build files that say what it will have
         holder = _other_package(context, executables, node)
         programs = [name for name in names if not name.endswith(_NO_PROGRAMS)]

@@ -64,7 +64,7 @@ def _of_file(use: Use) -> Use | None:
 def _package_of(context: Context, path: str) -> Package | None:
     """The package of ROS 2 in whose source the file is."""
     package = package_around(context.environment, path)
-    if package is None or package.generation != 2 or not path.startswith(package.share + os.sep):
+    if package is None or not package.is_ament or not path.startswith(package.share + os.sep):
         return None
     return package if os.path.isfile(path) else None
 

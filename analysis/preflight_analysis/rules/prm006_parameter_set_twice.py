@@ -53,7 +53,7 @@ class _Setting:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _keys_twice(rule, context)
-    if context.tree.generation == 2:
+    if context.tree.ros.own_parameters:
         yield from _of_ros2_nodes(rule, context)
         return
     tags = Tags(context.launch_files)

@@ -89,7 +89,7 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
 
 def _distribution(context: Context) -> str:
     """Its name as packages have it; of ROS 2 there are many in use."""
-    return context.environment.distro or ("noetic" if context.tree.generation == 1 else "$ROS_DISTRO")
+    return context.environment.distro or context.tree.ros.default_distro
 
 
 def _will_build(context: Context, program: str) -> str | None:

@@ -20,7 +20,7 @@ from preflight_analysis.tracing.interface import Interface, ParamUse
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    if graph is not None and graph.tree.generation == 2:
+    if graph is not None and graph.tree.ros.own_parameters:
         yield from _of_ros2(rule, context, graph)
         return
     missing = context.once(missing_params)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.generation import ROS1
 from preflight_analysis.rules.rule import Context
 
 OLDER_THAN_NOETIC = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic")
@@ -68,7 +69,7 @@ RETIRED_IN = frozenset(_BY_PACKAGE)
 
 def retired(context: Context, node: LaunchNode) -> Iterator[Retired]:
     """What is known of a node of ROS 1 that should be another one. One that was removed is not there either."""
-    for each in _BY_PACKAGE.get(node.package, ()) if context.tree.generation == 1 else ():
+    for each in _BY_PACKAGE.get(node.package, ()) if context.tree.generation == ROS1.number else ():
         there = context.environment.distro in each.still_in or node.resolved.path is not None
         if each.executable in (None, node.executable) and not (each.removed and there):
             yield each

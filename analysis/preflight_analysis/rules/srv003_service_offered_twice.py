@@ -17,7 +17,7 @@ _BOTH_ANSWER = "each of them carries out every request, and the client takes the
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    said = _BOTH_ANSWER if context.tree.generation == 2 else "only the one that registers last is called"
+    said = _BOTH_ANSWER if context.tree.ros.all_servers_answer else "only the one that registers last is called"
     # Two nodes of a kind share all their services: one finding for all that stand at one place.
     found: dict[tuple[Location, tuple[str, ...]], list[tuple[str, list[Connection]]]] = {}
     for channel in context.graph.services.values():

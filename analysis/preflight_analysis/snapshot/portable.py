@@ -7,6 +7,7 @@ import re
 from typing import Any
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.generation import ros
 
 _PATH = re.compile(r"/[\w.+@~-]+(?:/[\w.+@~-]+)*")
 
@@ -16,7 +17,7 @@ class Portable:
     `~`, so that two machines, or two checkouts of one repository, say the same."""
 
     def __init__(self, environment: Environment, generation: int) -> None:
-        find = "find" if generation == 1 else "find-pkg-share"
+        find = ros(generation).find
         self._names: dict[str, str] = {}
         home = os.path.expanduser("~")
         for folder, name in (

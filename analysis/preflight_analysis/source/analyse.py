@@ -201,7 +201,7 @@ class SourceAnalysis:
         package = self._environment.packages.get(name)
         if package is None:
             return None
-        return package.share if package.generation == 2 else os.path.join(package.share, "src")
+        return package.share if package.is_ament else os.path.join(package.share, "src")
 
     def _has_type(self, package: str, kind: str, name: str) -> bool:
         found = self._environment.packages.get(package)

@@ -97,14 +97,14 @@ def _placeless(tree: LaunchTree, interface: Interface) -> bool:
     """Whether all is known of what a node does, but nothing of where in its source: rcl is not told that."""
     seen = interface.endpoints + interface.params
     has_places = any(each.source_file is not None for each in seen)
-    return tree.generation == 2 and interface.source == "trace" and bool(seen) and not has_places
+    return not tree.ros.traces_have_places and interface.source == "trace" and bool(seen) and not has_places
 
 
 def _may_declare_later(tree: LaunchTree, node: LaunchNode, interface: Interface) -> bool:
     """Whether a node of ROS 2 is given a parameter that its run did not declare: a callback may do so that the run did
     not wait for, of a timer for instance."""
     declared = {use.name.removeprefix("~") for use in interface.params}
-    declares = tree.generation == 2 and interface.source == "trace" and bool(declared)
+    declares = tree.ros.own_parameters and interface.source == "trace" and bool(declared)
     return declares and any(param.name not in declared for param in node.params)
 
 

@@ -162,7 +162,7 @@ class TraceCache(Store):
         return self._folder_of(_executable_digest(generation, package, executable, plugin))
 
     def _place(self, recipe: Recipe, request: TraceRequest) -> Place:
-        given = request.given_to(None) if request.generation == 2 else {}
+        given = request.given_to(None) if request.ros.own_parameters else {}
         named = {
             "executable": os.path.realpath(request.executable),
             "given": request.executable,

@@ -48,6 +48,8 @@ _NO_NETWORK = re.compile(
 )
 _PATH = re.compile(r"(?<![\w.])/[^\s:;,'\"`()<>\[\]]+")
 _LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
+_VARIABLES = {1: recipes.variables, 2: ros2_recipe.variables}
+_MAKE = {1: ros1_recipe.make_command, 2: ros2_recipe.make_command}
 
 
 class CommandCache(Store):
@@ -178,16 +180,14 @@ class CommandRunner:
         if not words:
             return CommandResult("failed", reason="it is empty")
         program = os.path.join(self.cwd, words[0]) if "/" in words[0] else words[0]
-        of_ros2 = self.environment.generation == 2
-        path = (ros2_recipe if of_ros2 else recipes).variables(self.environment, ())["PATH"]
+        path = _VARIABLES[self.environment.generation](self.environment, ())["PATH"]
         executable = shutil.which(program, path=path)
         if executable is None:
             return CommandResult("missing", reason=f"there is no program {words[0]}")
-        python = self.environment.ros2_python if of_ros2 else self.environment.python
+        python = self.environment.interpreter(self.environment.generation)
         if words[0] in ("python3", "python") and python is not None:
             executable = python  # as for `#!/usr/bin/env python3`
-        make = ros2_recipe.make_command if of_ros2 else ros1_recipe.make_command
-        recipe = make(self.environment, executable, words[1:], self.cwd)
+        recipe = _MAKE[self.environment.generation](self.environment, executable, words[1:], self.cwd)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
         beyond = recipes.command_paths(self.environment, recipe, executable, named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))

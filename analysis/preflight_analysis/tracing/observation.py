@@ -74,12 +74,12 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     outcome = replace(outcome, answers=tuple(found.answers))
     if outcome.status == "not-run":
         return Observation(Interface("none", outcome), Dependencies(), lasting=False)
-    if request.generation == 2 and recipe.preload is not None and not found.woven and (why := _not_seen(outcome)):
+    if not request.ros.has_master and recipe.preload is not None and not found.woven and (why := _not_seen(outcome)):
         # Nothing was seen of it, which does not say that there is nothing: it is as if it had not been run.
         outcome = Outcome("not-run", stderr_tail=tail, reason=why)
         return Observation(Interface("none", outcome), Dependencies(tuple(found.files)), lasting=not raw.killed)
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
-    if request.generation == 1 and not recipe.python:
+    if request.ros.has_handles and not recipe.python:
         _correct_names(found, request.node, remaps)
     gone = _withdrawn(found)
     endpoints = tuple(
@@ -89,9 +89,9 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     )
     params, param_dependencies = _params(found)
     endpoints, params, nodes = _owned(endpoints, params, tuple(found.nodes))
-    if request.generation == 2 and recipe.preload is not None:
+    if request.ros.own_parameters and recipe.preload is not None:
         params = _without_given(params, nodes, request)
-    if request.generation == 2:
+    if request.ros.own_parameters:
         params = _with_refused(params, nodes, outcome)
     asked = set(found.asked)
     if any(node.full for node in nodes):
@@ -101,10 +101,10 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         not d.given and d.access != "search" and not _LIBRARY_PARAMS.match(d.name) for d in param_dependencies
     )
     watched = found.woven and (recipe.python or recipe.preload is not None)
-    if request.generation == 2 and recipe.preload is not None:
+    if request.ros.own_parameters and recipe.preload is not None:
         # Which it takes without declaring them is not seen.
         param_dependencies.append(ParamDependency("list", "/", given=False))
-    if request.generation == 2 and (recipe.preload is not None or outcome.status in ("crashed", "exited")):
+    if request.ros.own_parameters and (recipe.preload is not None or outcome.status in ("crashed", "exited")):
         # What is wrong with its parameters may stop it before it declares one.
         param_dependencies += [ParamDependency("get", name, given=False) for name in request.params]
     if not watched or unexplained or _is_named(endpoints, params, request.node):

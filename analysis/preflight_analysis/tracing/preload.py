@@ -165,10 +165,13 @@ class Library:
         return Preload(path)
 
 
+_WATCHED = {1: ROSCPP, 2: RCL}
+
+
 @functools.cache
 def library(generation: int) -> Library:
     """The one of the user's cache folder for nodes of a generation of ROS."""
-    return Library(watched=ROSCPP if generation == 1 else RCL)
+    return Library(watched=_WATCHED[generation])
 
 
 def _used(path: str | None) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 from preflight_analysis.evaluation.ros2.param_files import Section
 from preflight_analysis.evaluation.ros2.remaps import before_remaps, renames_nodes
+from preflight_analysis.generation import Generation, ros
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,9 +45,14 @@ class TraceRequest:
     """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
 
     @property
+    def ros(self) -> Generation:
+        """What is so in its generation of ROS."""
+        return ros(self.generation)
+
+    @property
     def renames(self) -> tuple[tuple[str, str], ...]:
         """ROS 2: the remaps of the names and namespaces of nodes; all others are applied to what the run tells."""
-        return tuple(remap for remap in self.remaps if self.generation == 2 and renames_nodes(remap[0]))
+        return tuple(remap for remap in self.remaps if self.ros.remaps_of_nodes and renames_nodes(remap[0]))
 
     def under(self, name: str) -> TraceRequest | None:
         """The run with what the parameter files have for the full name that the node gave itself; None where that
@@ -70,7 +76,7 @@ class TraceRequest:
         own = f"{self.node}/"
         given = {name.removeprefix(own): value for name, value in self.params.items() if name.startswith(own)}
         given = dict(dict(self.each).get(node or "", given))
-        return before_remaps(given, self.remaps, node or self.node) if self.generation == 2 else given
+        return before_remaps(given, self.remaps, node or self.node) if self.ros.own_parameters else given
 
     def _for(self, name: str) -> dict[str, Any]:
         """What the sources have for the node of this full name."""

@@ -134,7 +134,7 @@ def _roots(request: TraceRequest) -> list[str]:
 def _sources(environment: Environment) -> Iterable[str]:
     """The folders of the Python packages of the workspace that are there as source."""
     for package in environment.packages.values():
-        if package.generation == 2 and os.path.isfile(os.path.join(package.share, "setup.py")):
+        if package.is_ament and os.path.isfile(os.path.join(package.share, "setup.py")):
             yield package.share
 
 
@@ -150,7 +150,7 @@ def _source_packages(environment: Environment) -> dict[str, str]:
     return {
         package.name: package.share
         for package in environment.packages.values()
-        if package.generation == 2 and not package.share.startswith(installed)
+        if package.is_ament and not package.share.startswith(installed)
     }
 
 

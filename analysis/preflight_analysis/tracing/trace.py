@@ -127,15 +127,14 @@ class Tracer:
             return _not_run("the run was cancelled")
         before = identity(request.executable)
         built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
-        if request.generation == 2 and built.reason is not None:
+        if not request.ros.has_master and built.reason is not None:
             return _not_run(built.reason)
         recipe = node_recipe.make(self.environment, request, built.path)
         visible = sorted({*self._visible, *recipes.request_paths(self.environment, request, recipe)})
         hidden = recipes.out_of_reach(recipe, request.executable, visible)
         if hidden is not None:
             return _not_run(_OUT_OF_REACH.format(hidden))
-        python = self.environment.python if request.generation == 1 else self.environment.ros2_python
-        interpreter = python or sys.executable
+        interpreter = self.environment.interpreter(request.generation) or sys.executable
         shown = Visible(tuple(visible), self._repositories)
         agents = compiled.copies().of(interpreter, shown)
         raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents)
@@ -153,7 +152,7 @@ class Tracer:
         if built.reason is not None:
             noted = replace(observed.interface, notes=(*observed.interface.notes, f"{_MASTER_ALONE}: {built.reason}"))
             observed = replace(observed, interface=noted)
-        if status.narrow and request.generation == 2 and _is_refused(observed.interface):
+        if status.narrow and not request.ros.has_master and _is_refused(observed.interface):
             return _not_run(
                 f"it ended before it was up; the middleware may need what the sandbox by {status.backend} refuses"
             )
@@ -200,7 +199,7 @@ def _unbuilt(found: Interface, environment: Environment, generation: int) -> str
     package = environment.packages.get(missing[2]) if missing is not None else None
     if missing is None or package is None or package.generation != generation:
         return None
-    if generation == 2:
+    if package.is_ament:
         return f"it imports {package.name}, a package of the workspace whose Python modules are not built"
     if not catkin_python.generates_modules(package):
         return None

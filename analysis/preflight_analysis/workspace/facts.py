@@ -8,6 +8,7 @@ from typing import Literal
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tags import scopes_of, tags_of
+from preflight_analysis.generation import Generation, ros
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Substitution, Value
 from preflight_analysis.launch.references import NAMES, Named, arg_references, first_word
 from preflight_analysis.launch.schema import Kind as ValueKind
@@ -103,13 +104,14 @@ def facts_of(launch_file: LaunchFile) -> FileFacts:
     mentions += tuple(m for part in named or () for m in _of_substitution(part, Span(0, 0)))
     args = tuple(declaration(action) for action in _declarations(root, scopes)) if root is not None else ()
     has_nodes = any(m.kind == "executable" for m in mentions)
-    passing_all = frozenset(_passing_all(root, launch_file.generation)) if root is not None else frozenset[Span]()
+    passing_all = frozenset(_passing_all(root, ros(launch_file.generation))) if root is not None else frozenset[Span]()
     return FileFacts(launch_file.path, launch_file.document.version, args, mentions, has_nodes, passing_all)
 
 
-def _passing_all(root: Action, generation: int) -> Iterator[Span]:
+def _passing_all(root: Action, generation: Generation) -> Iterator[Span]:
     for action in root.walk():
-        if generation == 2 and action.kind == "include":  # what is set around an include is set in the file too
+        # What is set around an include is set in the file too.
+        if generation.shared_configurations and action.kind == "include":
             yield action.head_span
         value = action.value("pass_all_args") if action.kind == "include" else None
         if value is not None and may_be_true(value):

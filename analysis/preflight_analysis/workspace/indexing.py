@@ -13,6 +13,7 @@ from preflight_analysis.environment.installed_paths import installed_at, package
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
 from preflight_analysis.workspace.facts import FileFacts, facts_of
@@ -236,7 +237,7 @@ def _launch_files(folder: str, workspace: Workspace) -> list[str]:
         for name in names:
             path = os.path.join(place, name)
             if name.endswith(LAUNCH_SUFFIXES):
-                is_one = not (ignored and _is_of_ros2(path, workspace.sources))
+                is_one = not (ignored and _is_of_ament(path, workspace.sources))
             else:
                 placed = name.endswith(PYTHON_SUFFIX) and (in_launch_folder or _is_shared(workspace, path))
                 is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
@@ -256,6 +257,6 @@ def _makes_launch_description(path: str, sources: Sources) -> bool:
     return not isinstance(found, Unreadable) and LAUNCH_FUNCTION.search(found.text) is not None
 
 
-def _is_of_ros2(path: str, sources: Sources) -> bool:
+def _is_of_ament(path: str, sources: Sources) -> bool:
     found = sources.launch_file(path)
-    return not isinstance(found, Unreadable) and found.generation == 2
+    return not isinstance(found, Unreadable) and ros(found.generation).ament

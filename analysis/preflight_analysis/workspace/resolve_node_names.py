@@ -16,7 +16,7 @@ def resolve_node_names(
 ) -> LaunchTree:
     """The tree with the real names where a run or the source told them; the same one where there is nothing to
     change."""
-    if tree.generation != 2 or all(node.named for node in tree.nodes):
+    if not tree.ros.nodes_name_themselves or all(node.named for node in tree.nodes):
         return tree
     changed = False
     nodes = list(tree.nodes)

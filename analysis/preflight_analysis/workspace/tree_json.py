@@ -25,7 +25,7 @@ def tree_json(tree: LaunchTree, documents: Mapping[str, Document], findings: Ite
     errors = sorted((f for f in findings if f.stops_launch), key=lambda finding: finding.launch_order)
     return {
         "schema": SCHEMA,
-        **({"deferred": deferred} if tree.generation == 2 else {}),
+        **({"deferred": deferred} if tree.ros.deferred_actions else {}),
         "file": tree.file,
         "generation": tree.generation,
         "args": {

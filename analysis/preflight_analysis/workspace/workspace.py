@@ -267,7 +267,7 @@ class Workspace:
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
-        if analysis.tree.generation == 2:
+        if analysis.tree.ros.own_parameters:
             return tuple(self._ros2_request(node, analysis.documents) for node in analysis.tree.nodes)
         values = analysis.tree.params.values()
         params = SharedParams({p.name: p.value for p in values if not isinstance(p.value, CommandValue)})
@@ -275,7 +275,7 @@ class Workspace:
 
     def cannot_run(self, tree: LaunchTree) -> str | None:
         """What the environment lacks for running any node of the tree."""
-        lacks = tree.generation == 2 and self.environment.ros2_python is None
+        lacks = tree.ros.needs_rclpy and self.environment.ros2_python is None
         return "there is no rclpy to run it with; ros-preflight doctor shows where it was looked for" if lacks else None
 
     def _ros2_request(self, node: LaunchNode, documents: Mapping[str, Document]) -> TraceRequest | None:

@@ -15,7 +15,7 @@ from typing import Any
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.arguments import parse_arguments, parse_ros2_arguments
+from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.resolve_commands import resolve_commands
@@ -51,6 +51,7 @@ BASE_ENV_ROS2: Mapping[str, str] = {
     "ROS_VERSION": "2",
 }
 """The same for ROS 2, with the home folder as the recorded answers of the real launch name it."""
+_BASE = {1: BASE_ENV, 2: BASE_ENV_ROS2}
 
 NO_RUN = "--no-run was given"
 _COMMAND = "<command>"
@@ -121,7 +122,7 @@ class _Surroundings:
             return self._runners[generation]
 
     def _environment(self, generation: int) -> Environment:
-        base = BASE_ENV if generation == 1 else BASE_ENV_ROS2
+        base = _BASE[generation]
         variables = {**base, "ROS_PACKAGE_PATH": os.pathsep.join(self._package_path), **self._env}
         prefixes = [prefix for prefix in self._env.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix]
         return detect_environment(None, variables, self._package_path, prefixes)
@@ -129,7 +130,7 @@ class _Surroundings:
 
 def _answer(job: Job, around: _Surroundings, cancel: threading.Event, *, no_run: bool) -> str:
     generation = around.generation(job.file)
-    args = parse_arguments(job.args) if generation == 1 else parse_ros2_arguments(job.args)
+    args = arguments_of(generation, job.args)
     runner = around.runner(generation)
     results = CommandResults(lambda: NO_RUN if no_run else None, _COMMAND)
     workspace = Workspace(runner.environment, around.sources(generation), _CWD, results)

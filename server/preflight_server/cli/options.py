@@ -6,8 +6,9 @@ import argparse
 import os
 from collections.abc import Iterable, Sequence
 
-from preflight_analysis.evaluation.arguments import parse_arguments, parse_ros2_arguments
+from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.generation import ROS1
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.workspace.sources import Sources
@@ -85,8 +86,7 @@ def launch_args(given: list[str], path: str) -> dict[str, str]:
         if not is_assignment(each):
             raise CannotDoError(f"{each!r} is not of the form name:=value")
     found = Sources().launch_file(path) if given else None
-    is_ros2 = isinstance(found, LaunchFile) and found.generation == 2
-    return parse_ros2_arguments(given) if is_ros2 else parse_arguments(given)
+    return arguments_of(found.generation if isinstance(found, LaunchFile) else ROS1.number, given)
 
 
 def is_assignment(word: str) -> bool:
