@@ -22,3 +22,9 @@ def test_a_remap_applies_once_and_to_resolved_names() -> None:
     assert names.resolve("chatter", "/robot/n", remaps) == "/robot/chater"
     assert names.resolve("/robot/chatter", "/robot/n", remaps) == "/robot/chater"
     assert names.resolve("~p", "/robot/n", remaps) == "/robot/q"
+
+
+def test_the_namespaces_of_names() -> None:
+    assert names.leaf("/a/b/c") == names.leaf("c") == "c"
+    assert names.leaf("/") == ""
+    assert names.with_namespaces(["/a/b/c", "/a/d", "e/f", "/"]) == {"/a/b/c", "/a/b", "/a", "/a/d", "e/f", "e", "/"}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 _LEGAL = re.compile(r"[~/A-Za-z][\w/]*\Z")
 
@@ -41,6 +41,22 @@ def as_namespace(name: str) -> str:
 def parent(name: str) -> str:
     """The namespace of a name, with its trailing slash: `/` of `/a`, `/a/` of `/a/b`."""
     return name.rstrip("/").rpartition("/")[0] + "/"
+
+
+def leaf(name: str) -> str:
+    """The last part of a name, the one that its namespace does not have."""
+    return name.rpartition("/")[2]
+
+
+def with_namespaces(full_names: Iterable[str]) -> set[str]:
+    """The names and the namespaces that they are in, up to but without the root: `/a` and `/a/b` of `/a/b`."""
+    found: set[str] = set()
+    for each in full_names:
+        name = each
+        while name and name not in found:
+            found.add(name)
+            name = name.rpartition("/")[0]
+    return found
 
 
 def join(namespace: str, name: str) -> str:

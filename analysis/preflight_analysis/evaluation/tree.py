@@ -75,6 +75,11 @@ class Param(NamedTuple):
     """In ROS 2, of a parameter file: what launch reads there, where the node gets another value, which is `value`:
     `1e-3` is a text for launch's YAML and a number for rcl's. None where there is no difference."""
 
+    @property
+    def place(self) -> Location:
+        """Where its name is written, else what sets it."""
+        return self.name_location or self.origin[-1]
+
 
 class Remap(NamedTuple):
     """`from` and `to` resolved as roslaunch does; `origin` ends at the `<remap>` tag."""

@@ -13,7 +13,7 @@ from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import topic_endpoints
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.live.model import Expected, ExpectedEndpoint, ExpectedNode
-from preflight_analysis.rules.places import connection_location, node_location
+from preflight_analysis.rules.places import connection_location
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.nodelets import nodelet_of
 from preflight_analysis.tracing.request import split_args
@@ -58,7 +58,7 @@ def _node(
             if connection.action is None and not connection.endpoint.builtin and _HIDDEN not in connection.name
         ),
         interface.complete and certain,
-        _place(node_location(node), documents),
+        _place(node.location, documents),
         certain,
         ended,
         interface.outcome.reason if interface.outcome.status in ("exited", "crashed") else None,

@@ -43,7 +43,7 @@ def mentions_of(context: QueryContext, trees: Iterable[LaunchTree], wanted: froz
     for tree in trees:
         for full, param in settings_of(tree):
             for node in _above(full, wanted):
-                if param.owner is None or names.is_global(context.text(param.name_location or param.origin[-1])):
+                if param.owner is None or names.is_global(context.text(param.place)):
                     yield _of_param(context, param, full, node)
         for place, full in remap_names(tree):
             for node in _above(full, wanted):
@@ -92,7 +92,7 @@ def _moved(span: Span | None, by: int) -> Span | None:
 
 
 def _of_param(context: QueryContext, param: Param, full: str, node: str) -> NodeMention:
-    place = param.name_location or param.origin[-1]
+    place = param.place
     launch_file = context.launch_file(place.file) if place.file == param.origin[-1].file else None
     action = action_at(launch_file, place.span.start) if launch_file else None
     if action is not None and action.kind == "rosparam" and place.span.start < action.body.span.start:
@@ -153,11 +153,11 @@ def _in_parameter_files(
     context: QueryContext, tree: LaunchTree, owner: LaunchNode, wanted: frozenset[str]
 ) -> Iterator[NodeMention]:
     """The keys in ROS 2's parameter files that end in the node's name; not if they mean other nodes as well."""
-    name = owner.name.rpartition("/")[2]
+    name = names.leaf(owner.name)
     for path in dict.fromkeys(source.path for source in owner.param_sources if source.path is not None):
         document = context.document(path)
         for section in read_param_file(document.text).sections if document is not None else ():
-            if not section.fits(owner.name) or section.pattern.rpartition("/")[2] != name:
+            if not section.fits(owner.name) or names.leaf(section.pattern) != name:
                 continue
             others = any(
                 section.fits(node.name) and node.name not in wanted and any(s.path == path for s in node.param_sources)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, Include, LaunchNode, LaunchTree, NotTaken, Param
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.launch.model import NODE_KINDS, Action
@@ -127,7 +128,7 @@ def _node(
     worst, count = marks.within(node.location.file, node.action.span)
     return Item(
         "node",
-        node.name.rpartition("/")[2],
+        names.leaf(node.name),
         detail,
         node.name,
         node.location,

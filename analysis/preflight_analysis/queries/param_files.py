@@ -100,7 +100,7 @@ def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -
     effective = next((p for p in reader.node.params if p.name == param.name), None)
     own = analysis.context.location(path, param.name_span)
     if effective is not None and effective.name_location != own:
-        where = place(analysis, effective.name_location or effective.origin[-1])
+        where = place(analysis, effective.place)
         text += f"; it gets {value_text(effective.value)} from {where}"
     return text
 

@@ -102,7 +102,7 @@ def _parameters(context: QueryContext, symbol: NamedSymbol) -> Iterator[Referenc
     for analysis in context.analyses:
         for name, param in settings_of(analysis.tree):
             if name in symbol.names:
-                yield Reference(param.name_location or param.origin[-1], True)
+                yield Reference(param.place, True)
         for read in analysis.graph.param_reads if analysis.graph else ():
             name = own_parameter(read.node, read.use.name) if analysis.tree.ros.own_parameters else read.name
             if name in symbol.names and (place := made_at(context, read.use)) is not None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
 from preflight_analysis.queries.places import shown_path
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.workspace import Analysis
@@ -47,7 +48,7 @@ def workspace_symbols(
 def _rank(symbol: WorkspaceSymbol, letters: str) -> tuple[object, ...]:
     """Whole names before beginnings of names before parts, short ones first."""
     name = symbol.name.lower()
-    last = name.rpartition("/")[2]
+    last = names.leaf(name)
     how = (last != letters, not last.startswith(letters), letters not in last, letters not in name)
     return (*how, len(name), name, symbol.kind, symbol.container, symbol.location.file, symbol.location.span)
 

@@ -99,13 +99,7 @@ class _Names:
 def _used(node: LaunchNode, interface: Interface) -> _Names:
     given = [e.name for e in interface.endpoints if not e.builtin] + [p.name for p in interface.params if not p.builtin]
     used = frozenset(names.resolve(name, node.name) for name in given)
-    around: set[str] = set()
-    for name in used:
-        above = name
-        while above and above not in around:
-            around.add(above)
-            above = above.rpartition("/")[0]
-    return _Names(used, frozenset(around))
+    return _Names(used, frozenset(names.with_namespaces(used)))
 
 
 def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
@@ -153,7 +147,7 @@ def _meant(
 def _is_slip(full: str, connection: Connection) -> bool:
     """Whether the names are a typo apart, or only their namespaces differ: a missing `~`, a slash too many."""
     alike = likeness(full, connection.name)
-    return (alike is not None and alike[0] == "typo") or full.rpartition("/")[2] == connection.name.rpartition("/")[2]
+    return (alike is not None and alike[0] == "typo") or names.leaf(full) == names.leaf(connection.name)
 
 
 def _partner(channel: Channel | None, connection: Connection) -> Connection | None:

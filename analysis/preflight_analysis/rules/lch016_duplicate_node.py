@@ -8,7 +8,6 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode, Problem
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -50,7 +49,7 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
                 context.location(node.location.file, node.action.kind_span),
                 severity="info" if node.name_inferred else "warning",
                 confidence="possible" if node.name_inferred or other.name_inferred else "likely",
-                related=(Related("the first one", node_location(other)), *include_chain(node.origin)),
+                related=(Related("the first one", other.location), *include_chain(node.origin)),
             )
 
 
@@ -63,7 +62,7 @@ def _why(node: LaunchNode) -> str:
 def _fixes(context: Context, problem: Problem[DuplicateNode], taken: set[str]) -> tuple[Fix, ...]:
     """The name with a number that makes it the only one."""
     full = problem.kind.name
-    namespace, leaf = names.parent(full), full.rpartition("/")[2]
+    namespace, leaf = names.parent(full), names.leaf(full)
     number = 2
     while f"{namespace}{leaf}_{number}" in taken:
         number += 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 
@@ -42,7 +42,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # Nearly no text has one of the names in it, and looking is quick.
     leaves = sorted({f"{name.rpartition('/')[2]}/" for name in anonymous})
     hit = re.compile("|".join(map(re.escape, leaves)))
-    real = _with_namespaces(node.name for node in nodes)
+    real = names.with_namespaces(node.name for node in nodes)
     seen: set[Location] = set()
     references = chain(
         context.kept.each(_references_of_node, nodes, hit),
@@ -86,11 +86,6 @@ def _plain_name(node: LaunchNode) -> str | None:
     return names.canonicalize(names.parent(node.name) + written)
 
 
-def _with_namespaces(full_names: Iterable[str]) -> set[str]:
-    """The names and all namespaces in them."""
-    return {"/".join(p[:end]) for name in full_names for p in (name.split("/"),) for end in range(2, len(p) + 1)}
-
-
 def _named(name: str, anonymous: dict[str, LaunchNode], real: set[str]) -> LaunchNode | None:
     """The anonymous node that the name, or a namespace in it, is; None if a node has that name
     or lives in that namespace."""
@@ -122,7 +117,7 @@ def _references_of_param(param: Param, hit: re.Pattern[str]) -> tuple[_Reference
     """What the name or the value of a parameter refers to, if there is a `hit` in it."""
     found: list[_Reference] = []
     if param.owner is None and hit.search(param.name):
-        place = param.name_location or param.origin[-1]
+        place = param.place
         found.append(_Reference(param.name, param.name, "parameter", (*param.origin[:-1], place)))
     value = param.value
     if isinstance(value, str) and value.startswith("/") and hit.search(value) and names.is_legal(value):

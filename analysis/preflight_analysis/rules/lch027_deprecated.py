@@ -104,7 +104,7 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 "joint_state_publisher has no parameter 'use_gui' since ROS Noetic; for the window run "
                 "joint_state_publisher_gui of the package of that name",
-                param.name_location or param.origin[-1],
+                param.place,
                 severity="warning" if param.value is True else None,
                 related=include_chain(param.origin),
             )

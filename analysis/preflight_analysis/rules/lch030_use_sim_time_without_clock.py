@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -42,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield rule.finding(
         "/use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
         "`rosbag play --clock` beside it, time stands still",
-        name_place(param),
+        param.place,
         confidence="likely" if graph.complete else "possible",
         related=include_chain(param.origin),
     )

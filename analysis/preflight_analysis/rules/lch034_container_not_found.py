@@ -4,10 +4,10 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.nearest import did_you_mean, likeness
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -26,8 +26,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     filled = {_full(node.container) for node in tree.nodes if node.container}
     for (container, location), node in loaded.items():
         full = _full(container)
-        leaf = full.rpartition("/")[2]
-        near = [name for name in containers if name.rpartition("/")[2] == leaf]
+        leaf = names.leaf(full)
+        near = [name for name in containers if names.leaf(name) == leaf]
         if not near:
             near = [name for name in containers if (found := likeness(full, name)) is not None and found[0] == "typo"]
         if not near and len(containers) == 1:
@@ -38,9 +38,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         written = document.text[location.span.start : location.span.end] if document is not None else ""
         given = "$(" in written or container not in written
         message = f"no node '{full}' is started by this launch, into which components are to be loaded"
-        if near and near[0].rpartition("/")[2] == leaf and not container.startswith("/"):
+        if near and names.leaf(near[0]) == leaf and not container.startswith("/"):
             message += "; a target without a leading slash is below '/', whatever namespace surrounds it"
-        related = tuple(Related("the container that there is", node_location(containers[name])) for name in near)
+        related = tuple(Related("the container that there is", containers[name].location) for name in near)
         fixes = rename(context, location, container, near[0]) if near else ()
         yield rule.finding(
             message + did_you_mean(near[0] if near else None),
@@ -61,7 +61,7 @@ def _target(context: Context, tags: Tags, node: LaunchNode, container: str) -> L
     document = context.documents.get(node.location.file)
     text = document.text if document is not None else ""
     quoted = [match.span(2) for match in re.finditer(rf"(['\"])({re.escape(container)})\1", text)]
-    return context.location(node.location.file, Span(*quoted[0])) if len(quoted) == 1 else node_location(node)
+    return context.location(node.location.file, Span(*quoted[0])) if len(quoted) == 1 else node.location
 
 
 def _full(container: str) -> str:

@@ -6,8 +6,7 @@ from itertools import compress
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.parameters import name_place
-from preflight_analysis.rules.places import attribute_location, node_location
+from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface
@@ -63,10 +62,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             meant.update({near} if near is not None else ())
             yield rule.finding(
                 f"{manager.name} waits for '{name}', which is no node of this launch{did_you_mean(near)}",
-                name_place(param),
+                param.place,
                 severity="warning" if near is not None else "info",
                 confidence="likely" if context.tree.complete else "possible",
-                related=(Related(f"{manager.name}", node_location(manager)), *include_chain(param.origin)),
+                related=(Related(f"{manager.name}", manager.location), *include_chain(param.origin)),
             )
     settled = managed.keys() | meant | _without_lifecycle(context)
     waiting = [node for node in inactive if node.name not in settled]

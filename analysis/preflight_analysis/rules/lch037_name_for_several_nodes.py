@@ -20,7 +20,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         inferred = any(each.inferred for each in renamed)
         value = node.action.value("name")
         span = value.span if value is not None else node.action.kind_span
-        leaf = node.name.rpartition("/")[2]
+        leaf = names.leaf(node.name)
         spaces = {names.canonicalize(f"/{each.space}") for each in renamed} if node.namespace == "/" else {""}
         same = len(spaces) < len(renamed)
         what = f"all of them have the name '{node.name}'" if same and len(spaces) == 1 else f"all are called '{leaf}'"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import namespaces
 from preflight_analysis.rules.rule import Context
@@ -42,7 +43,7 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     unset = [r for r in filter(None, context.kept.each(_wanting, graph.param_reads)) if r.name not in params]
     if not unset:
         return {}
-    known = _with_namespaces(context.once(namespaces)) | {command.param for command in graph.tree.commands}
+    known = names.with_namespaces(context.once(namespaces)) | {command.param for command in graph.tree.commands}
     known |= {read.name for read in filter(None, context.kept.each(_finding_elsewhere, graph.param_reads))}
     with_default = set(filter(None, context.kept.each(_defaulted, graph.param_reads)))
     first: dict[tuple[int, str], ParamRead] = {}
@@ -71,17 +72,6 @@ def _finding_elsewhere(read: ParamRead) -> ParamRead | None:
 
 def _defaulted(read: ParamRead) -> tuple[int, str] | None:
     return (id(read.node), read.name) if read.use.has_default else None
-
-
-def _with_namespaces(names: Iterable[str]) -> set[str]:
-    """The names, and those of all namespaces that they are in."""
-    found: set[str] = set()
-    for each in names:
-        name = each
-        while name and name not in found:
-            found.add(name)
-            name = name.rpartition("/")[0]
-    return found
 
 
 def _last_words(interface: Interface, read: ParamRead) -> str | None:

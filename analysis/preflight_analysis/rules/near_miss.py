@@ -62,7 +62,7 @@ class NearMiss:
         """Whether the evidence will do for a change that is made for the user: like words are of other things as often
         as not (`pose`, `goal_pose`)."""
         if self.likeness == "words":
-            same_leaf = _leaf(self.consumer.name) == _leaf(self.provider.name)
+            same_leaf = names.leaf(self.consumer.name) == names.leaf(self.provider.name)
             return self.same_type and self.provider_dangles and same_leaf
         return self.same_type or self.provider_dangles
 
@@ -124,7 +124,7 @@ class _Index:
         self._lone: Counter[tuple[str, str | None, str]] = Counter()
         self._provided: Counter[tuple[str | None, str]] = Counter()
         for channel in channels:
-            leaf, numbers = _leaf(channel.name), numbers_in(channel.name)
+            leaf, numbers = names.leaf(channel.name), numbers_in(channel.name)
             if not channel.providers or not channel.consumers:
                 side = "providers" if channel.providers else "consumers"
                 connections = channel.providers or channel.consumers
@@ -177,18 +177,14 @@ class _Index:
         """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
         was meant, if any?"""
         type_ = near.consumer.endpoint.type or ""
-        leaf = _leaf(near.consumer.name)
-        if near.likeness == "words" and leaf == _leaf(near.provider.name):
+        leaf = names.leaf(near.consumer.name)
+        if near.likeness == "words" and leaf == names.leaf(near.provider.name):
             return self._provided[type_, leaf] > 1 and not share_words(
                 *map(names.parent, (near.consumer.name, near.provider.name))
             )
         if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
             return False
         return any(self._lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))
-
-
-def _leaf(name: str) -> str:
-    return name.rpartition("/")[2]
 
 
 def _dangles(channel: Channel) -> bool:
@@ -201,7 +197,7 @@ def _pools(consumer: Connection) -> tuple[Hashable, ...]:
         return ((),)
     if not numbers:
         return ((type_,), (None,))
-    return tuple((t, more) for t in (type_, None) for more in (numbers, (), _leaf(consumer.name)))
+    return tuple((t, more) for t in (type_, None) for more in (numbers, (), names.leaf(consumer.name)))
 
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
@@ -357,7 +353,7 @@ def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, E
         known = mine is not None and theirs is not None
         if (known and mine != theirs) or not (known or dangles):
             continue
-        if known and dangles and consumer.name.endswith(channel.name.rpartition("/")[2]):
+        if known and dangles and consumer.name.endswith(names.leaf(channel.name)):
             short, long = sorted((consumer, provider), key=lambda connection: len(connection.name))
             how_far = len(long.name) - len(short.name)
             if _is_slash(short, long):

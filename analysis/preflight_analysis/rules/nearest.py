@@ -9,6 +9,8 @@ from typing import Literal
 
 from rapidfuzz.distance import OSA
 
+from preflight_analysis.evaluation import names
+
 Likeness = Literal["typo", "words"]
 """`typo`: a slip of the keyboard apart, or the same but for case and underscores. `words`: made of the same words."""
 
@@ -103,7 +105,7 @@ def _is_word_typo(word: str, other: str) -> bool:
 
 def _same_words(name: str, other: str) -> bool:
     """Equal last segments, one name's words all among the other's, or most words in common."""
-    if name.rpartition("/")[2] == other.rpartition("/")[2]:
+    if names.leaf(name) == names.leaf(other):
         return True
     mine, theirs = _plain_words(name), _plain_words(other)
     common = mine & theirs

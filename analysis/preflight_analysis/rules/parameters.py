@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Edit, Fix
 from preflight_analysis.rules.rule import Context
@@ -38,11 +37,6 @@ def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:
 def namespace_of(param: Param) -> str:
     """`/a/b` of `/a/b/c`, the empty text of `/c`."""
     return param.name.rpartition("/")[0]
-
-
-def name_place(param: Param) -> Location:
-    """Where a finding about the parameter is shown: at its name."""
-    return param.name_location or param.origin[-1]
 
 
 def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:

@@ -22,11 +22,6 @@ _KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
 }
 
 
-def node_location(node: LaunchNode) -> Location:
-    """The start tag of the node."""
-    return node.location
-
-
 def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:
     """The value of an attribute of the node's tag; the start tag if it has none of that name."""
     value = node.action.value(name)
@@ -35,7 +30,7 @@ def attribute_location(context: Context, node: LaunchNode, name: str) -> Locatio
 
 def connection_location(connection: Connection) -> Location:
     """Where the launch file decides on the name of the connection: the remap's `to`, else the node's start tag."""
-    return connection.remap.target_location if connection.remap is not None else node_location(connection.node)
+    return connection.remap.target_location if connection.remap is not None else connection.node.location
 
 
 def related_endpoint(connection: Connection, verb: str) -> Related:
@@ -52,7 +47,7 @@ def endpoints_of(*connections: Connection) -> tuple[EndpointRef, ...]:
 def related_param_read(read: ParamRead) -> Related:
     """The node that reads a parameter."""
     known = _how_known(read.use)
-    return Related(f"{read.node.name} reads {read.name}{known}", node_location(read.node))
+    return Related(f"{read.node.name} reads {read.name}{known}", read.node.location)
 
 
 def _how_known(what: Endpoint | ParamUse) -> str:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Confidence, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.parameters import name_place, renamed
-from preflight_analysis.rules.places import node_location, related_param_read
+from preflight_analysis.rules.parameters import renamed
+from preflight_analysis.rules.places import related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import Unread, unread_params
@@ -25,11 +25,11 @@ def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Find
         who = holder.name if holder is not None else "no node"
         return rule.finding(
             f"{who} does not read parameter '{param.name}' before its event loop, nor does any other node",
-            name_place(param),
+            param.place,
             severity="hint",
             confidence="possible",
             related=(
-                *((Related(f"{who} is started here", node_location(holder)),) if holder is not None else ()),
+                *((Related(f"{who} is started here", holder.location),) if holder is not None else ()),
                 *include_chain(param.origin),
             ),
         )
@@ -51,7 +51,7 @@ def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Find
         )
     return rule.finding(
         message,
-        name_place(param),
+        param.place,
         severity="warning" if unread.alone else "info",
         confidence=sure,
         related=(related_param_read(read), *include_chain(param.origin)),

@@ -12,6 +12,7 @@ from itertools import chain, compress
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
 from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
 from preflight_analysis.launch.model import action_at
@@ -104,7 +105,7 @@ def _texts_of_param(param: Param) -> tuple[str, ...]:
         return ()
     if not any("." in text and "/" in text for text in texts):
         return ()
-    if _made_when_run(param.name.rpartition("/")[2]) or _made_when_run((param.owner or "").rpartition("/")[2]):
+    if _made_when_run(names.leaf(param.name)) or _made_when_run(names.leaf(param.owner or "")):
         return ()
     return tuple(text for text in texts if len(text) < _LONGEST and "\n" not in text)
 
@@ -122,7 +123,7 @@ def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
     """The words in the arguments of a node that may name files, there or not."""
     if "/" not in node.args or node.unknowns:
         return ()
-    if _made_when_run(node.executable) or _made_when_run(node.name.rpartition("/")[2]):
+    if _made_when_run(node.executable) or _made_when_run(names.leaf(node.name)):
         return ()
     found: list[str] = []
     before = ""

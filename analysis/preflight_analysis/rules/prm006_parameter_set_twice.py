@@ -48,7 +48,7 @@ class _Setting:
     @property
     def place(self) -> Location:
         """Where the name is written."""
-        return self.param.name_location or self.param.origin[-1]
+        return self.param.place
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -150,7 +150,7 @@ def _differ(one: Param, other: Param) -> bool:
 
 
 def _place(param: Param) -> tuple[str, Location]:
-    return param.name, param.name_location or param.origin[-1]
+    return param.name, param.place
 
 
 def _why_lost(lost: _Ros2Setting, counts: _Ros2Setting, *, own: bool) -> str | None:

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_for_tools
@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if near is None:
             if not tree.complete or not _is_alone(context, prefix, params):
                 continue
-            place = _place(params[0])
+            place = params[0].place
             yield rule.finding(
                 f"no node of this launch is called '{prefix}' or is in that namespace, for which {_what(params)}",
                 place,
@@ -47,7 +47,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if meant in context.once(_known):
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
         places = [_prefix_place(context, param, leaf) for param in params]
-        related = [Related(f"{meant} is started here", node_location(n)) for n in tree.nodes if n.name == meant][-1:]
+        related = [Related(f"{meant} is started here", n.location) for n in tree.nodes if n.name == meant][-1:]
         yield rule.finding(
             f"no node is called '{prefix}', for which {_what(params)}; did you mean '{meant}'?",
             places[0],
@@ -117,7 +117,7 @@ def _is_alone(context: Context, prefix: str, params: list[Param]) -> bool:
     Files of parameters are full of names that are no nodes' (controllers, planners, sensors), and so are dictionaries
     whose name is in the arguments of a node or has a `type`. An anonymous name is LCH022's.
     """
-    tree, leaf = context.tree, prefix.rpartition("/")[2]
+    tree, leaf = context.tree, names.leaf(prefix)
     if f"{prefix}/type" in tree.params or leaf.startswith("robot_description"):
         return False
     if not all(f"{leaf}/" in _written(context, param) for param in params):
@@ -141,13 +141,9 @@ def _what(params: list[Param]) -> str:
     return f"parameter '{params[0].name}'{more} set"
 
 
-def _place(param: Param) -> Location:
-    return param.name_location or param.origin[-1]
-
-
 def _prefix_place(context: Context, param: Param, leaf: str) -> Location:
     """Where the name at fault is written: with the parameter's own, or as a key above it in YAML."""
-    place = _place(param)
+    place = param.place
     document = context.documents.get(place.file)
     if document is None or leaf in document.text[place.span.start : place.span.end]:
         return place

@@ -9,7 +9,6 @@ from typing import Any
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import ParamRead
-from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.places import related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -50,7 +49,7 @@ def _finding(
     return rule.finding(
         f"'{param.name}' is {_shown(param.value)}, {_kind(param.value)}, but {read.node.name} reads it with the "
         f"default {_shown(read.use.default)}, {_kind(read.use.default)}{why}",
-        name_place(param),
+        param.place,
         severity=severity,
         confidence=confidence,
         related=(related_param_read(read), *include_chain(param.origin)),

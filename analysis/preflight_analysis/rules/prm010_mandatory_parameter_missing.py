@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import likeness
-from preflight_analysis.rules.parameters import grouped, name_place, namespace_of, renamed
-from preflight_analysis.rules.places import node_location, related_param_read
+from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
+from preflight_analysis.rules.places import related_param_read
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import unread_params
@@ -36,7 +37,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             if died is not None:
                 unread = context.once(_never_read)
-                leaf = lacking.name.rpartition("/")[2]
+                leaf = names.leaf(lacking.name)
                 meant = _elsewhere(lacking, unread.by_leaf.get(leaf, ()))
                 meant = meant or _misspelt(lacking, unread.by_namespace.get(node.name, ()))
                 yield _finding(rule, context, lacking, meant, died)
@@ -46,12 +47,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield context.kept.get(_hint, node.name, rule, node, tuple(optional))
 
 
-def _hint(rule: Rule, node: LaunchNode, names: tuple[str, ...]) -> Finding:
-    one = len(names) == 1
+def _hint(rule: Rule, node: LaunchNode, params: tuple[str, ...]) -> Finding:
+    one = len(params) == 1
     return rule.finding(
-        f"{node.name} reads parameter{'' if one else 's'} {quoted(names)} without a default, and nothing sets "
+        f"{node.name} reads parameter{'' if one else 's'} {quoted(params)} without a default, and nothing sets "
         f"{'it' if one else 'them'}",
-        node_location(node),
+        node.location,
         severity="hint",
         confidence="possible",
         related=include_chain(node.origin),
@@ -69,7 +70,7 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
             yield rule.finding(
                 f"{node.name} declares parameter '{use.name[1:]}' without a default, and nothing sets it: it stops "
                 f"({use.refused})",
-                node_location(node),
+                node.location,
                 severity="error",
                 confidence="likely",
                 related=include_chain(node.origin),
@@ -93,7 +94,7 @@ def _never_read(context: Context) -> _NeverRead:
     unread = [param for param in context.tree.params.values() if param.name not in read]
     by_leaf: dict[str, list[Param]] = {}
     for param in unread:
-        by_leaf.setdefault(param.name.rpartition("/")[2], []).append(param)
+        by_leaf.setdefault(names.leaf(param.name), []).append(param)
     return _NeverRead(by_leaf, grouped(unread))
 
 
@@ -118,13 +119,13 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
     if meant is None:
         return rule.finding(
             message,
-            node_location(node),
+            node.location,
             confidence="likely",
             related=(related_param_read(read), *include_chain(node.origin)),
         )
     return rule.finding(
         f"{message}. '{meant.name}' is set, which no node reads: did you mean '{read.name}' there?",
-        name_place(meant),
+        meant.place,
         confidence="likely",
         related=(related_param_read(read), *include_chain(meant.origin)),
         fixes=renamed(context, meant, read.name),

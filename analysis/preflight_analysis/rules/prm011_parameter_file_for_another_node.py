@@ -6,6 +6,7 @@ from itertools import chain
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
@@ -32,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if not given:
         return
     beside = _beside(context)
-    names = {node.name for node in context.tree.nodes}.union(*beside.values())
+    known = {node.name for node in context.tree.nodes}.union(*beside.values())
     for path, nodes in given.items():
         document = context.documents.get(path)
         if not isinstance(document, Document):
@@ -42,7 +43,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not sections or any("$(" in section.pattern for section in sections):
             continue  # launch may make any name of a substitution
         # Those that fit no node at all are the ones that may be misspelt.
-        lost = [s for s in sections if not (s.pattern in names if s.exact else any(map(s.fits, names)))]
+        lost = [s for s in sections if not (s.pattern in known if s.exact else any(map(s.fits, known)))]
         # Of a process the file is for whichever of its nodes it names.
         alone = [each for each in nodes if not any(_named(file, name) for name in beside.get(each[0].name, ()))]
         lacking = list(_without_own(file, alone))
@@ -85,23 +86,23 @@ def _without_own(file: ParamFile, nodes: Iterable[tuple[LaunchNode, Location]]) 
 
 
 def _is_for_all(section: Section) -> bool:
-    return section.pattern.rpartition("/")[2] in ("*", "**")
+    return names.leaf(section.pattern) in ("*", "**")
 
 
 def _meant(name: str, lost: Sequence[Section], *, shared: bool) -> Section | None:
     """Which of the keys that fit no node is meant for this one: that of its name in another namespace, else one with
     nearly its name, else the only one of a file of its own."""
-    base = name.rpartition("/")[2]
+    base = names.leaf(name)
     patterns = [section.pattern for section in lost if not _is_for_all(section)]
-    same = [pattern for pattern in patterns if pattern.rpartition("/")[2] == base]
+    same = [pattern for pattern in patterns if names.leaf(pattern) == base]
     only = patterns[0] if len(patterns) == 1 and not shared else None
     wanted = nearest(name, same) or next(iter(same), None) or nearest(name, patterns) or only
     return next((section for section in lost if section.pattern == wanted), None)
 
 
 def _about_key(rule: Rule, context: Context, path: str, section: Section, ignoring: list[_Given]) -> Finding:
-    names = [each.node.name for each in ignoring]
-    *some, last = names[:_SHOWN] if len(names) <= _SHOWN else (*names[:_SHOWN], "others")
+    nodes = [each.node.name for each in ignoring]
+    *some, last = nodes[:_SHOWN] if len(nodes) <= _SHOWN else (*nodes[:_SHOWN], "others")
     does = f"{', '.join(some)} and {last} do, and ignore it" if some else f"{last} does, and ignores it"
     inferred = any(each.node.name_inferred for each in ignoring)
     return rule.finding(
@@ -110,7 +111,7 @@ def _about_key(rule: Rule, context: Context, path: str, section: Section, ignori
         severity="info" if inferred else "warning",
         confidence="possible" if inferred else "certain",
         related=[Related(f"{each.node.name} gets the file here", each.location) for each in ignoring[:_SHOWN]],
-        fixes=_rewrite(context, path, section, names[0] if len(names) == 1 else _for_each(names)),
+        fixes=_rewrite(context, path, section, nodes[0] if len(nodes) == 1 else _for_each(nodes)),
     )
 
 
@@ -134,9 +135,9 @@ def _about_file(
     )
 
 
-def _for_each(names: Sequence[str]) -> str | None:
+def _for_each(nodes: Sequence[str]) -> str | None:
     """A key for all nodes of one name, in whatever namespace."""
-    bases = {name.rpartition("/")[2] for name in names}
+    bases = {names.leaf(node) for node in nodes}
     return f"/**/{bases.pop()}" if len(bases) == 1 else None
 
 

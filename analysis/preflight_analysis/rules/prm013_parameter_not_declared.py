@@ -5,8 +5,6 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.parameters import name_place
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import reports_params
@@ -35,10 +33,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue  # it may have come to it later
             severity: Severity = "warning" if near or interface.complete else "info"
             use = declared.get(near) if near is not None else None
-            related = [Related(f"{node.name} is started here", node_location(node))]
+            related = [Related(f"{node.name} is started here", node.location)]
             yield rule.finding(
                 f"{node.name} declares no parameter '{param.name}': its value is ignored{did_you_mean(near)}",
-                name_place(param),
+                param.place,
                 severity=severity,
                 confidence="likely" if interface.complete or (use is not None and not use.inferred) else "possible",
                 related=(*related, *include_chain(node.origin)),

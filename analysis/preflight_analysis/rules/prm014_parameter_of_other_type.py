@@ -6,8 +6,6 @@ from typing import Any
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.parameters import name_place
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
@@ -39,7 +37,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             wanted = _declared_type(use, interface) if use is not None else None
             if use is None or wanted is None or _is_as_declared(param, use, wanted):
                 continue
-            place, files = name_place(param), {s.path for s in node.param_sources}
+            place, files = param.place, {s.path for s in node.param_sources}
             passed = param.value if place.file in files or node.container else as_passed(param.value)
             message = _wrong(param, passed, wanted, node)
             if message is None and use.refused is not None:
@@ -53,7 +51,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 confidence="likely" if not use.assumed else "possible",
                 severity="error" if not use.assumed else "warning",
                 related=(
-                    Related(f"{node.name} is started here", node_location(node)),
+                    Related(f"{node.name} is started here", node.location),
                     *include_chain(node.origin),
                 ),
             )

@@ -5,8 +5,6 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
-from preflight_analysis.rules.parameters import name_place
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -32,7 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             "use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
             "`ros2 bag play --clock` beside it, time stands still",
-            name_place(param),
+            param.place,
             severity="info",
             confidence="likely" if graph.complete else "possible",
             related=include_chain(node.origin),
@@ -46,10 +44,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             f"use_sim_time is true for {_counted(len(on))} of this launch and not for {shown}: their times do not "
             "match",
-            node_location(off[0]),
+            off[0].location,
             severity="info",
             confidence="possible",
-            related=(Related(f"true for {on[0][0].name}", name_place(on[0][1])), *include_chain(off[0].origin)),
+            related=(Related(f"true for {on[0][0].name}", on[0][1].place), *include_chain(off[0].origin)),
         )
 
 

@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, refused_items
 from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.parameters import name_place
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -57,7 +56,7 @@ def _values(rule: Rule, context: Context) -> Iterator[Finding]:
         for source in node.param_sources if node.container is None else ():
             for param in source.params if source.path is None else ():
                 refused = refused_items(as_passed(param.value)) if isinstance(param.value, list) else None
-                place = name_place(param)
+                place = param.place
                 if refused is None or place in reported:
                     continue
                 reported.add(place)

@@ -8,8 +8,6 @@ from textwrap import shorten
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.parameters import name_place
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse, Range
@@ -28,17 +26,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for param in node.params:
             use = declared.get(param.name)
             why = _wrong(param, use, node) if use is not None else None
-            at = name_place(param), why
+            at = param.place, why
             if use is None or why is None or at in reported:
                 continue
             reported.add(at)
             yield rule.finding(
                 f"{why} (InvalidParameterValueException)",
-                name_place(param),
+                param.place,
                 confidence="possible" if use.assumed else "likely",
                 severity="warning" if use.assumed else "error",
                 related=(
-                    Related(f"{node.name} is started here", node_location(node)),
+                    Related(f"{node.name} is started here", node.location),
                     *include_chain(node.origin),
                 ),
             )

@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.missing_params import missing_params
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
@@ -34,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
         yield rule.finding(
             _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else ""),
-            node_location(node),
+            node.location,
             severity="info" if ours or reported else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
@@ -65,7 +64,7 @@ class _LostParams:
             return None
         for lost, reason in self._reasons.items():
             full = f"{read.node.name}/{lost[1:]}" if names.is_private(lost) else lost
-            leaf = full.rpartition("/")[2]
+            leaf = names.leaf(full)
             below = f"{read.name}/".startswith(f"{full}/")
             # A search looks for it in every namespace around the node.
             found = read.use.access == "search" and read.use.name.strip("~/") == leaf

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -17,7 +16,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             because = f": {outcome.reason}" if outcome.reason else ""
             yield rule.finding(
                 f"{node.name} ended by itself when it was run, without error{because}",
-                node_location(node),
+                node.location,
                 confidence="possible" if outcome.answers else "likely",
                 related=include_chain(node.origin),
             )

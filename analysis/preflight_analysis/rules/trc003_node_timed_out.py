@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -16,7 +15,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             because = f": {interface.outcome.reason}" if interface.outcome.reason else ""
             yield rule.finding(
                 f"{node.name} was stopped before it reached its event loop{because}",
-                node_location(node),
+                node.location,
                 confidence="likely",
                 related=include_chain(node.origin),
             )

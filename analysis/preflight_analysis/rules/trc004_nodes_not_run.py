@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -26,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             skipped.setdefault((node.location.file, reason), []).append(node)
     for (_, reason), nodes_there in skipped.items():
         names = ", ".join(node.name for node in nodes_there)
-        yield rule.finding(f"not run: {names}; {reason}", node_location(nodes_there[0]))
+        yield rule.finding(f"not run: {names}; {reason}", nodes_there[0].location)
 
 
 def _root_location(context: Context) -> Location:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -13,7 +12,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         for note in interface.notes:
-            yield rule.finding(f"{node.name}: {note}", node_location(node), related=include_chain(node.origin))
+            yield rule.finding(f"{node.name}: {note}", node.location, related=include_chain(node.origin))
 
 
 RULE = Rule(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rapidfuzz.distance import OSA
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
@@ -90,7 +91,7 @@ def _unread(context: Context, graph: Graph) -> Iterator[Unread]:
     by_leaf: dict[str, list[ParamRead]] = {}
     for read in reads.unset.values():
         if read.node.name not in reads.opaque:
-            by_leaf.setdefault(_leaf(read.name), []).append(read)
+            by_leaf.setdefault(names.leaf(read.name), []).append(read)
     for namespace, params in groups.items():
         around = list(_namespaces(f"{namespace}/"))
         holder = next((nodes[name] for name in around if name in nodes), None)
@@ -118,12 +119,12 @@ def _unread(context: Context, graph: Graph) -> Iterator[Unread]:
 
 
 def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
-    names: set[str] = set()
+    read_names: set[str] = set()
     searched: set[str] = set()
     asked: dict[str, ParamRead] = {}
     sought: dict[str, ParamRead] = {}
     opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not reports_params(i)}
-    filled = _above(f"{namespace}/" for namespace in namespaces)
+    filled = names.with_namespaces(namespaces)
     made: set[str] = set()
     listed = False
     for read in graph.param_reads:
@@ -132,39 +133,25 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
             listed = True
         elif read.use.access == "search":
             searched.add(read.use.name.strip("~/").partition("/")[0])
-            sought.setdefault(_leaf(read.use.name.lstrip("~")), read)
+            sought.setdefault(names.leaf(read.use.name.lstrip("~")), read)
         elif read.use.access in ("get", "has"):
-            names.add(read.name.rstrip("/") or "/")
+            read_names.add(read.name.rstrip("/") or "/")
             if not read.use.builtin and read.name not in graph.tree.params and read.name not in filled:
                 asked.setdefault(read.name, read)
         else:
-            names.add(read.name)
+            read_names.add(read.name)
             made.add(read.name)
     unset = {name: read for name, read in asked.items() if name not in made}
-    for name in {_leaf(name) for name in graph.tree.params} | {_leaf(name) for name in made}:
+    for name in {names.leaf(name) for name in graph.tree.params} | {names.leaf(name) for name in made}:
         sought.pop(name, None)
-    return _Reads(frozenset(names), _above(names), frozenset(searched), unset, frozenset(opaque), sought, listed)
+    prefixes = frozenset(names.with_namespaces(name.rpartition("/")[0] for name in read_names))
+    return _Reads(frozenset(read_names), prefixes, frozenset(searched), unset, frozenset(opaque), sought, listed)
 
 
 def _namespaces(name: str) -> Iterator[str]:
     """The namespaces that hold a name, the innermost first: `/a/b` and `/a` of `/a/b/c`."""
     while name := name.rpartition("/")[0]:
         yield name
-
-
-def _above(names: Iterable[str]) -> frozenset[str]:
-    """The namespaces that hold any of the names."""
-    found: set[str] = set()
-    for name in names:
-        for namespace in _namespaces(name):
-            if namespace in found:
-                break  # and so are those above it
-            found.add(namespace)
-    return frozenset(found)
-
-
-def _leaf(name: str) -> str:
-    return name.rpartition("/")[2]
 
 
 def _meant_of_holder(
@@ -176,7 +163,7 @@ def _meant_of_holder(
         return near
     relative = param.name[len(holder.name) :]
     # The node asks for it under this very name, but not as its own: `mode` or `/driver/mode` instead of `~mode`.
-    elsewhere = [r for r in by_leaf.get(_leaf(param.name), ()) if r.node is holder and r.name.endswith(relative)]
+    elsewhere = [r for r in by_leaf.get(names.leaf(param.name), ()) if r.node is holder and r.name.endswith(relative)]
     found = [read for read in elsewhere if _would_change(param, read)]
     return found[0] if len(found) == 1 else None
 
@@ -189,8 +176,8 @@ def _would_change(param: Param, read: ParamRead) -> bool:
 def _sought(params: Iterable[Param], sought: dict[str, ParamRead]) -> Iterator[tuple[Param, ParamRead]]:
     """Parameters whose last name is a typo of one that a node searches for."""
     for param in params if sought else ():
-        near = nearest(_leaf(param.name), sought)
-        if near is not None and likeness(_leaf(param.name), near) is not None:
+        near = nearest(names.leaf(param.name), sought)
+        if near is not None and likeness(names.leaf(param.name), near) is not None:
             yield param, sought[near]
 
 
@@ -241,7 +228,7 @@ def _misplaced(params: Iterable[Param], reads: _Reads) -> Iterator[tuple[Param, 
             namespace, _, leaf = name.rpartition("/")
             by_namespace.setdefault(namespace, {})[leaf] = read
     for namespace, group in grouped(params).items():
-        leaves = {param.name.rpartition("/")[2]: param for param in group}
+        leaves = {names.leaf(param.name): param for param in group}
         for leaf, param in leaves.items():
             near = nearest(leaf, by_namespace.get(namespace, ()))
             if near is not None and likeness(leaf, near) is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.tracing.interface import Endpoint
 
 _TOPICS = frozenset(
@@ -65,7 +66,7 @@ def may_dangle(name: str, endpoint: Endpoint) -> bool:
 
 def is_transform(name: str) -> bool:
     """Whether it is one of tf's topics, which a listener that is made later on uses."""
-    return name.rpartition("/")[2] in ("tf", "tf_static", "tf2")
+    return names.leaf(name) in ("tf", "tf_static", "tf2")
 
 
 def is_for_tools(parameter: str) -> bool:

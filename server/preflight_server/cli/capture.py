@@ -17,7 +17,6 @@ from preflight_analysis.graph.model import Graph
 from preflight_analysis.live.capture import Captured, capture, settings_text
 from preflight_analysis.live.model import CannotObserveError, Observation
 from preflight_analysis.live.watcher import LOOK_SECONDS, Observer, observer
-from preflight_analysis.rules.places import node_location
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -123,7 +122,7 @@ def _captured(
 def _lines(analysis: Analysis, captured: Iterable[Captured]) -> Iterable[str]:
     for each in captured:
         if each.interface is not None:
-            where = place(node_location(each.node), analysis.documents, os.getcwd())
+            where = place(each.node.location, analysis.documents, os.getcwd())
             text = annotation_text(each.interface) or "nothing beside what every node has"
             yield f"{where}: {printable(each.node.name)}\n{text}\n"
 
