@@ -3,13 +3,14 @@ given: plain values stay, substitutions are read as YAML, lists have items of on
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.tree import Param
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.problems import BadValue
 
 EXPECTED = "a bool, a number, a text or a non-empty list of one of them"
@@ -65,20 +66,20 @@ def _value(performer: Performer, action: Action) -> Any:
         if not is_of_type(items, type_name):
             raise NotOfTypeError("a list of one type")
         return items
-    if value is None:
-        raise _UnknownError
-    if value.typed is not None:
-        return value.typed.value
-    result = performer.value(value)
-    if not result.known:
-        raise _UnknownError
-    if type_name is not None:
-        return coerce(result.text, type_name)
-    return _yaml(result.text)
+    if type_name is None:
+        return _given(performer, value, _yaml)
+    return _given(performer, value, lambda text: coerce(text, type_name))
 
 
 def _item(performer: Performer, action: Action, type_name: str | None) -> Any:
     value = action.value("value")
+    if type_name is None:
+        return _given(performer, value, _load)
+    return _given(performer, value, lambda text: coerce(text, type_name.removeprefix("list_of_")))
+
+
+def _given(performer: Performer, value: Value | None, read: Callable[[str], Any]) -> Any:
+    """A value that Python gave as it is, or what is read in the text of one with substitutions."""
     if value is None:
         raise _UnknownError
     if value.typed is not None:
@@ -86,7 +87,7 @@ def _item(performer: Performer, action: Action, type_name: str | None) -> Any:
     result = performer.value(value)
     if not result.known:
         raise _UnknownError
-    return _load(result.text) if type_name is None else coerce(result.text, type_name.removeprefix("list_of_"))
+    return read(result.text)
 
 
 def _yaml(text: str) -> Any:

@@ -14,6 +14,7 @@ import time
 from typing import Optional
 
 from .stub_master import Master
+from .tcpros import header, read_header
 
 MESSAGES = 20
 SECONDS_BETWEEN = 0.01
@@ -23,7 +24,6 @@ CLOCK = "/clock"
 _ZEROS = bytes(65536)
 _ONE = b"\1" + _ZEROS[1:]
 """What comes first is often a yes or no, or the count in a header."""
-_MAX_HEADER = 65536
 _SUCCEEDED = 3
 ANY_TYPE = "preflight/Any"
 _UNTYPED = {"type": ANY_TYPE, "md5sum": "992ce8a1687cec8c8bd883ec73ca41d1"}
@@ -69,14 +69,14 @@ class FakePublisher:
         topic = ""
         try:
             with connection:
-                asked = _read_header(connection)
+                asked = read_header(connection)
                 topic = asked.get("topic", "")
                 if topic not in self._goals:
                     return
                 described = _UNTYPED if asked.get("md5sum") == "*" else asked
                 answer = {"callerid": "/master", "latching": "0", "message_definition": "string data"}
                 answer.update({key: described.get(key, "*") for key in ("type", "md5sum")})
-                connection.sendall(_header(answer))
+                connection.sendall(header(answer))
                 self._send(connection, topic)
         except (OSError, ValueError, struct.error):
             pass
@@ -112,32 +112,3 @@ def _result(goal: str) -> bytes:
 
 def _message(connection: socket.socket, content: bytes) -> None:
     connection.sendall(struct.pack("<I", len(content)) + content)
-
-
-def _header(fields: dict[str, str]) -> bytes:
-    lines = [f"{key}={value}".encode() for key, value in fields.items()]
-    content = b"".join(struct.pack("<I", len(line)) + line for line in lines)
-    return struct.pack("<I", len(content)) + content
-
-
-def _exactly(connection: socket.socket, size: int) -> bytes:
-    data = b""
-    while len(data) < size:
-        more = connection.recv(size - len(data))
-        if not more:
-            raise OSError("closed")
-        data += more
-    return data
-
-
-def _read_header(connection: socket.socket) -> dict[str, str]:
-    (size,) = struct.unpack("<I", _exactly(connection, 4))
-    if size > _MAX_HEADER:
-        raise ValueError(size)
-    content, fields, at = _exactly(connection, size), {}, 0
-    while at < size:
-        (length,) = struct.unpack_from("<I", content, at)
-        key, _, value = content[at + 4 : at + 4 + length].decode(errors="replace").partition("=")
-        fields[key] = value
-        at += 4 + length
-    return fields

@@ -11,12 +11,12 @@ from __future__ import annotations
 import contextlib
 import os
 import socket
-import struct
 import threading
 import time
 from typing import TYPE_CHECKING, Any, Callable
 
 from . import xml_rpc
+from .tcpros import header, read_header
 
 if TYPE_CHECKING:
     from .stub_master import Master
@@ -28,7 +28,7 @@ _QUIET = 0.1
 """Seconds that a node must have nothing to do after a visit."""
 _MOST = 200
 _TIMEOUT = 3.0
-_MAX_HEADER = 65_536
+_MAX_ANSWER = 65_536
 
 
 class TopicProbes:
@@ -88,8 +88,10 @@ class TopicProbes:
             return
         connection = socket.create_connection(("127.0.0.1", int(protocol[2])), _TIMEOUT)
         self._open.append(connection)
-        connection.sendall(_header(callerid=_CALLER, topic=topic, md5sum="*", type="*", tcp_nodelay="1"))
-        _read_header(connection)
+        connection.sendall(
+            header({"callerid": _CALLER, "topic": topic, "md5sum": "*", "type": "*", "tcp_nodelay": "1"})
+        )
+        read_header(connection)
 
 
 def _call(api: str, method: str, *arguments: object) -> list[Any]:
@@ -101,36 +103,13 @@ def _call(api: str, method: str, *arguments: object) -> list[Any]:
         connection.sendall(head.encode() + f"Content-Length: {len(body)}\r\n\r\n".encode() + body)
         with connection.makefile("rb") as stream:
             length = 0
-            while (line := stream.readline(_MAX_HEADER)) not in (b"\r\n", b"\n", b""):
+            while (line := stream.readline(_MAX_ANSWER)) not in (b"\r\n", b"\n", b""):
                 name, _, value = line.decode("latin-1").partition(":")
                 length = int(value) if name.lower() == "content-length" else length
-            answered = xml_rpc.read_answer(stream.read(min(length, _MAX_HEADER)))
+            answered = xml_rpc.read_answer(stream.read(min(length, _MAX_ANSWER)))
     if not isinstance(answered, list) or len(answered) != 3:
         raise ValueError("no answer of the slave API")
     return answered
-
-
-def _header(**fields: str) -> bytes:
-    parts = [f"{name}={value}".encode() for name, value in fields.items()]
-    body = b"".join(struct.pack("<I", len(part)) + part for part in parts)
-    return struct.pack("<I", len(body)) + body
-
-
-def _read_header(connection: socket.socket) -> None:
-    (length,) = struct.unpack("<I", _read(connection, 4))
-    if length > _MAX_HEADER:
-        raise ValueError("too long a header")
-    _read(connection, length)
-
-
-def _read(connection: socket.socket, length: int) -> bytes:
-    data = b""
-    while len(data) < length:
-        more = connection.recv(length - len(data))
-        if not more:
-            raise ValueError("the connection was broken off")
-        data += more
-    return data
 
 
 def _runs(pid: int) -> bool:

@@ -7,6 +7,9 @@ from typing import Any, Optional
 
 from .base import Action, LaunchDescriptionEntity, Made, normalize_to_list_of_substitutions
 
+_OF_EXECUTABLE = ("prefix", "name", "cwd", "env", "additional_env")
+"""What an `ExecuteProcess` takes for its `Executable`; the rest is that of `ExecuteLocal`."""
+
 
 class Executable(Made):
     """`launch.descriptions.Executable`."""
@@ -90,19 +93,9 @@ class ExecuteLocal(Action):
 
 
 class ExecuteProcess(ExecuteLocal):
-    def __init__(
-        self,
-        *,
-        cmd: Any,
-        prefix: Any = None,
-        name: Any = None,
-        cwd: Any = None,
-        env: Optional[dict[Any, Any]] = None,
-        additional_env: Optional[dict[Any, Any]] = None,
-        **kwargs: Any,
-    ) -> None:
-        executable = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
-        super().__init__(process_description=executable, **kwargs)
+    def __init__(self, *, cmd: Any, **kwargs: Any) -> None:
+        described = {name: kwargs.pop(name) for name in _OF_EXECUTABLE if name in kwargs}
+        super().__init__(process_description=Executable(cmd=cmd, **described), **kwargs)
 
     @property
     def cwd(self) -> Any:

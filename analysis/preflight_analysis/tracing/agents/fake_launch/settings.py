@@ -133,33 +133,35 @@ class AppendEnvironmentVariable(Action):
 
 
 class _Plain(Action):
+    """One without attributes."""
+
+    preflight_kind = ""
+
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
 
+    def preflight_serialize(self, t: Any) -> None:
+        t.kind = self.preflight_kind
+
 
 class PushEnvironment(_Plain):
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = "push_env"
+    preflight_kind = "push_env"
 
 
 class PopEnvironment(_Plain):
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = "pop_env"
+    preflight_kind = "pop_env"
 
 
 class ResetEnvironment(_Plain):
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = "reset_env"
+    preflight_kind = "reset_env"
 
 
 class PushLaunchConfigurations(_Plain):
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = "push_configurations"
+    preflight_kind = "push_configurations"
 
 
 class PopLaunchConfigurations(_Plain):
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = "pop_configurations"
+    preflight_kind = "pop_configurations"
 
 
 class ResetLaunchConfigurations(Action):

@@ -54,8 +54,8 @@ class LaunchConfiguration(Worded):
         raise SubstitutionFailure(f"launch configuration '{name}' does not exist")
 
 
-class EnvironmentVariable(Worded):
-    command = "env"
+class _WithDefault(Worded):
+    """A name, and the text where nothing has it."""
 
     def __init__(self, name: Any, *, default_value: Any = None) -> None:
         self._words(*((name,) if default_value is None else (name, default_value)))
@@ -67,6 +67,10 @@ class EnvironmentVariable(Worded):
     @property
     def default_value(self) -> Optional[Parts]:
         return self.words[1] if len(self.words) == 2 else None
+
+
+class EnvironmentVariable(_WithDefault):
+    command = "env"
 
     def perform(self, context: LaunchContext) -> str:
         name = self._text(context, 0)
@@ -260,19 +264,8 @@ class StringJoinSubstitution(Worded):
         return self._text(context, 0).join(self._text(context, i) for i in range(1, len(self.words)))
 
 
-class ForEachVar(Worded):
+class ForEachVar(_WithDefault):
     command = "for-var"
-
-    def __init__(self, name: Any, *, default_value: Any = None) -> None:
-        self._words(*((name,) if default_value is None else (name, default_value)))
-
-    @property
-    def name(self) -> Parts:
-        return self.words[0]
-
-    @property
-    def default_value(self) -> Optional[Parts]:
-        return self.words[1] if len(self.words) == 2 else None
 
     @classmethod
     def get_local_arg_name(cls, name: str) -> str:
