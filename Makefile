@@ -10,7 +10,7 @@ BIOME = $(wildcard $(LINTERS)/@biomejs/*/biome)
 CPP = $(shell git ls-files '*.c' '*.cpp' '*.hpp' ':!fixtures')
 PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_preload.cpp rcl_preload.cpp)
 LUA = $(shell git ls-files '*.lua')
-BENCHMARKS := editing completion index trace fleet commands launch_files graph
+BENCHMARKS := editing completion index growth trace fleet commands launch_files graph
 
 .PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks fuzz endurance wheel vsix lock test-editors images docs clean
 help:
@@ -65,7 +65,8 @@ $(LINTERS)/.ready: .ci/lint/package-lock.json
 	npm ci --prefix .ci/lint --ignore-scripts --no-audit --no-fund --loglevel=error
 	touch $@
 
-bench: setup ## editing and completion latency, a large workspace and the time of a trace, of a command and of a Python launch file, as ratios
+bench: setup ## editing and completion latency, a large workspace and the time of a trace, of a command and of a Python launch file, as ratios; bench/out/latest.json
+	@rm -f bench/out/latest.json
 	@set -e; for each in $(BENCHMARKS); do echo "bench/$$each.py"; $(BIN)/python bench/$$each.py; done
 
 bench-quick: setup ## each benchmark once, as short as it can be: whether it still runs
