@@ -58,9 +58,22 @@ def report(db: Database) -> tuple[object, ...]:
     return tuple(result)
 
 
+@query(limit=3)
+def asked(db: Database, name: str) -> tuple[object, ...]:
+    """For each word of a file what the asker answers, and what its file gives; a `?` ends the questions."""
+    result: list[object] = []
+    for word in words(db, name):
+        if word == "?":
+            break
+        result += (db.ask(word), value_or_error(db, word))
+    return tuple(result)
+
+
 TEXTS = st.lists(st.sampled_from([*NAMES, "1", "5", "20", "!", "?"]), max_size=5).map(" ".join)
 STEPS = st.lists(
-    st.tuples(st.sampled_from(["open", "open", "close", "disk", "read", "read one"]), st.sampled_from(NAMES), TEXTS),
+    st.tuples(
+        st.sampled_from(["open", "open", "close", "disk", "read", "read one", "ask"]), st.sampled_from(NAMES), TEXTS
+    ),
     max_size=100,
 )
 
@@ -80,7 +93,7 @@ def step(db: Database, what: str, name: str, text: str) -> None:
                     write.reload(FILE, *key)
     elif what == "read":
         report(db)
-    else:
+    elif what == "read one":
         value_or_error(db, name)
 
 
@@ -108,6 +121,8 @@ def test_after_any_steps(steps: list[tuple[str, str, str]]) -> None:
     db = Database()
     for what, name, text in steps:
         step(db, what, name, text)
+        if what == "ask":
+            assert asked.answered(db, text.count, name) == asked.answered(fresh(db), text.count, name)
         if what.startswith("read"):
             again = fresh(db)
             assert report(db) == report(again)

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from preflight_analysis.incremental.database import (
     UNUSED_AFTER,
+    Answer,
     Cancelled,
     CycleError,
     Database,
@@ -207,6 +208,116 @@ def test_what_nobody_asks_for_any_more_is_forgotten() -> None:
 
         by_text(db, str(number))
     assert len(db.cells) <= 3 * UNUSED_AFTER
+
+
+def test_what_was_loaded_for_what_nobody_asks_for_is_forgotten_too() -> None:
+    db = Database()
+    for number in range(20 * UNUSED_AFTER):
+        change(db, "typed", str(number), TYPED)
+        numbers(db, f"only once {number}")
+        assert numbers(db, "a") == (1, 2)
+    assert len(db.cells) <= 4 * UNUSED_AFTER
+    assert (numbers, ("a",)) in db.cells
+
+
+def test_what_was_set_is_not_forgotten() -> None:
+    db = Database()
+    change(db, "b", "8")
+    for number in range(4 * UNUSED_AFTER):
+        change(db, "typed", str(number), TYPED)
+    assert numbers(db, "b") == (8,)
+
+
+@query(limit=3)
+def last_few(db: Database, name: str) -> str:
+    return TEXT(db, name)
+
+
+def test_of_a_query_with_a_limit_those_stay_that_were_asked_for_last() -> None:
+    it = Made()
+    for name in ("a", "b", "c", "a", "d", "a"):
+        last_few(it.db, name)
+    it.names()
+    assert [last_few(it.db, name) for name in "acd"] == ["1 2", "", ""]
+    assert it.names() == []
+    last_few(it.db, "b")
+    assert it.names() == ["last_few"]
+
+
+@query
+def grown(db: Database, name: str) -> tuple[str, ...]:
+    return (*(db.previous or ()), TEXT(db, name))
+
+
+def test_a_query_may_look_at_what_it_gave_before() -> None:
+    db = Database()
+    assert grown(db, "a") == ("1 2",)
+    change(db, "a", "new")
+    assert grown(db, "a") == ("1 2", "new")
+    assert grown(db, "b") == ("3",)
+
+
+@query
+def translated(db: Database, name: str) -> str:
+    return " ".join(str(db.ask(word)) for word in TEXT(db, name).split())
+
+
+def test_answers_are_part_of_what_is_remembered() -> None:
+    it = Made()
+    asked: list[Any] = []
+
+    def answer(words: dict[str, object]) -> Answer:
+        def say(question: Any) -> object:
+            asked.append(question)
+            return words.get(question, "?")
+
+        return say
+
+    one, two = {"1": "one", "2": "two", "3": "no matter"}, {"1": "eins", "2": "zwei"}
+    for words, expected in ((one, "one two"), (two, "eins zwei"), (one | {"3": "three"}, "one two")):
+        assert translated.answered(it.db, answer(words), "a") == expected
+    assert it.names() == ["translated", "translated"]
+    asked.clear()
+    change(it.db, "a", "2 3")
+    assert translated.answered(it.db, answer(one), "a") == "two no matter"
+    assert translated.answered(it.db, answer(one | {"1": "other"}), "a") == "two no matter"
+    assert "1" in asked, "what it was made of last time tells which of what is remembered may be right"
+    assert translated.answered(it.db, answer({"2": True}), "a") == "True ?"
+    assert translated.answered(it.db, answer({"2": 1}), "a") == "1 ?"
+
+
+def test_who_does_not_answer_is_not_asked() -> None:
+    @query
+    def asks(db: Database) -> str:
+        return translated(db, "a")
+
+    @query
+    def answers(db: Database) -> str:
+        return translated.answered(db, str, "a")
+
+    db = Database()
+    with pytest.raises(RuntimeError, match="nobody"):
+        translated(db, "a")
+    with pytest.raises(RuntimeError, match="nobody"):
+        asks.answered(db, str)
+    with pytest.raises(RuntimeError, match="cannot answer"):
+        answers(db)
+
+
+def test_all_of_a_handle_is_forgotten_at_once() -> None:
+    handle = object()
+
+    @query
+    def of_handle(db: Database, handle: object, name: str) -> str:
+        return TEXT(db, name)
+
+    db = Database()
+    of_handle(db, handle, "a")
+    of_handle.answered(db, str, handle, "b")
+    of_handle(db, object(), "a")
+    db.forget(handle)
+    assert not any(handle in key for _, key in db.cells)
+    assert len([key for kind, key in db.cells if kind is of_handle]) == 1
 
 
 def test_keys_are_given_by_their_places() -> None:

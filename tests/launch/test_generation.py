@@ -5,9 +5,18 @@ from pathlib import Path
 import pytest
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.launch.read import generation_of
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+
+
+def marked_generation(path: str, text: str) -> int:
+    """Of a text that an editor has of the file."""
+    sources = Sources()
+    sources.open(path, text)
+    found = sources.launch_file(path)
+    assert not isinstance(found, Unreadable)
+    return found.generation
+
 
 OLD = '<node pkg="p" type="t" name="n" ns="x"/><include file="$(find robot)/launch/base.launch"/>'
 OLDER = '<launch><include file="$(find robot)/launch/base.launch"/></launch>'
@@ -25,7 +34,7 @@ def test_the_package_decides(build: str, name: str, generation: int, tmp_path: P
     manifest = f"<package><name>robot</name><buildtool_depend>{build}</buildtool_depend></package>"
     (tmp_path / "package.xml").write_text(manifest)
     (tmp_path / "launch").mkdir()
-    assert generation_of(str(tmp_path / "launch" / name), OLDER) == generation
+    assert marked_generation(str(tmp_path / "launch" / name), OLDER) == generation
 
 
 @pytest.mark.parametrize(
@@ -40,9 +49,9 @@ def test_the_package_decides(build: str, name: str, generation: int, tmp_path: P
 )
 def test_what_roslaunch_never_had_decides_in_a_loose_file(tag: str, tmp_path: Path) -> None:
     for name in ("a.launch.xml", "a.launch"):
-        assert generation_of(str(tmp_path / name), f"<launch>{tag}{OLD}</launch>") == 2
-        assert generation_of(str(tmp_path / name), f"<launch>{tag}</launch>") == 2
-        assert generation_of(str(tmp_path / name), f"<launch>{OLD}<!-- {tag} --></launch>") == 1
+        assert marked_generation(str(tmp_path / name), f"<launch>{tag}{OLD}</launch>") == 2
+        assert marked_generation(str(tmp_path / name), f"<launch>{tag}</launch>") == 2
+        assert marked_generation(str(tmp_path / name), f"<launch>{OLD}<!-- {tag} --></launch>") == 1
 
 
 @pytest.mark.parametrize(("version", "generation"), [("1", 1), ("2", 2)])

@@ -9,47 +9,29 @@ import ast
 import contextlib
 import os
 import re
-import time
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
-from pathlib import Path
 
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.cmake import LISTS
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.incremental.database import Database, query
 
 _CALL = re.compile(r"^\s*catkin_python_setup\s*\(", re.MULTILINE | re.IGNORECASE)
 _MADE_OF = {"msg": ".msg", "srv": ".srv", "action": ".action", "cfg": ".cfg"}
 """The folders of what modules are made of when a package is built, and the ends of the names of the files."""
 _MAX_TEXT = 200_000
-_LASTS_SECONDS = 1.0
 
 
-_last: tuple[Environment, float, tuple[str, ...]] | None = None
+def source_folders(disk: Disk, environment: Environment) -> tuple[str, ...]:
+    """The folders of the module search path once the workspace is built, as they are in the source."""
+    return _source_folders(disk.db, environment)
 
 
-def source_folders(environment: Environment) -> tuple[str, ...]:
-    """The folders of the module search path once the workspace is built, as they are in the source.
-
-    Asked for each node of a launch at each keystroke: the disk is looked at once a second.
-    """
-    global _last  # noqa: PLW0603 - a memory of one, replaced as a whole
-    known = _last
-    now = time.monotonic()
-    if known is None or known[0] is not environment or now - known[1] > _LASTS_SECONDS:
-        known = _last = environment, now, _found(environment)
-    return known[2]
-
-
-def _found(environment: Environment) -> tuple[str, ...]:
-    found: dict[str, None] = {}
-    for package in workspace_packages(environment):
-        setup = os.path.join(package.share, "setup.py")
-        try:
-            state = os.stat(setup)
-        except OSError:
-            continue
-        found.update(dict.fromkeys(_folders(package.share, state.st_mtime_ns)))
-    return tuple(found)
+@query
+def _source_folders(db: Database, environment: Environment) -> tuple[str, ...]:
+    packages = workspace_packages(environment)
+    return tuple(dict.fromkeys(folder for package in packages for folder in _folders(db, package.share)))
 
 
 def generates_modules(package: Package) -> bool:
@@ -67,10 +49,10 @@ def workspace_packages(environment: Environment) -> Iterator[Package]:
             yield package
 
 
-@lru_cache(maxsize=1024)
-def _folders(folder: str, _changed: int) -> tuple[str, ...]:
-    lists, setup = _text(os.path.join(folder, LISTS)), _text(os.path.join(folder, "setup.py"))
-    if not _CALL.search(lists):
+@query
+def _folders(db: Database, folder: str) -> tuple[str, ...]:
+    setup = _text(db, os.path.join(folder, "setup.py"))
+    if setup is None or not _CALL.search(_text(db, os.path.join(folder, LISTS)) or ""):
         return ()
     given = _package_dir(setup)
     roots = [given.get("", "")]
@@ -106,12 +88,9 @@ def _is_item(target: ast.expr) -> bool:
     return isinstance(key, ast.Constant) and key.value == "package_dir"
 
 
-def _text(path: str) -> str:
-    try:
-        with Path(path).open(encoding="utf-8", errors="replace") as file:
-            return file.read(_MAX_TEXT)
-    except OSError:
-        return ""
+def _text(db: Database, path: str) -> str | None:
+    found = Disk(db).text(path)
+    return found.text[:_MAX_TEXT] if isinstance(found, Document) else None
 
 
 def _names(folder: str) -> list[str]:

@@ -11,204 +11,201 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
-from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.documents.disk import Disk, mode_of, names_in
+from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build, Made
 from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.environment.packages import crawl
 from preflight_analysis.environment.walk import walk
+from preflight_analysis.incremental.database import Database, query
 
 _COMPONENTS = os.path.join("share", "ament_index", "resource_index", "rclcpp_components")
 _RUNNABLE = stat.S_IRUSR | stat.S_IXUSR
+_MAX_MARKER = 65536
 
 
 class ExecutableIndex:
-    """Finds executables of one environment and remembers what it found; a new one sees what changed."""
+    """Finds executables of one environment on a disk."""
 
-    def __init__(self, environment: Environment) -> None:
+    def __init__(self, environment: Environment, disk: Disk | None = None) -> None:
         self._environment = environment
-        self._found: dict[tuple[str, str], Executable] = {}
-        self._files: dict[str, dict[str, list[str]]] = {}
-        self._sources: dict[str, dict[str, str]] = {}
-        self._targets: dict[str, frozenset[str]] = {}
-        self._names: dict[str, tuple[str, ...]] = {}
-        self._builds: dict[str, Build] = {}
-        self._components: dict[str, tuple[str, ...]] = {}
+        self._db = (disk or Disk()).db
 
     def find(self, package: str, name: str) -> Executable:
         """What a node of this `pkg` and `type` runs.
 
         `name` is the plain name of a file: as for roslaunch, nothing is found for one with a slash in it.
         """
-        found = self._found.get((package, name))
-        if found is None:
-            found = self._found[package, name] = self._find(package, name)
-        return found
-
-    def _find(self, package: str, name: str) -> Executable:
-        found = self._environment.packages.get(package)
-        if found is None:
-            return Executable(None)
-        if self._is_ament(found):
-            return self._find_ament(found, name)
-        runnable: list[str] = []
-        others: list[str] = []
-        for folder in self._folders(package, found.share):
-            for path in self._walked(folder).get(name, ()):
-                mode = _mode(path)
-                if mode is not None:
-                    (runnable if mode & _RUNNABLE == _RUNNABLE else others).append(path)
-        candidates = tuple(dict.fromkeys(runnable))
-        return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
-
-    def _is_ament(self, package: Package) -> bool:
-        """Whether `launch_ros` looks for its executables. One that both generations build (`cmake`) is that of the
-        environment."""
-        return package.is_ament or (package.build_type == "cmake" and self._environment.ros.ament)
-
-    def _find_ament(self, package: Package, name: str) -> Executable:
-        """`lib/<package>` of the prefixes, as `launch_ros` looks for it, and what the package in the source will put
-        there: the source of a Python package first, since that is what is edited."""
-        entry = python_build(package).scripts.get(name)
-        installed = [
-            path
-            for prefix in self._environment.ament_prefixes
-            if _is_runnable(path := os.path.join(prefix, "lib", package.name, name))
-        ]
-        if entry is not None and entry.file is not None:
-            entry_point = f"{entry.module}:{entry.function}"
-            return Executable(entry.file, (entry.file, *installed), package.share, entry_point=entry_point)
-        program = self._build(package.name).programs.get(name)
-        source = [program.path] if program is not None and os.path.isfile(program.path) else []
-        candidates = (*installed, *source)
-        return Executable(candidates[0] if candidates else None, candidates, package.share)
+        return _find(self._db, self._environment, package, name)
 
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the executable: it is there once the workspace is built.
 
         Where the file is not understood a word of it is taken for its word; `${PROJECT_NAME}` is the package.
         """
-        found = self._environment.packages.get(package)
-        if found is None:
+        if package not in self._environment.packages:
             return False
         if self.made_of(package, name) is not None:
             return True
-        if package not in self._targets:
-            words: set[str] = set()
-            for path in self._walked(found.share).get("CMakeLists.txt", ()):
-                text = read_text(path)
-                if isinstance(text, Text):
-                    plain = re.sub(r"#.*", "", text.text.replace("${PROJECT_NAME}", package))
-                    words.update(re.findall(r"[^\s()\"]+", plain))
-            self._targets[package] = frozenset(words)
-        return name in self._targets[package]
+        return name in _words_of_lists(self._db, self._environment, package)
 
     def made_of(self, package: str, name: str) -> Made | None:
         """The file in the source of the package that the executable is made of, once it is built or installed."""
-        return self._build(package).made_of(name)
-
-    def _build(self, package: str) -> Build:
-        if package not in self._builds:
-            found = self._environment.packages.get(package)
-            self._builds[package] = cmake_build(found) if found is not None else Build()
-        return self._builds[package]
+        return _build(self._db, self._environment, package).made_of(name)
 
     def names(self, package: str) -> tuple[str, ...]:
         """All that a node of this package could name as its type, what is not built yet as well, sorted.
 
         Empty for an unknown package.
         """
-        found = self._environment.packages.get(package)
-        if found is None:
-            return ()
-        if package not in self._names:
-            build = self._build(package)
-            of_ros2 = self._is_ament(found)
-            names = set(python_build(found).scripts) if of_ros2 else set()
-            for prefix in self._environment.ament_prefixes if of_ros2 else ():
-                names |= set(_listed(os.path.join(prefix, "lib", package)))
-            names |= {target.output for target in build.targets.values() if target.kind == "executable"}
-            names |= set(build.programs)
-            for folder in self._folders(package, found.share) if not of_ros2 else ():
-                for name, paths in self._walked(folder).items():
-                    if name not in names and any(_is_runnable(path) for path in paths):
-                        names.add(name)
-            self._names[package] = tuple(sorted(names))
-        return self._names[package]
+        return _names(self._db, self._environment, package)
 
     def components(self, package: str) -> tuple[str, ...]:
         """The classes of the package that a container can load, as the prefixes list them and as its `CMakeLists.txt`
         registers them, sorted; empty where nothing of that is known."""
-        if package not in self._components:
-            found = set(self._build(package).components)
-            for prefix in self._environment.ament_prefixes:
-                listed = read_text(os.path.join(prefix, _COMPONENTS, package))
-                if isinstance(listed, Text):
-                    found |= {line.partition(";")[0].strip() for line in listed.text.splitlines()}
-            self._components[package] = tuple(sorted(found - {""}))
-        return self._components[package]
-
-    def _folders(self, package: str, share: str) -> Iterator[str]:
-        spaces = (*self._environment.devel_spaces, *self._environment.system_prefixes)
-        for space in spaces:
-            found = [f for f in self._in_space(space, package) if os.path.exists(f)]
-            if found:
-                yield from found
-                break
-        yield share
-
-    def _in_space(self, space: str, package: str) -> Iterator[str]:
-        yield from (os.path.join(space, kind, package) for kind in ("lib", "libexec", "share"))
-        if space not in self._sources:
-            sources: dict[str, str] = {}
-            for folder in source_spaces(space):
-                for package_there in crawl(folder, metapackages=True):
-                    sources.setdefault(package_there.name, package_there.share)
-            self._sources[space] = sources
-        if package in self._sources[space]:
-            yield self._sources[space][package]
-
-    def _walked(self, folder: str) -> dict[str, list[str]]:
-        if folder not in self._files:
-            by_name: dict[str, list[str]] = {}
-            for place, _, files in walk(folder):
-                for name in files:
-                    by_name.setdefault(name, []).append(os.path.join(place, name))
-            self._files[folder] = by_name
-        return self._files[folder]
+        return _components(self._db, self._environment, package)
 
 
-def source_spaces(space: str) -> list[str]:
+@query
+def _find(db: Database, environment: Environment, package: str, name: str) -> Executable:
+    found = environment.packages.get(package)
+    if found is None:
+        return Executable(None)
+    if _is_ament(environment, found):
+        return _find_ament(Disk(db), environment, found, name)
+    runnable: list[str] = []
+    others: list[str] = []
+    for folder in _folders(db, environment, package, found.share):
+        for path in _walked(db, folder).get(name, ()):
+            mode = mode_of(db, path)
+            if mode is not None and stat.S_ISREG(mode):
+                (runnable if mode & _RUNNABLE == _RUNNABLE else others).append(path)
+    candidates = tuple(dict.fromkeys(runnable))
+    return Executable(candidates[0] if candidates else None, candidates, found.share, tuple(dict.fromkeys(others)))
+
+
+def _is_ament(environment: Environment, package: Package) -> bool:
+    """Whether `launch_ros` looks for its executables. One that both generations build (`cmake`) is that of the
+    environment."""
+    return package.is_ament or (package.build_type == "cmake" and environment.ros.ament)
+
+
+def _find_ament(disk: Disk, environment: Environment, package: Package, name: str) -> Executable:
+    """`lib/<package>` of the prefixes, as `launch_ros` looks for it, and what the package in the source will put
+    there: the source of a Python package first, since that is what is edited."""
+    entry = python_build(disk, package).scripts.get(name)
+    installed = [
+        path
+        for prefix in environment.ament_prefixes
+        if _is_runnable(disk.db, path := os.path.join(prefix, "lib", package.name, name))
+    ]
+    if entry is not None and entry.file is not None:
+        entry_point = f"{entry.module}:{entry.function}"
+        return Executable(entry.file, (entry.file, *installed), package.share, entry_point=entry_point)
+    program = cmake_build(disk, package).programs.get(name)
+    source = [program.path] if program is not None and disk.is_file(program.path) else []
+    candidates = (*installed, *source)
+    return Executable(candidates[0] if candidates else None, candidates, package.share)
+
+
+def _build(db: Database, environment: Environment, package: str) -> Build:
+    found = environment.packages.get(package)
+    return cmake_build(Disk(db), found) if found is not None else Build()
+
+
+@query
+def _words_of_lists(db: Database, environment: Environment, package: str) -> frozenset[str]:
+    """The words of all the `CMakeLists.txt` of a package."""
+    words: set[str] = set()
+    for path in _walked(db, environment.packages[package].share).get("CMakeLists.txt", ()):
+        found = Disk(db).text(path)
+        if isinstance(found, Document):
+            plain = re.sub(r"#.*", "", found.text.replace("${PROJECT_NAME}", package))
+            words.update(re.findall(r"[^\s()\"]+", plain))
+    return frozenset(words)
+
+
+@query
+def _names(db: Database, environment: Environment, package: str) -> tuple[str, ...]:
+    found = environment.packages.get(package)
+    if found is None:
+        return ()
+    disk, build = Disk(db), _build(db, environment, package)
+    of_ros2 = _is_ament(environment, found)
+    names = set(python_build(disk, found).scripts) if of_ros2 else set()
+    for prefix in environment.ament_prefixes if of_ros2 else ():
+        folder = os.path.join(prefix, "lib", package)
+        names |= {name for name in disk.names(folder) if _is_runnable(db, os.path.join(folder, name))}
+    names |= {target.output for target in build.targets.values() if target.kind == "executable"}
+    names |= set(build.programs)
+    for folder in _folders(db, environment, package, found.share) if not of_ros2 else ():
+        for name, paths in _walked(db, folder).items():
+            if name not in names and any(_is_runnable(db, path) for path in paths):
+                names.add(name)
+    return tuple(sorted(names))
+
+
+@query
+def _components(db: Database, environment: Environment, package: str) -> tuple[str, ...]:
+    found = set(_build(db, environment, package).components)
+    for prefix in environment.ament_prefixes:
+        listed = Disk(db).text(os.path.join(prefix, _COMPONENTS, package))
+        if isinstance(listed, Document):
+            found |= {line.partition(";")[0].strip() for line in listed.text.splitlines()}
+    return tuple(sorted(found - {""}))
+
+
+def _folders(db: Database, environment: Environment, package: str, share: str) -> Iterator[str]:
+    spaces = (*environment.devel_spaces, *environment.system_prefixes)
+    for space in spaces:
+        found = [folder for folder in _in_space(db, environment, space, package) if mode_of(db, folder) is not None]
+        if found:
+            yield from found
+            break
+    yield share
+
+
+def _in_space(db: Database, environment: Environment, space: str, package: str) -> Iterator[str]:
+    yield from (os.path.join(space, kind, package) for kind in ("lib", "libexec", "share"))
+    source = _sources_of_space(db, environment, space).get(package)
+    if source is not None:
+        yield source
+
+
+@query
+def _sources_of_space(db: Database, environment: Environment, space: str) -> Mapping[str, str]:
+    """The folders of the packages that a space was made from, by name: as they are when an environment is detected."""
+    sources: dict[str, str] = {}
+    for folder in source_spaces(Disk(db), space):
+        for package_there in crawl(folder, metapackages=True):
+            sources.setdefault(package_there.name, package_there.share)
+    return sources
+
+
+@query
+def _walked(db: Database, folder: str) -> Mapping[str, Sequence[str]]:
+    """The paths of the files below a folder, by name."""
+    by_name: dict[str, list[str]] = {}
+    for place, _, files in walk(folder):
+        names_in(db, place)  # walked again as something in it comes or goes
+        for name in files:
+            by_name.setdefault(name, []).append(os.path.join(place, name))
+    return by_name
+
+
+def source_spaces(disk: Disk, space: str) -> list[str]:
     """The source folders that a devel space was made from, as its `.catkin` file lists them."""
-    try:
-        with open(os.path.join(space, ".catkin"), encoding="utf-8", errors="surrogateescape") as marker:
-            listed = marker.read(65536)
-    except OSError:
-        return []
+    marker = disk.data(os.path.join(space, ".catkin"))
+    listed = os.fsdecode(marker[:_MAX_MARKER]) if isinstance(marker, bytes) else ""
     by_place = {
-        os.path.realpath(folder): folder for folder in reversed(listed.split(";")) if folder and "\0" not in folder
+        disk.real_path(folder): folder for folder in reversed(listed.split(";")) if folder and "\0" not in folder
     }
     return list(reversed(by_place.values()))
 
 
-def _listed(folder: str) -> list[str]:
-    try:
-        return [name for name in os.listdir(folder) if _is_runnable(os.path.join(folder, name))]
-    except OSError:
-        return []
-
-
-def _mode(path: str) -> int | None:
-    """The mode of a regular file, None for what is none (a dangling link, a socket)."""
-    try:
-        mode = os.stat(path).st_mode
-    except OSError:
-        return None
-    return mode if stat.S_ISREG(mode) else None
-
-
-def _is_runnable(path: str) -> bool:
-    mode = _mode(path)
-    return mode is not None and mode & _RUNNABLE == _RUNNABLE
+def _is_runnable(db: Database, path: str) -> bool:
+    mode = mode_of(db, path)
+    return mode is not None and stat.S_ISREG(mode) and mode & _RUNNABLE == _RUNNABLE

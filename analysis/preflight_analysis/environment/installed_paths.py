@@ -8,40 +8,39 @@ long as the package installs them so; what it installs under other names, or mak
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Iterator
 
-from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build
 from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.setup_py import PythonBuild, read_python_build
+from preflight_analysis.incremental.database import Database, query
 
 
-def located(environment: Environment, path: str) -> str:
+def located(disk: Disk, environment: Environment, path: str) -> str:
     """The file that a path leads to: itself if it is there, else what the package around it installs there, else what
     is installed; itself if there is nothing of all that."""
-    if os.path.exists(path):
+    if disk.exists(path):
         return path
     package = package_around(environment, path)
     if package is None or not package.is_ament:
         return path
     below = os.path.relpath(path, package.share)
-    source = installed_from(package, below)
-    if source is not None and os.path.exists(source):
+    source = installed_from(disk, package, below)
+    if source is not None and disk.exists(source):
         return source
     for prefix in environment.ament_prefixes:
         candidate = os.path.join(prefix, "share", package.name, below)
-        if os.path.exists(candidate):
+        if disk.exists(candidate):
             return candidate
     return path
 
 
 def package_around(environment: Environment, path: str) -> Package | None:
     """The package whose folder a path is in."""
-    folders = _by_folder(environment)
+    folders = environment.packages_by_folder
     folder = os.path.dirname(path)
     while folder and folder != os.path.dirname(folder):
         if folder in folders:
@@ -50,26 +49,11 @@ def package_around(environment: Environment, path: str) -> Package | None:
     return None
 
 
-_FOLDERS: dict[int, tuple[Mapping[str, Package], Mapping[str, Package]]] = {}
-"""The packages of an environment by their folders. By identity: they are hundreds, and asked for at each keystroke."""
-_MOST_ENVIRONMENTS = 8
-
-
-def _by_folder(environment: Environment) -> Mapping[str, Package]:
-    packages = environment.packages
-    known = _FOLDERS.get(id(packages))
-    if known is None or known[0] is not packages:
-        if len(_FOLDERS) >= _MOST_ENVIRONMENTS:
-            _FOLDERS.clear()
-        known = _FOLDERS[id(packages)] = packages, {p.share.rstrip("/"): p for p in packages.values()}
-    return known[1]
-
-
-def installed_from(package: Package, below: str) -> str | None:
+def installed_from(disk: Disk, package: Package, below: str) -> str | None:
     """The file of the source that is installed at this place of the share folder, None if none is known to be."""
     if package.build_type == "ament_python":
-        return python_build(package).data.get(below)
-    for where, source in _installed_by_cmake(package):
+        return python_build(disk, package).data.get(below)
+    for where, source in _installed_by_cmake(disk, package):
         if where == ".":
             path = os.path.join(source, below)
         elif below.startswith(where + os.sep):
@@ -78,46 +62,46 @@ def installed_from(package: Package, below: str) -> str | None:
             path = source
         else:
             continue
-        if os.path.exists(path):
+        if disk.exists(path):
             return path
     return None
 
 
-def installed_elsewhere(package: Package) -> list[tuple[str, str]]:
+def installed_elsewhere(disk: Disk, package: Package) -> list[tuple[str, str]]:
     """Paths in the share folder of a package of the workspace, and the files and folders of its source that they will
     lead to once it is built, where those lie elsewhere."""
     if not package.is_ament:
         return []
     python = package.build_type == "ament_python"
-    found = python_build(package).data.items() if python else _installed_by_cmake(package)
+    found = python_build(disk, package).data.items() if python else _installed_by_cmake(disk, package)
     pairs = ((os.path.normpath(os.path.join(package.share, where)), os.path.normpath(path)) for where, path in found)
     return [(where, source) for where, source in pairs if where != source]
 
 
-def _installed_by_cmake(package: Package) -> Iterator[tuple[str, str]]:
+def _installed_by_cmake(disk: Disk, package: Package) -> Iterator[tuple[str, str]]:
     """What is installed below the package's share folder: where there, and the file or folder of the source."""
     share = f"share/{package.name}"
-    for item in cmake_build(package).installed:
+    for item in cmake_build(disk, package).installed:
         destination = os.path.normpath(item.destination.replace("${PROJECT_NAME}", package.name)).lstrip("/")
         if destination == share or destination.startswith(share + "/"):
             yield os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name)), item.source
 
 
-def installs_more(package: Package) -> bool:
+def installs_more(disk: Disk, package: Package) -> bool:
     """Whether the package may install files that are not known: its build files do more than is understood."""
     if package.build_type == "ament_python":
-        build = python_build(package)
+        build = python_build(disk, package)
         return not (build.complete and build.data)
-    return package.build_type != "ament_cmake" or not cmake_build(package).complete
+    return package.build_type != "ament_cmake" or not cmake_build(disk, package).complete
 
 
-def installed_at(package: Package, path: str) -> tuple[str, ...]:
+def installed_at(disk: Disk, package: Package, path: str) -> tuple[str, ...]:
     """Where in the share folder of its package a file of the source is installed, as far as is known."""
     path = os.path.normpath(path)
     if package.build_type == "ament_python":
-        return tuple(below for below, source in python_build(package).data.items() if source == path)
+        return tuple(below for below, source in python_build(disk, package).data.items() if source == path)
     found = []
-    for where, source in _installed_by_cmake(package):
+    for where, source in _installed_by_cmake(disk, package):
         if path == source:
             found.append(where)
         elif path.startswith(source + os.sep):
@@ -125,61 +109,27 @@ def installed_at(package: Package, path: str) -> tuple[str, ...]:
     return tuple(found)
 
 
-def python_build(package: Package) -> PythonBuild:
-    """What `setup.py` and its like say, as they and the folders that they list are now."""
-    key = package.share, package.name
-    known = _PYTHON_BUILDS.get(key)
-    if known is not None and known.is_current():
-        return known.build
-    at = time.time_ns()
-    build = read_python_build(*key, _text)
-    if known is not None and known.build == build:
-        build = known.build
-    if len(_PYTHON_BUILDS) >= _MOST_BUILDS:
-        _PYTHON_BUILDS.clear()
-    _PYTHON_BUILDS[key] = _KnownBuild(build, {path: _signature(path) for path in build.looked_at}, at)
-    return build
+def python_build(disk: Disk, package: Package) -> PythonBuild:
+    """What `setup.py` and its like say."""
+    return _python_build(disk.db, package.share, package.name)
 
 
-@dataclass(frozen=True, slots=True)
-class _KnownBuild:
-    """What was read, of files and folders that looked so, and when (nanoseconds)."""
-
-    build: PythonBuild
-    signatures: Mapping[str, tuple[int, int] | None]
-    at: int
-
-    def is_current(self) -> bool:
-        """Whether all of it looks as it did, and was not changed so shortly before that another change may not show."""
-        newest = max((signature[0] for signature in self.signatures.values() if signature is not None), default=0)
-        same = all(_signature(path) == signature for path, signature in self.signatures.items())
-        return same and newest + _TICK < self.at
+@query
+def _python_build(db: Database, share: str, name: str) -> PythonBuild:
+    return read_python_build(share, name, Disk(db))
 
 
-_PYTHON_BUILDS: dict[tuple[str, str], _KnownBuild] = {}
-_MOST_BUILDS = 256
-_TICK = 50_000_000
-"""Nanoseconds in which a file system may give two changes the same time."""
+def cmake_build(disk: Disk, package: Package) -> Build:
+    """What `CMakeLists.txt` says."""
+    return _cmake_build(disk.db, package.share, package.name)
 
 
-def cmake_build(package: Package) -> Build:
-    """What `CMakeLists.txt` says, as it is now."""
-    return _cmake_build(package.share, package.name, _signature(os.path.join(package.share, "CMakeLists.txt")))
+@query
+def _cmake_build(db: Database, share: str, name: str) -> Build:
+    disk = Disk(db)
 
+    def read(path: str) -> str | None:
+        found = disk.text(path)
+        return found.text if isinstance(found, Document) else None
 
-@lru_cache(maxsize=256)
-def _cmake_build(share: str, name: str, _: object) -> Build:
-    return read_build(share, name, _text)
-
-
-def _signature(path: str) -> tuple[int, int] | None:
-    try:
-        status = os.stat(path)
-    except OSError:
-        return None
-    return status.st_mtime_ns, status.st_size
-
-
-def _text(path: str) -> str | None:
-    found = read_text(path)
-    return found.text if isinstance(found, Text) else None
+    return read_build(share, name, read)

@@ -9,10 +9,11 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
 
-from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.incremental.database import Database, query
 
 _GROUP = "launch.frontend.launch_extension"
 _SETUP = ("setup.cfg", "setup.py", "pyproject.toml")
@@ -23,69 +24,58 @@ _MAX_FILES = 500
 """Of one package, with its folders: what a file of the workspace names may be anything."""
 
 
-def exposed_actions(environment: Environment) -> Mapping[str, str]:
+def exposed_actions(disk: Disk, environment: Environment) -> Mapping[str, str]:
     """The tags of all extensions that the environment has, each with the package that defines it."""
-    shares = tuple((name, package.share) for name, package in sorted(environment.packages.items()) if name not in _OWN)
-    return _exposed(shares, environment.ament_prefixes, tuple(_signatures(shares)))
+    return _exposed(disk.db, environment)
 
 
-def _signatures(shares: tuple[tuple[str, str], ...]) -> Iterator[tuple[int, int] | None]:
-    """What changes when a package becomes an extension, or exposes another tag."""
-    for name, share in shares:
-        for path in (*(os.path.join(share, setup) for setup in _SETUP), os.path.join(share, name)):
-            try:
-                status = os.stat(path)
-            except OSError:
-                continue
-            yield status.st_mtime_ns, status.st_size
-
-
-@lru_cache(maxsize=4)
-def _exposed(shares: tuple[tuple[str, str], ...], prefixes: tuple[str, ...], _: object) -> Mapping[str, str]:
+@query
+def _exposed(db: Database, environment: Environment) -> Mapping[str, str]:
+    disk = Disk(db)
     found: dict[str, str] = {}
-    for name, share in shares:
-        if name.isidentifier() and any(_GROUP in _text(os.path.join(share, setup)) for setup in _SETUP):
-            for folder in (os.path.join(share, name), os.path.join(share, "src", name)):
-                found.update(dict.fromkeys(_tags_of(folder), name))
-    for prefix in prefixes:
-        for folder, name in _installed(prefix):
+    for name, package in sorted(environment.packages.items()):
+        if name not in _OWN and name.isidentifier() and _is_extension(disk, package.share):
+            for folder in (os.path.join(package.share, name), os.path.join(package.share, "src", name)):
+                found.update(dict.fromkeys(_tags_of(disk, folder), name))
+    for prefix in environment.ament_prefixes:
+        for folder, name in _installed(disk, prefix):
             if name not in _OWN:
-                found.update(dict.fromkeys(_tags_of(folder), name))
+                found.update(dict.fromkeys(_tags_of(disk, folder), name))
     return found
 
 
-def _installed(prefix: str) -> Iterator[tuple[str, str]]:
+def _is_extension(disk: Disk, share: str) -> bool:
+    return any(_GROUP in _text(disk, os.path.join(share, setup)) for setup in _SETUP)
+
+
+def _installed(disk: Disk, prefix: str) -> Iterator[tuple[str, str]]:
     """The modules of a prefix that are extensions, with their names."""
-    for version in _listed(os.path.join(prefix, "lib")):
+    for version in disk.names(os.path.join(prefix, "lib")):
         site = os.path.join(prefix, "lib", version, "site-packages")
-        for folder in _listed(site) if version.startswith("python3") else ():
+        for folder in disk.names(site) if version.startswith("python3") else ():
             if folder.endswith((".egg-info", ".dist-info")):
-                _, group, below = _text(os.path.join(site, folder, "entry_points.txt")).partition(f"[{_GROUP}]")
+                _, group, below = _text(disk, os.path.join(site, folder, "entry_points.txt")).partition(f"[{_GROUP}]")
                 for line in below.partition("\n[")[0].splitlines() if group else ():
                     module = line.partition("=")[2].strip().partition(":")[0].partition(".")[0]
                     if module.isidentifier():
                         yield os.path.join(site, module), module
 
 
-def _tags_of(folder: str) -> Iterator[str]:
-    count = 0
-    for place, folders, names in os.walk(folder):
-        folders.sort()
-        programs = sorted(name for name in names if name.endswith(".py"))
+def _tags_of(disk: Disk, folder: str) -> Iterator[str]:
+    count, pending = 0, [folder]
+    while pending:
+        place = pending.pop()
+        names = disk.names(place)
+        programs = [name for name in names if name.endswith(".py")]
         count += 1 + len(programs)
         if count > _MAX_FILES:
             return
         for name in programs:
-            yield from _EXPOSED.findall(_text(os.path.join(place, name)))
+            yield from _EXPOSED.findall(_text(disk, os.path.join(place, name)))
+        inner = (os.path.join(place, name) for name in reversed(names) if not name.endswith(".py"))
+        pending += (path for path in inner if disk.is_folder(path) and not disk.is_link(path))
 
 
-def _listed(folder: str) -> list[str]:
-    try:
-        return sorted(os.listdir(folder))
-    except OSError:
-        return []
-
-
-def _text(path: str) -> str:
-    found = read_text(path)
-    return found.text if isinstance(found, Text) else ""
+def _text(disk: Disk, path: str) -> str:
+    found = disk.text(path)
+    return found.text if isinstance(found, Document) else ""

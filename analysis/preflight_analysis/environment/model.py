@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from preflight_analysis.generation import Generation, ros
 
@@ -44,9 +45,10 @@ class Executable:
     """`module:function` of a Python package that is run from its source; `path` is then the module's file."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Environment:
-    """What launch files and nodes see. Immutable; a new one is detected when package folders or settings change.
+    """What launch files and nodes see. Immutable; a new one is detected when package folders or settings change. It is
+    equal to itself alone, and so a key by which is remembered what was found with it.
 
     `packages` has, for each name, the first package in the order of the package path; `shadowed` the others.
     `variables` is what `$(env)` reads and what nodes get (before the sandbox filters it).
@@ -89,3 +91,8 @@ class Environment:
     def interpreter(self, generation: int) -> str | None:
         """The one that has rospy or rclpy."""
         return {1: self.python, 2: self.ros2_python}[generation]
+
+    @cached_property
+    def packages_by_folder(self) -> Mapping[str, Package]:
+        """The packages by the folders that they are in."""
+        return {package.share.rstrip("/"): package for package in self.packages.values()}

@@ -14,16 +14,14 @@ import importlib
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from preflight_analysis.environment.walk import is_folder
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 
 _TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"
-
-Read = Callable[[str], "str | None"]
-"""The text of a file, None if there is none that can be read."""
 
 _MAX_TEXT = 200_000
 _MAX_FILES = 2_000
@@ -61,31 +59,25 @@ class PythonBuild:
     complete: bool = False
     file: str | None = None
     """The file that says so, where a fix goes."""
-    looked_at: frozenset[str] = frozenset()
-    """The files and folders of the package, there or not, that decide all of this."""
 
 
-_FILES = ("setup.py", "setup.cfg", "pyproject.toml")
-
-
-def read_python_build(folder: str, package: str, read: Read) -> PythonBuild:
+def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
     """What is said in the package's folder. Never raises."""
     scripts: dict[str, EntryPoint] = {}
     data: dict[str, str] = {}
     setup = os.path.join(folder, "setup.py")
-    text = read(setup)
-    found = _Setup(folder, text) if text is not None else None
+    text = _text(disk, setup)
+    found = _Setup(folder, text, disk) if text is not None else None
     complete = found is not None and found.complete
     file = setup if found is not None else None
-    looked_at = {os.path.join(folder, name) for name in _FILES} | (found.listed if found is not None else set())
     for path, reader in (("setup.cfg", _from_cfg), ("pyproject.toml", _from_toml)):
-        content = read(os.path.join(folder, path))
+        content = _text(disk, os.path.join(folder, path))
         if content is not None:
             for name, target in reader(content).items():
-                scripts[name] = _entry_point(folder, name, target, 0)
+                scripts[name] = _entry_point(folder, name, target, 0, disk)
     if found is not None:
         for name, (target, line) in found.scripts.items():
-            scripts[name] = _entry_point(folder, name, target, line)
+            scripts[name] = _entry_point(folder, name, target, line, disk)
         share = f"share/{package}"
         for destination, sources in found.data_files:
             where = os.path.normpath(destination)
@@ -94,17 +86,22 @@ def read_python_build(folder: str, package: str, read: Read) -> PythonBuild:
             below = where[len(share) :].lstrip("/")
             for source in sources[:_MAX_FILES]:
                 data[os.path.join(below, os.path.basename(source))] = os.path.normpath(os.path.join(folder, source))
-    return PythonBuild(scripts, data, complete, file, frozenset(looked_at))
+    return PythonBuild(scripts, data, complete, file)
 
 
-def _entry_point(folder: str, name: str, target: str, line: int) -> EntryPoint:
+def _text(disk: Disk, path: str) -> str | None:
+    found = disk.text(path)
+    return found.text if isinstance(found, Document) else None
+
+
+def _entry_point(folder: str, name: str, target: str, line: int, disk: Disk) -> EntryPoint:
     module, _, function = target.partition(":")
     module, function = module.strip(), function.split("[")[0].strip()
     relative = module.replace(".", os.sep)
     for root in ("", "src"):
         for candidate in (f"{relative}.py", os.path.join(relative, "__init__.py")):
             path = os.path.join(folder, root, candidate)
-            if os.path.isfile(path):
+            if disk.is_file(path):
                 return EntryPoint(name, module, function, path, line)
     return EntryPoint(name, module, function, None, line)
 
@@ -144,16 +141,15 @@ class _Unknown(Exception):  # noqa: N818 - what is not computed, not an error
 class _Setup:
     """The call of `setup(...)`, its arguments computed as far as they are simple."""
 
-    def __init__(self, folder: str, text: str) -> None:
+    def __init__(self, folder: str, text: str, disk: Disk) -> None:
         self._folder = folder
+        self._disk = disk
         self._names: dict[str, Any] = {}
         self.scripts: dict[str, tuple[str, int]] = {}
         self.data_files: list[tuple[str, list[str]]] = []
         self.complete = True
-        self.listed: set[str] = set()
-        """Folders whose names decide what patterns stand for."""
         self._steps = 0
-        self._real = os.path.join(os.path.realpath(folder), "")
+        self._real = os.path.join(disk.real_path(folder), "")
         self._looked_at = 0
         try:
             tree = ast.parse(text[:_MAX_TEXT])
@@ -331,50 +327,42 @@ class _Setup:
         """What `glob` gives for a pattern in a folder of the package, without going through links out of it."""
         first, *rest = pattern
         here = os.path.join(self._folder, folder)
-        self.listed.add(here)
         if first != "" and not glob.has_magic(first):
-            if rest and os.path.isdir(os.path.join(here, first)):
+            if rest and self._disk.is_folder(os.path.join(here, first)):
                 yield from self._below(os.path.join(folder, first), rest, recursive)
-            elif not rest and os.path.lexists(os.path.join(here, first)):
+            elif not rest and self._disk.exists(os.path.join(here, first)):
                 yield os.path.join(folder, first)
             return
         if first == "":  # a slash at the end, or two
             if rest:
                 yield from self._below(folder, rest, recursive)
-            elif folder and os.path.isdir(here):
+            elif folder and self._disk.is_folder(here):
                 yield os.path.join(folder, "")
             return
         any_depth = recursive and first == "**"
         if any_depth:
             yield from self._below(folder, rest, recursive) if rest else ([os.path.join(folder, "")] if folder else [])
-        for name, is_a_folder in self._listed(here):
+        for name, is_folder in self._listed(here):
             if name.startswith(".") and not first.startswith("."):
                 continue
             path = os.path.join(folder, name)
             if any_depth:
-                if is_a_folder:
+                if is_folder:
                     yield from self._below(path, pattern, recursive)
                 elif not rest:
                     yield path
             elif fnmatch.fnmatchcase(name, first):
                 if not rest:
                     yield path
-                elif is_a_folder:
+                elif is_folder:
                     yield from self._below(path, rest, recursive)
 
     def _listed(self, folder: str) -> list[tuple[str, bool]]:
         """The names in a folder of the package, and which are folders; raises `_Unknown` when there are too many."""
-        found = []
-        try:
-            real = os.path.join(os.path.realpath(folder), "")
-            if not real.startswith(self._real):
-                return []
-            with os.scandir(folder) as entries:
-                for entry in entries:
-                    self._looked_at += 1
-                    if self._looked_at > _MAX_ENTRIES:
-                        raise _Unknown
-                    found.append((entry.name, is_folder(entry)))
-        except OSError:
+        if not os.path.join(self._disk.real_path(folder), "").startswith(self._real):
             return []
-        return found
+        names = self._disk.names(folder)
+        self._looked_at += len(names)
+        if self._looked_at > _MAX_ENTRIES:
+            raise _Unknown
+        return [(name, self._disk.is_folder(os.path.join(folder, name))) for name in names]

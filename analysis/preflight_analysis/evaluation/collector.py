@@ -5,6 +5,7 @@ from __future__ import annotations
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
@@ -72,6 +73,10 @@ class Collector:
             found = self._digests[path] = self.files.digest(path)
         return found
 
+    def located(self, path: str) -> str:
+        """The file that a path in the share folder of a package leads to, built or not."""
+        return located(self.files, self.environment, path)
+
     def problem(self, kind: ProblemKind, origin: Origin, *, fatal: bool | None = None) -> None:
         """Note a problem; the same one at the same place once."""
         self._add(Problem(kind, origin, kind.usually_fatal if fatal is None else fatal))
@@ -117,7 +122,7 @@ class Collector:
         """A text file, noted as an input."""
         if (made := self.made.get(path)) is not None:
             return made
-        real = without_dots(path)
+        real = without_dots(self.files, path)
         if real is None:
             return Unreadable(path, "does not exist", "missing")
         self.inputs[real] = self.digest(real)
@@ -125,7 +130,7 @@ class Collector:
 
     def read_data(self, path: str) -> bytes | Unreadable:
         """The bytes of a file, noted as an input."""
-        real = without_dots(path)
+        real = without_dots(self.files, path)
         if real is None:
             return Unreadable(path, "does not exist", "missing")
         self.inputs[real] = self.digest(real)

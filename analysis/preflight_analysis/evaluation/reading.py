@@ -8,9 +8,11 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_classes import PythonClasses
 
 
-def read_launch(source: Text, generation: int | None = None, undecided: int = 1) -> LaunchFile:
+def read_launch(
+    source: Text, generation: int | None = None, undecided: int = 1, of_package: read.OfPackage = read.no_package
+) -> LaunchFile:
     """The launch file of a text; see `launch.read`."""
-    return read.read_launch(source, _python_classes, generation, undecided)
+    return read.read_launch(source, _python_classes, generation, undecided, of_package)
 
 
 def _python_classes() -> PythonClasses:

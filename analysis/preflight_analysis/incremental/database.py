@@ -21,15 +21,19 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any, Concatenate, Generic, ParamSpec, TypeVar, cast
+from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
 
 P = ParamSpec("P")
 V = TypeVar("V")
 Key = tuple[Hashable, ...]
+Answer = Callable[[Hashable], Any]
 
 UNUSED_AFTER = 64
-"""Revisions after which a query's value that nobody asked for is forgotten, if it depends on what changes often."""
+"""Revisions after which what nobody asked for is forgotten, with all that it was made from."""
 _NONE: Any = object()
+_MORE = 1.25
+MOST_ANSWERS = 8
+"""For how many sets of answers the value of one query and key is remembered, the latest."""
 _ALWAYS = 1 << 62
 """Later than any revision: an input that was loaded is right until it is written."""
 
@@ -50,6 +54,7 @@ class Input(Generic[P, V]):
 
     def __init__(self, load: Callable[P, V], *, durable: bool = True) -> None:
         self.load = load
+        self.limit = None
         self.durable = durable
         self.name = load.__name__
 
@@ -63,10 +68,12 @@ class Input(Generic[P, V]):
 
 
 class Query(Generic[P, V]):
-    """A derived value, made by `function`."""
+    """A derived value, made by `function`. `limit`: how many are remembered, those that were asked for last; None: all
+    that are asked for now and then."""
 
-    def __init__(self, function: Callable[Concatenate[Database, P], V]) -> None:
+    def __init__(self, function: Callable[Concatenate[Database, P], V], limit: int | None = None) -> None:
         self.function = function
+        self.limit = limit
         self.name = function.__name__
         self.__doc__ = function.__doc__
 
@@ -75,13 +82,31 @@ class Query(Generic[P, V]):
         _refuse(none)
         return cast(V, db.read(self, key))
 
+    def answered(self, db: Database, answer: Answer, /, *key: P.args, **none: P.kwargs) -> V:
+        """The value for one who answers what the function asks (`Database.ask`). It is remembered with the questions
+        and their answers, for all who would answer them alike. No query may do so: nobody would know of the answers."""
+        _refuse(none)
+        return cast(V, db.read_answered(self, key, answer))
+
     def __repr__(self) -> str:
         return f"Query({self.name})"
 
 
-def query(function: Callable[Concatenate[Database, P], V]) -> Query[P, V]:
+@overload
+def query(function: Callable[Concatenate[Database, P], V]) -> Query[P, V]: ...
+
+
+@overload
+def query(*, limit: int) -> Callable[[Callable[Concatenate[Database, P], V]], Query[P, V]]: ...
+
+
+def query(function: Callable[..., Any] | None = None, *, limit: int | None = None) -> Any:
     """Make a function a query."""
-    return Query(function)
+    return Query(function, limit) if function is not None else lambda function: Query(function, limit)
+
+
+def _same(one: object, other: object) -> bool:
+    return type(one) is type(other) and one == other
 
 
 def _refuse(keywords: Mapping[str, object]) -> None:
@@ -92,7 +117,19 @@ def _refuse(keywords: Mapping[str, object]) -> None:
 class _Cell:
     """One value: of an input, or of a query with the cells that it read, in the order in which it did."""
 
-    __slots__ = ("changed_at", "claimed", "depends_on", "durable", "key", "kind", "value", "verified_at")
+    __slots__ = (
+        "answers",
+        "changed_at",
+        "claimed",
+        "depends_on",
+        "durable",
+        "is_set",
+        "key",
+        "kind",
+        "used_at",
+        "value",
+        "verified_at",
+    )
 
     def __init__(self, kind: Input[Any, Any] | Query[Any, Any], key: Key) -> None:
         self.kind = kind
@@ -106,6 +143,20 @@ class _Cell:
         self.durable = True
         self.claimed = False
         """Whether some thread makes it now."""
+        self.is_set = False
+        """An input: whether it has another value than it would be loaded with."""
+        self.used_at = 0
+        """The last revision in which somebody asked for it."""
+        self.answers: Mapping[Hashable, object] = {}
+        """To what the function asked when it was made."""
+
+
+class _Asked(NamedTuple):
+    """What the function of a cell asks somebody, and was answered."""
+
+    cell: _Cell
+    answer: Answer
+    answers: dict[Hashable, object]
 
 
 class _Thread(threading.local):
@@ -116,6 +167,10 @@ class _Thread(threading.local):
         self.claims = 0
         self.running: set[_Cell] = set()
         self.reads: list[dict[_Cell, None]] = []
+        """Those of the queries that are being made, the innermost last."""
+        self.making: list[_Cell] = []
+        """Those queries."""
+        self.asked: _Asked | None = None
 
 
 class Write:
@@ -129,11 +184,13 @@ class Write:
     def set(self, kind: Input[Any, V], value: V, *key: Hashable, durable: bool = False) -> None:
         """Give an input a value other than what `load` would."""
         self._put(kind, key, value, durable)
+        self._db.cells[kind, key].is_set = True
 
     def reload(self, kind: Input[Any, Any], *key: Hashable) -> None:
         """Take what `load` gives now. Nothing happens where nobody has read it."""
         if (kind, key) in self._db.cells:
             self._put(kind, key, kind.load(*key), kind.durable)
+            self._db.cells[kind, key].is_set = False
 
     def _put(self, kind: Input[Any, Any], key: Key, value: object, durable: bool) -> None:
         db = self._db
@@ -172,8 +229,15 @@ class Database:
         self.cells: dict[tuple[Input[Any, Any] | Query[Any, Any], Key], _Cell] = {}
         self.revision = 1
         self._on_execute = on_execute
+        self._forgot_at = 1
+        self._remained = 0
+        """How much there was after something was forgotten."""
         self._durable_changed_at = 1
         self._condition = threading.Condition()
+        self._answered: dict[tuple[Query[Any, Any], Key], list[_Cell]] = {}
+        """The cells of queries that ask, the one that was asked for last at the end."""
+        self._latest: dict[Query[Any, Any], dict[tuple[Query[Any, Any], Key], None]] = {}
+        """Of queries with a limit those that were asked for last, in that order."""
         self._readers = 0
         self._writers = 0
         """Those that write, or wait until they can."""
@@ -217,8 +281,7 @@ class Database:
                 self.revision += 1
                 if write.durable_changed:
                     self._durable_changed_at = self.revision
-                if self.revision % UNUSED_AFTER == 0:
-                    self._forget()
+                self._forget_unused()
             with self._condition:
                 self._writing = False
                 self._writers -= 1
@@ -241,8 +304,10 @@ class Database:
         finally:
             self._thread.reads.pop()
 
-    def outdated(self, kind: Input[Any, Any], keys: Iterable[Key]) -> list[Key]:
-        """Those of the keys whose input was loaded, and would be another one now."""
+    def outdated(self, kind: Input[Any, Any], keys: Iterable[Key] | None = None) -> list[Key]:
+        """Those of the keys (None: of all) whose input was loaded, and would be another one now."""
+        if keys is None:
+            keys = [key for of, key in list(self.cells) if of is kind]
         cells = ((key, self.cells.get((kind, key))) for key in keys)
         return [
             key for key, cell in cells if cell is not None and cell.value is not _NONE and cell.value != kind.load(*key)
@@ -254,7 +319,8 @@ class Database:
         thread = self._thread
         if not thread.readings:
             known = self.cells.get((kind, key))
-            if known is not None and known.verified_at >= self.revision:
+            if known is not None and known.verified_at >= self.revision and kind.limit is None:
+                known.used_at = self.revision
                 return known.value
             while True:
                 with suppress(Cancelled), self.reading():
@@ -266,9 +332,76 @@ class Database:
             cell = self.cells.setdefault((kind, key), _Cell(kind, key))
         if thread.reads:
             thread.reads[-1][cell] = None
+        cell.used_at = self.revision
         if cell.verified_at < self.revision:
             self._bring_up_to_date(cell)
+        if isinstance(kind, Query) and kind.limit is not None:
+            self._used(kind, key, kind.limit)
         return cell.value
+
+    def read_answered(self, kind: Query[Any, Any], key: Key, answer: Answer) -> object:
+        """As `Query.answered`."""
+        thread = self._thread
+        if thread.reads:
+            raise RuntimeError("a query cannot answer another one")
+        if not thread.readings:
+            while True:
+                with suppress(Cancelled), self.reading():
+                    return self.read_answered(kind, key, answer)
+        if self._writers:
+            raise Cancelled
+        cells = self._answered.setdefault((kind, key), [])
+        known = (cell for cell in reversed(cells) if all(_same(answer(q), a) for q, a in cell.answers.items()))
+        cell = next(known, None) or _Cell(kind, key)
+        cell.used_at = self.revision
+        thread.asked = _Asked(cell, answer, {})
+        try:
+            if cell.verified_at < self.revision:
+                self._bring_up_to_date(cell)
+        finally:
+            thread.asked = None
+        with self._condition:
+            if cell in cells:
+                cells.remove(cell)
+            cells.append(cell)
+            del cells[:-MOST_ANSWERS]
+        if kind.limit is not None:
+            self._used(kind, key, kind.limit)
+        return cell.value
+
+    def ask(self, question: Hashable) -> Any:
+        """For the function of a query that is asked for by `answered`: what its asker answers."""
+        asked, making = self._thread.asked, self._thread.making
+        if asked is None or not making or making[-1] is not asked.cell:
+            raise RuntimeError("there is nobody to answer")
+        if question not in asked.answers:
+            asked.answers[question] = asked.answer(question)
+        return asked.answers[question]
+
+    @property
+    def previous(self) -> Any:
+        """For the function of a query: the value that it gave for this key the last time, None if that is not known.
+        Parts of it may be taken over; what comes out must not depend on it."""
+        value = self._thread.making[-1].value
+        return None if value is _NONE else value
+
+    def forget(self, handle: Hashable) -> None:
+        """Let go of all that has this among its keys."""
+        for name in [name for name in list(self.cells) if handle in name[1]]:
+            self.cells.pop(name, None)
+        for asking in [name for name in list(self._answered) if handle in name[1]]:
+            self._answered.pop(asking, None)
+
+    def _used(self, kind: Query[Any, Any], key: Key, limit: int) -> None:
+        with self._condition:
+            latest = self._latest.setdefault(kind, {})
+            latest.pop((kind, key), None)
+            latest[kind, key] = None
+            if len(latest) > limit:
+                oldest = next(iter(latest))
+                del latest[oldest]
+                self.cells.pop(oldest, None)
+                self._answered.pop(oldest, None)
 
     # How a value comes up to date
 
@@ -313,7 +446,9 @@ class Database:
             return False
         if not (cell.durable and since >= self._durable_changed_at):
             for each in cell.depends_on:
-                if each.verified_at < self.revision:
+                # Looked at here, without a lock: most of thousands depend on what seldom changes.
+                is_durable = each.durable and each.verified_at >= self._durable_changed_at
+                if each.verified_at < self.revision and not is_durable:
                     try:
                         self._bring_up_to_date(each)
                     except Exception:
@@ -326,7 +461,9 @@ class Database:
 
     def _execute(self, cell: _Cell, kind: Query[Any, Any]) -> None:
         reads: dict[_Cell, None] = {}
-        self._thread.reads.append(reads)
+        thread = self._thread
+        thread.reads.append(reads)
+        thread.making.append(cell)
         if self._on_execute is not None:
             self._on_execute(kind, cell.key)
         try:
@@ -336,7 +473,10 @@ class Database:
             cell.durable = all(each.durable for each in reads)
             raise
         finally:
-            self._thread.reads.pop()
+            thread.reads.pop()
+            thread.making.pop()
+        if thread.asked is not None and thread.asked.cell is cell:
+            cell.answers = thread.asked.answers
         same = cell.value is not _NONE and cell.value == value
         with self._condition:
             if not same:
@@ -344,9 +484,27 @@ class Database:
             cell.depends_on, cell.verified_at = tuple(reads), self.revision
             cell.durable = all(each.durable for each in reads)
 
-    def _forget(self) -> None:
-        """Let go of what was not asked for in a long time. A cell stays in the memory of those that read it."""
+    def _forget_unused(self) -> None:
+        """Let go of what nobody asked for in a long time, where there is a lot more than there was last time."""
+        if self.revision < self._forgot_at + UNUSED_AFTER or len(self.cells) < _MORE * self._remained:
+            return
+        cells = list(self.cells.items())
         old = self.revision - UNUSED_AFTER
-        for name, cell in list(self.cells.items()):
-            if isinstance(cell.kind, Query) and cell.verified_at < old and not cell.durable:
-                del self.cells[name]
+        latest = {name for names in self._latest.values() for name in names}
+        asking = [cell for cells in self._answered.values() for cell in cells]
+        pending = [cell for name, cell in cells if cell.used_at >= old or cell.is_set or name in latest]
+        pending += (cell for cell in asking if cell.used_at >= old or (cell.kind, cell.key) in latest)
+        used = set(pending)
+        while pending:
+            for each in pending.pop().depends_on:
+                if each not in used:
+                    used.add(each)
+                    pending.append(each)
+        for name, cell in cells:
+            if cell not in used:
+                self.cells.pop(name, None)
+        for asking_name, answered in list(self._answered.items()):
+            answered[:] = [cell for cell in answered if cell in used]
+            if not answered:
+                self._answered.pop(asking_name, None)
+        self._forgot_at, self._remained = self.revision, len(self.cells)

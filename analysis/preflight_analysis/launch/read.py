@@ -6,7 +6,6 @@ decides (`exec=` and `$(var)` against `type=` and `$(arg)`), then the package th
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable
 
@@ -53,18 +52,34 @@ _AMENT = re.compile(r"<build_type[^<>]*>\s*ament_|<buildtool_depend[^<>]*>\s*ame
 _CATKIN = re.compile(r"<buildtool_depend[^<>]*>\s*catkin\s*<")
 
 
+OfPackage = Callable[[str], "int | None"]
+"""The generation of the package that a file is in, None where that is not known."""
+
+
+def no_package(path: str) -> int | None:
+    """Of a file that is in no package that is known."""
+    return None
+
+
 def read_launch(
-    source: Text, python: Callable[[], PythonClasses], generation: int | None = None, undecided: int = 1
+    source: Text,
+    python: Callable[[], PythonClasses],
+    generation: int | None = None,
+    undecided: int = 1,
+    of_package: OfPackage = no_package,
 ) -> LaunchFile:
     """The launch file of a text, read as that generation of ROS reads it; None: as it looks, and as `undecided` where
-    nothing tells. `python` is asked for Python files only. Never raises."""
+    nothing tells. `python` is asked for Python files only. `of_package` gives the generation of the package that a file
+    is in. Never raises."""
     path, text = source.path, source.text
     if path.endswith(PYTHON_SUFFIX):
         return read_ros2_python(source, python())
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
     document = parse_xml(path, text, source.encoding, source.lines)
-    return read_ros2_xml(document) if (generation or generation_of(path, text, undecided)) == 2 else read_ros1(document)
+    if (generation or generation_of(path, text, undecided, of_package)) == 2:
+        return read_ros2_xml(document)
+    return read_ros1(document)
 
 
 def is_yaml(path: str) -> bool:
@@ -72,7 +87,7 @@ def is_yaml(path: str) -> bool:
     return path.endswith(YAML_SUFFIXES)
 
 
-def generation_of(path: str, text: str, undecided: int = 1) -> int:
+def generation_of(path: str, text: str, undecided: int = 1, of_package: OfPackage = no_package) -> int:
     """1 or 2; `undecided` for what has no mark of either, in no package that has one."""
     if path.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX)):
         return 2
@@ -82,24 +97,14 @@ def generation_of(path: str, text: str, undecided: int = 1) -> int:
         return 2
     if ros1 is not None and ros2 is None:
         # By that name, and in a package of ROS 2, it is one that speaks the older language by mistake.
-        return 2 if path.endswith(".launch.xml") and _of_package(path) == 2 else 1
-    of_package = _of_package(path)
-    if of_package is None and ros2 is not None:  # what only ROS 2 has, beside what both have had at some time
+        return 2 if path.endswith(".launch.xml") and of_package(path) == 2 else 1
+    found = of_package(path)
+    if found is None and ros2 is not None:  # what only ROS 2 has, beside what both have had at some time
         return 2 if _NEVER_ROS1.search(code) is not None else 1
-    return of_package or undecided
+    return found or undecided
 
 
-def _of_package(path: str) -> int | None:
-    """The generation of the package around a file, by its build tool."""
-    folder = os.path.dirname(path)
-    while folder != os.path.dirname(folder):
-        manifest = os.path.join(folder, "package.xml")
-        try:
-            if os.path.isfile(manifest):
-                with open(manifest, encoding="utf-8", errors="replace") as file:
-                    content = without_comments(file.read(100_000))
-                return 2 if _AMENT.search(content) else 1 if _CATKIN.search(content) else None
-        except OSError:
-            return None
-        folder = os.path.dirname(folder)
-    return None
+def generation_of_manifest(text: str) -> int | None:
+    """The generation of a package by the build tool that its `package.xml` names, None where that tells nothing."""
+    content = without_comments(text)
+    return 2 if _AMENT.search(content) else 1 if _CATKIN.search(content) else None

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.problems import UnreadablePath
@@ -24,7 +25,7 @@ def check_missing_files(kind: type[UnreadablePath], what: str) -> Check:
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for problem in problems_of(context, kind):
             path = problem.kind.path
-            near = nearest_file(path, context.environment)
+            near = nearest_file(context.disk, path, context.environment)
             message = f"{what} '{shown(path, context)}' does not exist"
             fixes: tuple[Fix, ...] = ()
             if near is not None:
@@ -37,13 +38,13 @@ def check_missing_files(kind: type[UnreadablePath], what: str) -> Check:
     return check
 
 
-def nearest_file(path: str, environment: Environment) -> str | None:
+def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     """The path of an existing file that `path` is probably meant to be, None if nothing is near.
 
     First a file of a like name in the same folder; then the same name, or one like it, elsewhere in the package.
     """
     wanted = Path(path)
-    siblings = {entry.name: entry for entry in _files(wanted.parent, deep=False)}
+    siblings = {entry.name: entry for entry in _files(disk, wanted.parent, deep=False)}
     alike = [name for name in siblings if Path(name).suffix == wanted.suffix]
     near = nearest(wanted.name, alike, key=_stem) or next((n for n in siblings if _stem(n) == wanted.stem), None)
     if near is not None:
@@ -52,7 +53,7 @@ def nearest_file(path: str, environment: Environment) -> str | None:
     if share is None:
         return None
     elsewhere: dict[str, list[Path]] = {}
-    for entry in _files(share, deep=True):
+    for entry in _files(disk, share, deep=True):
         if entry.suffix == wanted.suffix:
             elsewhere.setdefault(entry.name, []).append(entry)
     name = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
@@ -105,13 +106,18 @@ def _stem(name: str) -> str:
     return name.partition(".")[0] or name
 
 
-def _files(folder: Path, *, deep: bool) -> Iterator[Path]:
+def _files(disk: Disk, folder: Path, *, deep: bool) -> Iterator[Path]:
     """Files in `folder`, those of its sub-folders too if `deep`; folders that cannot be read have none."""
-    seen = 0
-    for directory, folders, files in os.walk(folder):
-        folders[:] = sorted(f for f in folders if not f.startswith(".")) if deep else []
-        for name in sorted(files):
+    seen, pending = 0, [str(folder)]
+    while pending:
+        place = pending.pop()
+        names = disk.names(place)
+        inner = [name for name in names if disk.is_folder(os.path.join(place, name))]
+        for name in sorted(set(names).difference(inner)):
             seen += 1
             if seen > _MOST_ENTRIES:
                 return
-            yield Path(directory, name)
+            yield Path(place, name)
+        if deep:
+            below = (os.path.join(place, name) for name in reversed(inner) if not name.startswith("."))
+            pending += (path for path in below if not disk.is_link(path))

@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"'{text}' is {what}{instead}",
                 location,
-                severity=_severity(text, in_package),
+                severity=_severity(context, text, in_package),
                 confidence="certain" if in_package else "likely",
                 fixes=fixes,
             )
@@ -78,16 +78,16 @@ def _what(text: str, context: Context) -> str | None:
     if _ROS.match(text):
         return "where one distribution of ROS is installed: it is not there on another one"
     workspace = context.environment.workspace
-    if workspace and text.startswith(workspace.rstrip("/") + "/") and os.path.exists(text):
+    if workspace and text.startswith(workspace.rstrip("/") + "/") and context.disk.exists(text):
         return "where this workspace is on this machine"
-    if not text.startswith(_SYSTEM) and os.path.isfile(text) and _in_package(text, context):
+    if not text.startswith(_SYSTEM) and context.disk.is_file(text) and _in_package(text, context):
         return "where this package is on this machine"
     return None
 
 
-def _severity(text: str, in_package: str | None) -> Severity | None:
+def _severity(context: Context, text: str, in_package: str | None) -> Severity | None:
     """A path that leads nowhere, to a file that is here under another path, is more than a matter of style."""
-    if in_package and not os.path.exists(text):
+    if in_package and not context.disk.exists(text):
         return "warning"
     return "hint" if _ROS.match(text) else None
 
@@ -104,7 +104,7 @@ def _in_package(text: str, context: Context) -> str | None:
     for at in range(len(parts) - 1, 0, -1):
         known = packages.get(parts[at])
         below = "/".join(parts[at + 1 :])
-        if known is not None and below and os.path.exists(os.path.join(known.share, below)):
+        if known is not None and below and context.disk.exists(os.path.join(known.share, below)):
             return f"$({find} {known.name})/{below}"
     return None
 

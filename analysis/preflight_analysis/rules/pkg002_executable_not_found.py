@@ -5,7 +5,6 @@ from os.path import relpath
 from pathlib import PurePath
 
 from preflight_analysis.environment.build import Made
-from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
@@ -21,7 +20,7 @@ _SPACES = {1: "devel and install spaces", 2: "installed ones"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    executables = context.executables or ExecutableIndex(context.environment)
+    executables = context.executables
     for node in context.tree.nodes:
         found = node.resolved
         if found.path is not None or found.package_path is None or node.unknowns or was_removed(context, node):

@@ -81,7 +81,7 @@ def _found(part: Substitution, found: dict[str, Span]) -> None:
 
 
 def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
-    manifest = context.sources.text(owner.manifest) if context.sources is not None else None
+    manifest = context.disk.text(owner.manifest)
     if not isinstance(manifest, Document) or os.path.basename(owner.manifest) != MANIFEST:
         return ()
     text = without_comments(manifest.text)

@@ -22,7 +22,7 @@ _LAUNCH = "launch"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    named: set[str] = set()
+    disk, named = context.disk, set[str]()
     for use in filter(None, context.kept.each(_of_file, context.tree.uses)):
         if not _by_share(context, use.location):
             continue
@@ -32,8 +32,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if package is None:
             continue
         named.add(path)
-        below, places = os.path.relpath(path, package.share), installed_at(package, path)
-        if below in places or installed_from(package, below) is not None or installs_more(package):
+        below, places = os.path.relpath(path, package.share), installed_at(disk, package, path)
+        if below in places or installed_from(disk, package, below) is not None or installs_more(disk, package):
             continue
         message = f"'{below}' is in the source of package '{package.name}', but its {_build_file(package)} "
         if places:
@@ -46,7 +46,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if package is None or launch_file.root is None:
             continue
         below = os.path.relpath(path, package.share)
-        if below.startswith(_LAUNCH + os.sep) and not installed_at(package, path) and not installs_more(package):
+        if (
+            below.startswith(_LAUNCH + os.sep)
+            and not installed_at(disk, package, path)
+            and not installs_more(disk, package)
+        ):
             yield rule.finding(
                 f"'{below}' is not installed by the {_build_file(package)} of package '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",
@@ -66,7 +70,7 @@ def _package_of(context: Context, path: str) -> Package | None:
     package = package_around(context.environment, path)
     if package is None or not package.is_ament or not path.startswith(package.share + os.sep):
         return None
-    return package if os.path.isfile(path) else None
+    return package if context.disk.is_file(path) else None
 
 
 def _build_file(package: Package) -> str:
@@ -86,7 +90,7 @@ def _by_share(context: Context, location: Location) -> bool:
 def _fixes(context: Context, package: Package, below: str) -> tuple[Fix, ...]:
     python = package.build_type == "ament_python"
     path = os.path.join(package.share, "setup.py" if python else "CMakeLists.txt")
-    found = context.sources.text(path) if context.sources is not None else None
+    found = context.disk.text(path)
     if not isinstance(found, Document):
         return ()
     folder = os.path.dirname(below)

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
@@ -11,7 +10,7 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    executables = context.executables or ExecutableIndex(context.environment)
+    executables = context.executables
     for node in context.tree.nodes:
         if node.kind != "composable" or not node.plugin or node.unknowns:
             continue

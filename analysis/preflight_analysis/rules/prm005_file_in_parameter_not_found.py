@@ -72,7 +72,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related = include_chain((*named.origin[:-1], location))
             if location != given:
                 related = (Related(f"{named.what} is given here", given), *related)
-            near = nearest_file(path, context.environment)
+            near = nearest_file(context.disk, path, context.environment)
             hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
             fetched = near is None and _is_fetched(path)
@@ -155,14 +155,14 @@ def _made_when_run(name: str) -> bool:
 
 def _missing(text: str, context: Context) -> Iterator[str]:
     """The files that `text` names and that should be there: below a package or the workspace, with an extension."""
-    if text.startswith("/") and os.path.exists(text):
+    if text.startswith("/") and context.disk.exists(text):
         return
     for path in _paths(text, context.environment):
         extension = _EXTENSION.search(path)
         if extension is None or extension[0].lower() in _MADE_WHEN_RUN or _PATTERN.search(path):
             continue
         normal = os.path.normpath(path)
-        if normal in context.documents or os.path.exists(normal):
+        if normal in context.documents or context.disk.exists(normal):
             continue
         share = package_folder(normal, context.environment)
         workspace = context.environment.workspace

@@ -6,7 +6,6 @@ import shlex
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Origin
-from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.rules.installed import has_ros
@@ -36,7 +35,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         if command.result is None or command.result.status == "not-run":
             program = next(iter(shlex.split(command.line)), "")
-            if os.path.isabs(program) and not _executable(program):
+            if os.path.isabs(program) and not context.disk.is_program(program):
                 yield _missing(rule, context, command.line, command.origin, stops=False)
 
 
@@ -65,13 +64,13 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
             message += f"; install it: apt install ros-{_distribution(context)}-{package}"
         if not has_ros(context):  # without ROS its programs are missing by nature
             severity, confidence = "info", "possible"
-    elif os.path.isfile(program):
+    elif context.disk.is_file(program):
         message = f"'{shown(program, context)}' is not executable; chmod +x {program}"
     elif package := _will_build(context, program):
         message = f"'{shown(program, context)}' is not built yet: CMakeLists.txt of package '{package}' names it"
         severity, confidence = "info", "likely"
     else:
-        near = _near(program)
+        near = _near(context, program)
         noetic = context.environment.distro in (None, "noetic")
         removed = "; ROS Noetic has no xacro.py any more" if name == "xacro.py" and noetic else ""
         message = f"there is no program '{shown(program, context)}'{removed}{did_you_mean(near)}"
@@ -94,7 +93,7 @@ def _distribution(context: Context) -> str:
 
 def _will_build(context: Context, program: str) -> str | None:
     """The package whose build makes the program."""
-    executables = context.executables or ExecutableIndex(context.environment)
+    executables = context.executables
     for package in context.environment.packages.values():
         inside = program.startswith(package.share.rstrip("/") + "/")
         if inside and executables.is_build_target(package.name, os.path.basename(program)):
@@ -102,17 +101,11 @@ def _will_build(context: Context, program: str) -> str | None:
     return None
 
 
-def _executable(path: str) -> bool:
-    return os.path.isfile(path) and os.access(path, os.X_OK)
-
-
-def _near(program: str) -> str | None:
+def _near(context: Context, program: str) -> str | None:
     """The most similar program of the same folder."""
     folder, name = os.path.split(program)
-    try:
-        names = [each for each in os.listdir(folder or ".") if _executable(os.path.join(folder, each))]
-    except OSError:
-        return None
+    folder = os.path.abspath(folder)
+    names = [each for each in context.disk.names(folder) if context.disk.is_program(os.path.join(folder, each))]
     return nearest(name, names) or nearest(name, names, key=lambda each: os.path.splitext(each)[0])
 
 

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, TypeVar
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.finding import Confidence, EndpointRef, Finding, Fix, Related, Severity
@@ -46,8 +46,7 @@ class Context:
     """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
 
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
-    None when they were. `executables` lists those of a package; without it the disk is walked where one is missing.
-    `sources` reads files that the tree does not know, a package.xml that a fix changes for instance.
+    None when they were. `executables` lists those of a package. `disk` has files that the tree does not know.
     `settings_problems` is what is wrong with the workspace's settings file, and where.
     """
 
@@ -56,10 +55,10 @@ class Context:
     documents: Mapping[str, Document]
     launch_files: Mapping[str, LaunchFile]
     environment: Environment
+    executables: ExecutableNames
+    disk: Disk
     graph: Graph | None = None
     why_not_run: str | None = None
-    executables: ExecutableNames | None = None
-    sources: Files | None = None
     settings_problems: tuple[tuple[str, Location], ...] = ()
     kept: Kept = field(default_factory=Kept, repr=False, compare=False)
     """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
@@ -68,8 +67,8 @@ class Context:
     def location(self, path: str, span: Span) -> Location:
         """The location of a span of a document."""
         document: Document | Unreadable | None = self.documents.get(path)
-        if document is None and self.sources is not None:
-            document = self.sources.text(path)
+        if document is None:
+            document = self.disk.text(path)
         return document.location(span) if isinstance(document, Document) else Location.of_file(path)
 
     def once(self, make: Callable[[Context], T]) -> T:

@@ -23,6 +23,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.view import of_generation
 from preflight_analysis.evaluation.commands import CommandResult
@@ -49,7 +51,6 @@ _NO_NETWORK = re.compile(
 _PATH = re.compile(r"(?<![\w.])/[^\s:;,'\"`()<>\[\]]+")
 _LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
 _VARIABLES = {1: recipes.variables, 2: ros2_recipe.variables}
-_MAKE = {1: ros1_recipe.make_command, 2: ros2_recipe.make_command}
 
 
 class CommandCache(Store):
@@ -116,8 +117,11 @@ class _Job:
 class CommandRunner:
     """Runs commands of one environment in the folder `cwd`. Usable from several threads at once."""
 
-    def __init__(self, environment: Environment, cwd: str, cache: CommandCache | None) -> None:
+    def __init__(
+        self, environment: Environment, cwd: str, cache: CommandCache | None, disk: Disk | None = None
+    ) -> None:
         self.environment = environment
+        self._disk = disk or Disk()
         self.cwd = cwd
         self.cache = cache
 
@@ -187,7 +191,11 @@ class CommandRunner:
         python = self.environment.interpreter(self.environment.generation)
         if words[0] in ("python3", "python") and python is not None:
             executable = python  # as for `#!/usr/bin/env python3`
-        recipe = _MAKE[self.environment.generation](self.environment, executable, words[1:], self.cwd)
+        if self.environment.generation == 2:
+            recipe = ros2_recipe.make_command(self.environment, executable, words[1:], self.cwd)
+        else:
+            modules = source_folders(self._disk, self.environment)
+            recipe = ros1_recipe.make_command(self.environment, executable, words[1:], self.cwd, modules)
         named = tuple(dict.fromkeys((executable, *_files_of(words[1:], self.cwd))))
         beyond = recipes.command_paths(self.environment, recipe, executable, named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))

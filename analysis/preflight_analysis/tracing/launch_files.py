@@ -16,6 +16,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS
 from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
@@ -62,7 +63,8 @@ def _installed_elsewhere(environment: Environment, file: str, text: str) -> list
     own = package_around(environment, file)
     named = (environment.packages.get(name) for name in sorted(set(_TEXT.findall(text))))
     packages = {package.name: package for package in (own, *named) if package is not None}
-    return [pair for package in packages.values() for pair in installed_elsewhere(package)]
+    disk = Disk()
+    return [pair for package in packages.values() for pair in installed_elsewhere(disk, package)]
 
 
 @lru_cache(maxsize=1)

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import ros1_recipe, ros2_recipe
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 
-_MAKE = {1: ros1_recipe.make, 2: ros2_recipe.make}
 
-
-def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
+def make(
+    environment: Environment, request: TraceRequest, preload: str | None = None, modules: Sequence[str] = ()
+) -> Recipe:
     """The recipe of a request. `preload` is the library for the executable, if it is a program that one can be loaded
-    into."""
-    return _MAKE[request.generation](environment, request, preload)
+    into. `modules` are the folders of the Python modules of packages of ROS 1 that are not built."""
+    if request.generation == 2:
+        return ros2_recipe.make(environment, request, preload)
+    return ros1_recipe.make(environment, request, preload, modules)

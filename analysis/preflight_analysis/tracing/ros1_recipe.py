@@ -8,9 +8,8 @@ and the folder of roslaunch itself.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
-from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import recipe as recipes
@@ -19,13 +18,15 @@ from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 
 
-def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
+def make(
+    environment: Environment, request: TraceRequest, preload: str | None = None, modules: Sequence[str] = ()
+) -> Recipe:
     """The recipe of a request of generation 1. Reads the executable's first line; an unreadable one is left for exec
     to complain of. `preload` is the library for the executable, if it is a program that one can be loaded into."""
     stable = recipes.variables(environment, request.env)
     interpreter, python = recipes.shebang_interpreter(environment.python, request.executable, stable["PATH"])
     if python:
-        stable |= _unbuilt_modules(environment)
+        stable |= _unbuilt(modules)
     argv = [*interpreter, request.executable, *request.args]
     remapped = python or preload is not None
     if remapped:
@@ -44,17 +45,18 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     return Recipe(tuple(argv), env, stable, cwd, python, remapped, preload, workspaces=workspaces)
 
 
-def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:
+def make_command(
+    environment: Environment, executable: str, args: Iterable[str], cwd: str, modules: Sequence[str] = ()
+) -> Recipe:
     """The recipe of a command of a parameter, whose program was found as `executable`."""
     stable = recipes.variables(environment, ())
     interpreter, python = recipes.shebang_interpreter(environment.python, executable, stable["PATH"])
     if python:
-        stable |= _unbuilt_modules(environment)
+        stable |= _unbuilt(modules)
     argv, workspaces = (*interpreter, executable, *args), environment.workspace_folders
     return Recipe(argv, recipes.inside(stable), stable, cwd, python, workspaces=workspaces)
 
 
-def _unbuilt_modules(environment: Environment) -> dict[str, str]:
+def _unbuilt(modules: Sequence[str]) -> dict[str, str]:
     """Where Python finds what a build of the workspace will make known, if it finds it nowhere else."""
-    folders = source_folders(environment)
-    return {SOURCES: os.pathsep.join(folders)} if folders else {}
+    return {SOURCES: os.pathsep.join(modules)} if modules else {}

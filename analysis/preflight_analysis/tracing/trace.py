@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
@@ -41,12 +42,18 @@ _MASTER_ALONE = "only what a ROS master sees of it is known"
 
 class Tracer:
     """Traces nodes of one environment. Usable from several threads at once. Without `cache` each trace is a run.
-    `library` is what watches roscpp nodes, if not the one in the user's cache folder."""
+    `library` is what watches roscpp nodes, if not the one in the user's cache folder. `disk` has the sources of
+    packages that are not built."""
 
     def __init__(
-        self, environment: Environment, cache: TraceCache | None, library: preload.Library | None = None
+        self,
+        environment: Environment,
+        cache: TraceCache | None,
+        library: preload.Library | None = None,
+        disk: Disk | None = None,
     ) -> None:
         self.environment = environment
+        self._disk = disk or Disk()
         self.cache = cache
         self._libraries = {1: library or preload.library(1), 2: preload.library(2)}
         self._services = ServiceTypes(environment)
@@ -58,6 +65,10 @@ class Tracer:
     @functools.cached_property
     def _repositories(self) -> tuple[str, ...]:
         return git_paths(self.environment)
+
+    def _recipe(self, request: TraceRequest, preload_path: str | None) -> recipes.Recipe:
+        modules = catkin_python.source_folders(self._disk, self.environment)
+        return node_recipe.make(self.environment, request, preload_path, modules)
 
     def lookup(self, request: TraceRequest) -> Interface | None:
         """A cached trace that is still valid; nothing is run."""
@@ -74,7 +85,7 @@ class Tracer:
         alone = nodelets.standalone(request)
         try:
             planned = self._libraries[request.generation].planned() if _preloaded(alone) else _NO_PRELOAD
-            found = self.cache.load(node_recipe.make(self.environment, alone, planned.path), alone)
+            found = self.cache.load(self._recipe(alone, planned.path), alone)
             return self._finished(found, request) if found is not None else None
         except Exception:
             _log.exception("looking up a trace of %s failed", request.node)
@@ -129,7 +140,7 @@ class Tracer:
         built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
         if not request.ros.has_master and built.reason is not None:
             return _not_run(built.reason)
-        recipe = node_recipe.make(self.environment, request, built.path)
+        recipe = self._recipe(request, built.path)
         visible = sorted({*self._visible, *recipes.request_paths(self.environment, request, recipe)})
         hidden = recipes.out_of_reach(recipe, request.executable, visible)
         if hidden is not None:

@@ -14,13 +14,14 @@ from pathlib import Path
 from typing import Any, get_args
 
 import preflight_analysis
+from preflight_analysis.documents.disk import text_of
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.tracing.store import Place, Store, digest_of
 from preflight_analysis.workspace.facts import ArgDeclaration, FileFacts, Kind, Mention
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.indexing import Report, build_index
 from preflight_analysis.workspace.observations import Observation, World
-from preflight_analysis.workspace.sources import Sources, text_of
+from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
 SCHEMA = "ros-preflight/index/1"

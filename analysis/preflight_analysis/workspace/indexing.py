@@ -249,7 +249,7 @@ def _launch_files(folder: str, workspace: Workspace) -> list[str]:
 def _is_shared(workspace: Workspace, path: str) -> bool:
     """Whether a package installs the file beside its other files, and not as one of its modules or programs."""
     package = package_around(workspace.environment, path)
-    return package is not None and bool(installed_at(package, path))
+    return package is not None and bool(installed_at(workspace.sources, package, path))
 
 
 def _makes_launch_description(path: str, sources: Sources) -> bool:

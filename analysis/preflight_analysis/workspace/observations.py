@@ -6,10 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
+from preflight_analysis.documents.disk import REAL_PATH, STATUS, data_of, mode_of, names_in, text_of
 from preflight_analysis.documents.reading import Text, Unreadable, digest
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation.commands import CommandResult, Commands
-from preflight_analysis.workspace.sources import SIGNATURE, Sources, data_of, text_of
+from preflight_analysis.workspace.sources import Sources
 
 T = TypeVar("T")
 
@@ -31,7 +32,16 @@ def _of_text(text: Text | Unreadable) -> str:
     return text.digest if as_is else f"{text.digest} {text.plain} {text.encoding}"
 
 
-_OF_FILES: Mapping[Any, tuple[str, Callable[[Any], str]]] = {text_of: ("text", _of_text)}
+def _of_names(names: tuple[str, ...]) -> str:
+    return digest("\0".join(names))
+
+
+_OF_FILES: Mapping[Any, tuple[str, Callable[[Any], str]]] = {
+    text_of: ("text", _of_text),
+    mode_of: ("mode", str),
+    names_in: ("names", _of_names),
+    REAL_PATH: ("real path", str),
+}
 """What names the values of inputs and queries: of these and no others the disk is known by."""
 
 
@@ -49,7 +59,7 @@ class Notes:
             self._noted.clear()
             with self._sources.db.observing() as read:
                 result = work()
-                for kind, key, value in read((*_OF_FILES, SIGNATURE)):
+                for kind, key, value in read((*_OF_FILES, STATUS)):
                     self._note_file(kind, str(key[0]), value)
             return result
 
@@ -100,6 +110,12 @@ class World:
         match what:
             case "text":
                 return Observation(what, name, _of_text(text_of(self._sources.db, name)))
+            case "mode":
+                return Observation(what, name, str(mode_of(self._sources.db, name)))
+            case "names":
+                return Observation(what, name, _of_names(names_in(self._sources.db, name)))
+            case "real path":
+                return Observation(what, name, REAL_PATH(self._sources.db, name))
             case "data":
                 return _data(self._sources, name)
             case "variable":

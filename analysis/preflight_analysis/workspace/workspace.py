@@ -174,7 +174,7 @@ class Workspace:
                 source = SourceAnalysis(environment, self.sources)
                 view = self._views[key] = _View(
                     environment,
-                    ExecutableIndex(environment),
+                    ExecutableIndex(environment, self.sources),
                     NodlFiles(environment, self.sources),
                     source,
                     Fallback(source, self._similar),
@@ -215,8 +215,8 @@ class Workspace:
             documents,
             launch_files,
             view.environment,
-            executables=view.executables,
-            sources=self.sources,
+            view.executables,
+            self.sources,
             kept=Kept(known.context.kept if known is not None else None),
         )
         analysis = Analysis(path, key[1], tree, documents, launch_files, view.environment, context, severities)

@@ -118,7 +118,9 @@ class _Surroundings:
         """What runs Python launch files, in the environment of a generation."""
         with self._lock:
             if generation not in self._runners:
-                self._runners[generation] = CommandRunner(self._environment(generation), _CWD, CommandCache())
+                self._runners[generation] = CommandRunner(
+                    self._environment(generation), _CWD, CommandCache(), self._sources[generation]
+                )
             return self._runners[generation]
 
     def _environment(self, generation: int) -> Environment:

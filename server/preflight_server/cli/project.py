@@ -94,7 +94,7 @@ def open_workspace(environment: Environment, args: argparse.Namespace, *, simila
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
     elsewhere = SimilarTraces(TraceCache(), environment) if similar else None
     workspace = Workspace(environment, Sources(), commands=results, similar=elsewhere)
-    runner = CommandRunner(environment, workspace.cwd, CommandCache())
+    runner = CommandRunner(environment, workspace.cwd, CommandCache(), workspace.sources)
     return OpenWorkspace(workspace, results, args.no_run, runner)
 
 
@@ -112,7 +112,7 @@ def run_nodes(
     """
     analysis = project.analysis
     nodes = analysis.tree.nodes
-    tracer = Tracer(project.environment, TraceCache())
+    tracer = Tracer(project.environment, TraceCache(), disk=project.workspace.sources)
     requests = {
         index: request
         for index, request in enumerate(project.workspace.requests(analysis))

@@ -49,7 +49,7 @@ class CommandRuns:
 
     def set_workspace(self, workspace: Workspace) -> None:
         """Where and with what environment commands are run."""
-        self._runner = CommandRunner(workspace.environment, workspace.cwd, CommandCache())
+        self._runner = CommandRunner(workspace.environment, workspace.cwd, CommandCache(), workspace.sources)
         self.forget()
 
     def forget(self) -> None:

@@ -181,7 +181,7 @@ class Runs:
 
     def set_workspace(self, workspace: Workspace) -> None:
         """What nodes and commands are run with."""
-        self._tracer = Tracer(workspace.environment, TraceCache())
+        self._tracer = Tracer(workspace.environment, TraceCache(), disk=workspace.sources)
         self.commands.set_workspace(workspace)
 
     def forget_requests(self) -> None:

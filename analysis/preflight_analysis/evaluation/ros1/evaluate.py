@@ -227,7 +227,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         state.unknown("<include>", "its file is not known", scope, file_attribute.value.span)
         return default_machine
     # The empty path is not the working directory.
-    real = without_dots(os.path.join(state.cwd, file.text)) if file.text else None
+    real = without_dots(state.files, os.path.join(state.cwd, file.text)) if file.text else None
     path = real or os.path.normpath(os.path.join(state.cwd, file.text))
     state.uses.append(Use("include", place, file.text, path, Location.of_file(path)))
     if _too_deep(state, scope, action):

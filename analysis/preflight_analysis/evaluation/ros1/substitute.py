@@ -252,15 +252,15 @@ def _path_in_package(state: State, package: str, share: str, path: str) -> str:
     else the path below the package's folder, else below that of a devel or install space."""
     for space in (*state.environment.devel_spaces, *state.environment.system_prefixes):
         folder = os.path.join(space, "lib", package)
-        if os.path.isdir(folder):
+        if state.files.is_folder(folder):
             executable = os.path.join(folder, os.path.basename(path))
-            if os.path.isfile(executable) and os.access(executable, os.X_OK):
+            if state.files.is_program(executable):
                 return executable
             break
     below = os.path.join(share, path)
-    if not os.path.exists(below):
+    if not state.files.exists(below):
         for space in state.environment.devel_spaces:
             other = os.path.join(space, "share", package, path)
-            if os.path.exists(other):
+            if state.files.exists(other):
                 return other
     return below

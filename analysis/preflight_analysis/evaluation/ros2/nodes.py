@@ -8,7 +8,6 @@ import shlex
 from collections.abc import Callable, Iterable
 
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import InvalidName
@@ -105,7 +104,10 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     _collect(performer, action, to, must_exist=False)
     remaps = _remaps(performer, action, full)
     arguments = _words(performer, action, "args")
-    resolved = state.executables.find(package, exec_name) if package else Executable(_plain_executable(exec_name))
+    if package:
+        resolved = state.executables.find(package, exec_name)
+    else:
+        resolved = Executable(exec_name if state.files.is_file(exec_name) else None)
     place_of_name = name_value.span if name_value is not None else action.kind_span
     state.uses.append(Use("node", place.location(place_of_name), full, full))
     target = Location.of_file(resolved.path) if resolved.path is not None else None
@@ -223,10 +225,6 @@ def _guessed_name(executable: str) -> str:
     return re.sub(r"\W", "_", os.path.basename(executable).rpartition(".")[0] or os.path.basename(executable))
 
 
-def _plain_executable(path: str) -> str | None:
-    return path if os.path.isfile(path) else None
-
-
 def _text(performer: Performer, action: Action, name: str, default: str) -> str:
     value = action.value(name)
     if value is None:
@@ -251,9 +249,12 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
         if file is not None:
             result = performer.value(file)
             if result.known:
-                path = located(performer.state.environment, os.path.join(performer.state.cwd, result.text))
+                path = performer.state.located(os.path.join(performer.state.cwd, result.text))
                 at = performer.place.origin(file.span)
-                location, target = performer.place.location(file.span), without_dots(path) or path
+                location, target = (
+                    performer.place.location(file.span),
+                    without_dots(performer.state.files, path) or path,
+                )
                 performer.state.uses.append(Use("file", location, result.text, target, Location.of_file(target)))
                 substitute = allows_substitutions(performer, child)
                 empty = _why_empty(file) if not result.text else None
@@ -303,7 +304,7 @@ def _words(performer: Performer, action: Action, name: str) -> list[str]:
     given = [value for child in action.children if child.kind == "argument" and (value := child.value("value"))]
     if given:
         texts = (performer.value(value).text for value in given)
-        return [located(performer.state.environment, text) if text.startswith("/") else text for text in texts]
+        return [performer.state.located(text) if text.startswith("/") else text for text in texts]
     value = action.value(name)
     if value is None:
         return []

@@ -11,7 +11,6 @@ from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFound, UnreadableParameterFile
 from preflight_analysis.evaluation.resolved import Resolved
@@ -159,8 +158,8 @@ def file_source(
     the path is an empty text, which is the current folder.
     """
     state = performer.state
-    path = located(state.environment, path)
-    path = without_dots(path) or path
+    path = state.located(path)
+    path = without_dots(state.files, path) or path
     found = state.read_text(path)
     if isinstance(found, Unreadable):
         fatal = must_exist or substitute

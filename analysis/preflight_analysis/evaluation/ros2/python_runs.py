@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import ast
 import json
-import os
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -245,7 +244,7 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         state.note_unknown(what, "its run gave no answer that can be read", origin[-1])
         return None
     for path, text in (_texts(reply.get("files")) or {}).items():
-        if os.path.lexists(path):
+        if state.files.exists(path):
             continue  # a file of the host's is what it is, whatever the run says
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
     error = reply.get("error")

@@ -6,7 +6,6 @@ import os
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Origin
-from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.problems import ArgumentNeeded, MissingArgument, Problem
 from preflight_analysis.evaluation.ros2.context import Context, Place
@@ -65,7 +64,7 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
     if not result.known:
         return None
     path = os.path.normpath(os.path.join(state.cwd, result.text))
-    found = state.read_launch_file(located(state.environment, path))
+    found = state.read_launch_file(state.located(path))
     if isinstance(found, Unreadable):
         return None
     if found.path.endswith(PYTHON_SUFFIX):

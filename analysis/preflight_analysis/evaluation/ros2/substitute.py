@@ -12,7 +12,6 @@ from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.problems import (
@@ -318,7 +317,7 @@ class Performer:
 
     def _path_join(self, part: Substitution) -> str:
         words = [self._word(part, index) for index in range(len(part.words))]
-        return located(self.state.environment, os.path.join(*words)) if words else ""
+        return self.state.located(os.path.join(*words)) if words else ""
 
     # Those of Python launch files only
 

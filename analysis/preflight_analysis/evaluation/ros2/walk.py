@@ -225,7 +225,9 @@ class Walk:
         if not isinstance(found.kind, UnknownElement):
             return False
         tag, parent = found.kind.tag, self.language.tags[found.kind.parent]
-        package = exposed_actions(self.state.environment).get(tag) if "node" in parent.children else None
+        package = (
+            exposed_actions(self.state.files, self.state.environment).get(tag) if "node" in parent.children else None
+        )
         if package is not None:
             self.state.note_unknown(
                 f"<{tag}>", f"what this tag of package '{package}' starts", place.origin(found.span)[-1]

@@ -8,7 +8,6 @@ from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location
-from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import (
     IncludeCycle,
@@ -52,7 +51,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         state.note_unknown("<include>", "its file is not known", at)
         return
     path = os.path.normpath(os.path.join(state.cwd, file.text))
-    path = located(state.environment, without_dots(path) or path)
+    path = state.located(without_dots(state.files, path) or path)
     shown: dict[str, str | None] = {}
     include = Include(path, origin, at, shown, len(state.nodes))
     state.includes.append(include)

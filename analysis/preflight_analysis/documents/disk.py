@@ -1,0 +1,248 @@
+"""The disk as it was when it was last looked at, with open editor buffers over it.
+
+What is derived of files asks here, by the inputs and queries of `incremental/database.py`: so it is known what of the
+disk it depends on, existence and listings included. `Disk` is the way in for all who are no query themselves.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import time
+from collections.abc import Iterable
+from dataclasses import replace
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
+from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
+from preflight_analysis.documents.span import LineIndex
+from preflight_analysis.incremental.database import Database, Input, query
+
+Status = tuple[int, int, int, int, int]
+"""What tells one state of a file from the next: time of the last change, size, inode, mode, and when it was looked at
+where it had changed so shortly before that the next change may not show."""
+_MODE = 3
+_TICK = 50_000_000
+"""Nanoseconds in which a file system may give two changes the same time."""
+
+
+def _status(path: str) -> Status | None:
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    now = time.time_ns()
+    seen = now if now - found.st_mtime_ns < _TICK else 0
+    return found.st_mtime_ns, found.st_size, found.st_ino, found.st_mode, seen
+
+
+def _real_path(path: str) -> str:
+    try:
+        return os.path.realpath(path)
+    except (OSError, ValueError):
+        return path
+
+
+def _buffer(path: str) -> Text | Unreadable | None:
+    return None
+
+
+class _Lines:
+    """The lines of the text of a file that was there last."""
+
+    def __init__(self) -> None:
+        self._lines: LineIndex | None = None
+
+    def of(self, text: str) -> LineIndex:
+        """The lines of the text that is there now."""
+        self._lines = LineIndex(text) if self._lines is None else self._lines.edited(text)
+        return self._lines
+
+
+def _lines(path: str) -> _Lines:
+    return _Lines()
+
+
+STATUS = Input(_status)
+"""Of the file or folder that a path leads to; None where it leads nowhere."""
+REAL_PATH = Input(_real_path)
+BUFFER = Input(_buffer)
+"""What an editor has of a file; None where none has it open."""
+LINES = Input(_lines)
+"""By which locations stay right, and equal to what they were, where other lines of their file come or go."""
+_OF_DISK = (STATUS, REAL_PATH)
+
+
+@query
+def mode_of(db: Database, path: str) -> int | None:
+    """The mode of a file or folder, as `stat` gives it; None where there is none."""
+    status = STATUS(db, path)
+    return status[_MODE] if status is not None else None
+
+
+@query
+def names_in(db: Database, folder: str) -> tuple[str, ...]:
+    """The names of what is in a folder, sorted; none where it cannot be read."""
+    STATUS(db, folder)  # its time changes as something in it comes or goes
+    try:
+        return tuple(sorted(os.listdir(folder)))
+    except (OSError, ValueError):
+        return ()
+
+
+@query
+def text_of(db: Database, path: str) -> Text | Unreadable:
+    """What a file holds."""
+    opened = BUFFER(db, path)
+    if opened is None:
+        STATUS(db, path)
+        found = read_text(path)
+        return replace(found, lines=LINES(db, path).of(found.text)) if isinstance(found, Text) else found
+    return opened
+
+
+@query
+def digest_of(db: Database, path: str) -> str:
+    """Names the content of a file and its lines; "" where there is none."""
+    text = text_of(db, path)
+    if isinstance(text, Text):
+        return text.version
+    return "" if text.kind == "missing" else digest(repr(STATUS(db, path)))
+
+
+@query
+def document_of(db: Database, path: str) -> Document | Unreadable:
+    """Any text file, not parsed. As roslaunch reads it: in UTF-8, whatever an XML declaration or a mark say."""
+    text = text_of(db, path)
+    if isinstance(text, Text) and not text.plain:
+        text = _plain(path, data_of(db, path))
+    if isinstance(text, Unreadable):
+        return text
+    comments = preflight_comments(text.text, text.lines) if path.endswith(HASH_SUFFIXES) else ()
+    return Document(path, text.text, text.digest, comments, (), text.lines)
+
+
+def data_of(db: Database, path: str) -> bytes | Unreadable:
+    """The bytes of a regular file of bounded size, as it is on the disk. Not remembered."""
+    mode = mode_of(db, path)
+    if mode is None or not stat.S_ISREG(mode):
+        reason, kind = ("does not exist", "missing") if mode is None else ("is not a regular file", "unreadable")
+        return Unreadable(path, reason, "missing" if kind == "missing" else "unreadable")
+    STATUS(db, path)
+    try:
+        with open(path, "rb") as file:
+            content = file.read(SIZE_LIMIT + 1)
+    except (OSError, ValueError) as error:
+        return Unreadable(path, f"cannot be read: {error}", "unreadable")
+    if len(content) > SIZE_LIMIT:
+        return Unreadable(path, "is too large to be read here", "unreadable")
+    return content
+
+
+def _plain(path: str, content: bytes | Unreadable) -> Text | Unreadable:
+    if isinstance(content, Unreadable):
+        return content
+    try:
+        text = content.decode()
+    except UnicodeDecodeError as error:
+        return Unreadable(path, f"is not a text file in UTF-8 (byte {error.start})", "not-text")
+    return Text.of(path, text)
+
+
+class Disk:
+    """Thread-safe; nothing raises. Paths are absolute.
+
+    Whoever asks from within a query gets what was found when it was last looked (`look`), all others what is there now.
+    """
+
+    def __init__(self, db: Database | None = None) -> None:
+        self.db = db or Database()
+
+    def open(self, path: str, text: str) -> None:
+        """The editor's text counts from now on; call it again for each change."""
+        path = os.path.normpath(path)
+        lines = LINES(self.db, path)
+        with self.db.writing() as write:
+            write.set(BUFFER, _limited(path, text, lines), path)
+
+    def close(self, path: str) -> None:
+        """The disk counts again."""
+        path = os.path.normpath(path)
+        with self.db.writing() as write:
+            write.reload(BUFFER, path)
+        self.look([path])
+
+    def look(self, paths: Iterable[str] | None = None) -> bool:
+        """Notice what has changed of these paths, None: of all that was ever asked for; whether anything has."""
+        keys = None if paths is None else [(path,) for path in paths]
+        outdated = [(kind, key) for kind in _OF_DISK for key in self.db.outdated(kind, keys)]
+        if outdated:
+            with self.db.writing() as write:
+                for kind, key in outdated:
+                    write.reload(kind, *key)
+        return bool(outdated)
+
+    def exists(self, path: str) -> bool:
+        """Whether there is anything."""
+        return mode_of(self.db, self._looked_at(path)) is not None
+
+    def is_file(self, path: str) -> bool:
+        """Whether it is a regular file."""
+        mode = mode_of(self.db, self._looked_at(path))
+        return mode is not None and stat.S_ISREG(mode)
+
+    def is_folder(self, path: str) -> bool:
+        """Whether it is a folder."""
+        mode = mode_of(self.db, self._looked_at(path))
+        return mode is not None and stat.S_ISDIR(mode)
+
+    def is_program(self, path: str) -> bool:
+        """Whether it is a regular file that somebody may execute."""
+        mode = mode_of(self.db, self._looked_at(path))
+        return mode is not None and stat.S_ISREG(mode) and mode & 0o111 != 0
+
+    def is_link(self, path: str) -> bool:
+        """Whether the last part of the path is a link."""
+        folder, name = os.path.split(path)
+        return self.real_path(path) != os.path.join(self.real_path(folder), name)
+
+    def mode(self, path: str) -> int | None:
+        """As `stat` gives it; None where there is nothing."""
+        return mode_of(self.db, self._looked_at(path))
+
+    def names(self, folder: str) -> tuple[str, ...]:
+        """The names of what is in a folder, sorted; none where it cannot be read."""
+        return names_in(self.db, self._looked_at(folder))
+
+    def real_path(self, path: str) -> str:
+        """The path without links."""
+        return REAL_PATH(self.db, self._looked_at(path))
+
+    def digest(self, path: str) -> str:
+        """Names the content as it is now, and its lines: while it is the same, locations in the file are right. ""
+        where there is no such file."""
+        return digest_of(self.db, self._looked_at(os.path.normpath(path)))
+
+    def text(self, path: str) -> Document | Unreadable:
+        """Any text file, not parsed."""
+        return document_of(self.db, self._looked_at(os.path.normpath(path)))
+
+    def data(self, path: str) -> bytes | Unreadable:
+        """The bytes of a regular file of bounded size."""
+        return data_of(self.db, self._looked_at(os.path.normpath(path)))
+
+    def _looked_at(self, path: str) -> str:
+        if not self.db.is_reading:
+            self.look([path])
+        return path
+
+
+def _limited(path: str, text: str, lines: _Lines) -> Text | Unreadable:
+    # A code point takes at least one byte, so a text within the limit may still be a file beyond it: no harm.
+    if len(text) > SIZE_LIMIT:
+        limit = SIZE_LIMIT // (1024 * 1024)
+        reason = f"is {len(text) / 1e6:.1f} MB; files above {limit} MiB are not analysed"
+        return Unreadable(path, reason, "not-text")
+    if "\0" in text:
+        return Unreadable(path, "is not a text file", "not-text")
+    return Text(path, text, digest(text), lines.of(text), encoding=None)
