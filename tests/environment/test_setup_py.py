@@ -1,11 +1,14 @@
 """What a setup.py says, whatever stands in it."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.installed_paths import python_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.setup_py import read_python_build
+from support.open_buffers import disk_with
 
 ENTRY = (
     "from setuptools import setup\nsetup(name='p', data_files=d, entry_points={'console_scripts': ['a = p.a:main']})\n"
@@ -24,7 +27,7 @@ ENTRY = (
     ],
 )
 def test_what_would_take_all_memory_is_not_known(text: str) -> None:
-    build = read_python_build("/p", "p", lambda path: text + ENTRY if path.endswith("setup.py") else None)
+    build = read_python_build("/p", "p", disk_with({"/p/setup.py": text + ENTRY}))
     assert (list(build.scripts), build.complete) == (["a"], False)
 
 
@@ -37,18 +40,18 @@ def test_patterns_do_not_leave_the_package_by_links(tmp_path: Path) -> None:
     for name in ("one", "two"):
         (package / name).symlink_to(package)
     text = "setup(data_files=[('share/p', glob('**/*.launch.py', recursive=True)), ('share/p/all', glob('launch/*'))])"
-    found = read_python_build(str(package), "p", {str(package / "setup.py"): text}.get)
+    found = read_python_build(str(package), "p", disk_with({package / "setup.py": text}))
     assert not found.complete, "links that lead into the package again and again are too many names"
     for name in ("one", "two"):
         (package / name).unlink()
-    found = read_python_build(str(package), "p", {str(package / "setup.py"): text}.get)
+    found = read_python_build(str(package), "p", disk_with({package / "setup.py": text}))
     assert found.complete
     assert found.data == {name: str(package / "launch/a.launch.py") for name in ("a.launch.py", "all/a.launch.py")}
 
 
 def test_a_deeply_nested_pyproject_is_left_out(tmp_path: Path) -> None:
     for text in ("a=" + "[" * 50_000, "a=" + "{a=" * 50_000, "a." * 50_000, "[a" + ".a" * 50_000 + "]"):
-        assert read_python_build(str(tmp_path), "p", {str(tmp_path / "pyproject.toml"): text}.get).scripts == {}
+        assert read_python_build(str(tmp_path), "p", disk_with({tmp_path / "pyproject.toml": text})).scripts == {}
 
 
 def test_a_link_that_leads_to_itself_hides_nothing_beside_it(tmp_path: Path) -> None:
@@ -56,19 +59,25 @@ def test_a_link_that_leads_to_itself_hides_nothing_beside_it(tmp_path: Path) -> 
     (tmp_path / "launch" / "a.launch.py").touch()
     (tmp_path / "launch" / "ring").symlink_to("ring")
     text = "setup(data_files=[('share/p', glob('launch/*'))])"
-    found = read_python_build(str(tmp_path), "p", {str(tmp_path / "setup.py"): text}.get)
+    found = read_python_build(str(tmp_path), "p", disk_with({tmp_path / "setup.py": text}))
     assert sorted(found.data) == ["a.launch.py", "ring"]
 
 
 def test_files_that_come_and_go_are_installed_and_are_not(tmp_path: Path) -> None:
     (tmp_path / "setup.py").write_text("setup(data_files=[('share/p/l', glob('launch/**/*.py', recursive=True))])")
     package = Package("p", str(tmp_path), str(tmp_path / "package.xml"), build_type="ament_python")
-    assert python_build(package).data == {}
+    disk = Disk()
+
+    def data() -> Mapping[str, str]:
+        disk.look()
+        return python_build(disk, package).data
+
+    assert data() == {}
     for below in ("launch", "launch/deep", "launch/deep/er"):
         (tmp_path / below).mkdir()
         (tmp_path / below / "a.launch.py").touch()
-        assert python_build(package).data == {"l/a.launch.py": str(tmp_path / below / "a.launch.py")}
+        assert data() == {"l/a.launch.py": str(tmp_path / below / "a.launch.py")}
     (tmp_path / "launch/deep/er/b.launch.py").touch()
-    assert sorted(python_build(package).data) == ["l/a.launch.py", "l/b.launch.py"]
+    assert sorted(data()) == ["l/a.launch.py", "l/b.launch.py"]
     (tmp_path / "launch/deep/er/b.launch.py").unlink()
-    assert sorted(python_build(package).data) == ["l/a.launch.py"]
+    assert sorted(data()) == ["l/a.launch.py"]

@@ -84,6 +84,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_server.cli.output import dumps_json, visible
+from support.open_buffers import disk_with
 from support.scripted_master import master
 
 from fuzzing import seeds
@@ -461,7 +462,7 @@ def cmake(data: bytes) -> None:
 def setup_py(data: bytes) -> None:
     text = text_of(data)
     for name in ("setup.py", "setup.cfg", "pyproject.toml"):
-        read_python_build("/w/p", "p", {f"/w/p/{name}": text}.get)
+        read_python_build("/w/p", "p", disk_with({f"/w/p/{name}": text}))
 
 
 def settings(data: bytes) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.files import nearest_file
@@ -52,7 +53,7 @@ def test_of_files_of_that_name_the_one_in_the_folders_that_were_written_is_meant
     for place in ("mpo_700/costmaps", "mmo_700/move_base/costmaps"):
         (tmp_path / place).mkdir(parents=True)
         (tmp_path / place / "local.yaml").write_text("a: 1\n")
-    found = nearest_file(f"{tmp_path}/mmo_700/costmaps/local.yaml", _environment(tmp_path))
+    found = nearest_file(Disk(), f"{tmp_path}/mmo_700/costmaps/local.yaml", _environment(tmp_path))
     assert found == f"{tmp_path}/mmo_700/move_base/costmaps/local.yaml"
 
 
@@ -60,7 +61,7 @@ def test_of_files_of_that_name_that_are_as_near_none_is_meant(tmp_path: Path) ->
     for place in ("left", "right"):
         (tmp_path / place).mkdir()
         (tmp_path / place / "local.yaml").write_text("a: 1\n")
-    assert nearest_file(f"{tmp_path}/middle/local.yaml", _environment(tmp_path)) is None
+    assert nearest_file(Disk(), f"{tmp_path}/middle/local.yaml", _environment(tmp_path)) is None
 
 
 def _environment(folder: Path) -> Environment:

@@ -32,6 +32,7 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.launch import evaluate_launch
@@ -161,7 +162,14 @@ def analyse(
             if isinstance(text, Document):
                 documents[path] = text
     context = Context(
-        fixture.root, tree, documents, launch_files, environment, why_not_run=why_not_run, sources=sources
+        fixture.root,
+        tree,
+        documents,
+        launch_files,
+        environment,
+        ExecutableIndex(environment, sources),
+        sources,
+        why_not_run=why_not_run,
     )
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:

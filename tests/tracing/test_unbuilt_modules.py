@@ -9,6 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 import pytest
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import find_packages
@@ -94,7 +95,7 @@ def test_without_the_call_in_cmake_a_package_is_not_there(tmp_path: Path) -> Non
     setup = SETUP.format("packages=['robot'], package_dir={'': 'src'}", "")
     lists = "# catkin_python_setup()\n"
     package(tmp_path, "p", setup=setup, lists=lists, files={"src/robot/__init__.py": ""})
-    assert source_folders(found_in(tmp_path)) == ()
+    assert source_folders(Disk(), found_in(tmp_path)) == ()
     interface = run(tmp_path, NODE.format("robot"))
     assert interface.outcome.status == "crashed"
 

@@ -33,6 +33,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_server.lsp.positions import Positions
 from support.growth import Clock, steep
+from support.open_buffers import disk_with
 
 MOST_CHARACTERS = 20_000
 
@@ -100,7 +101,7 @@ def cmake(folder: Path, text: str, clock: Clock) -> None:
 
 def python_build(name: str) -> Read:
     def read(folder: Path, text: str, clock: Clock) -> None:
-        clock("build", lambda: read_python_build(str(folder), "p", {str(folder / name): text}.get))
+        clock("build", lambda: read_python_build(str(folder), "p", disk_with({folder / name: text})))
 
     return read
 
