@@ -232,7 +232,7 @@ class Disk:
         return data_of(self.db, self._looked_at(os.path.normpath(path)))
 
     def _looked_at(self, path: str) -> str:
-        if not self.db.is_reading:
+        if not self.db.is_reading and any(self.db.is_outdated(kind, path) for kind in _OF_DISK):
             self.look([path])
         return path
 

@@ -308,10 +308,12 @@ class Database:
         """Those of the keys (None: of all) whose input was loaded, and would be another one now."""
         if keys is None:
             keys = [key for of, key in list(self.cells) if of is kind]
-        cells = ((key, self.cells.get((kind, key))) for key in keys)
-        return [
-            key for key, cell in cells if cell is not None and cell.value is not _NONE and cell.value != kind.load(*key)
-        ]
+        return [key for key in keys if self.is_outdated(kind, *key)]
+
+    def is_outdated(self, kind: Input[Any, Any], *key: Hashable) -> bool:
+        """Whether an input was loaded, and would be another one now."""
+        cell = self.cells.get((kind, key))
+        return cell is not None and cell.value is not _NONE and bool(cell.value != kind.load(*key))
 
     def read(self, kind: Input[Any, Any] | Query[Any, Any], key: Key) -> object:
         """The value of an input or query. Raises `CycleError`, and what the query raises; within `reading` also

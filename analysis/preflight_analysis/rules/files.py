@@ -11,6 +11,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
@@ -108,16 +109,18 @@ def _stem(name: str) -> str:
 
 def _files(disk: Disk, folder: Path, *, deep: bool) -> Iterator[Path]:
     """Files in `folder`, those of its sub-folders too if `deep`; folders that cannot be read have none."""
-    seen, pending = 0, [str(folder)]
-    while pending:
+    return map(Path, _files_in(disk.db, str(folder), deep))
+
+
+@query
+def _files_in(db: Database, folder: str, deep: bool) -> tuple[str, ...]:
+    disk, found, pending = Disk(db), list[str](), [folder]
+    while pending and len(found) < _MOST_ENTRIES:
         place = pending.pop()
         names = disk.names(place)
         inner = [name for name in names if disk.is_folder(os.path.join(place, name))]
-        for name in sorted(set(names).difference(inner)):
-            seen += 1
-            if seen > _MOST_ENTRIES:
-                return
-            yield Path(place, name)
+        found += (os.path.join(place, name) for name in sorted(set(names).difference(inner)))
         if deep:
             below = (os.path.join(place, name) for name in reversed(inner) if not name.startswith("."))
             pending += (path for path in below if not disk.is_link(path))
+    return tuple(found[:_MOST_ENTRIES])

@@ -260,7 +260,8 @@ class Workspace:
         )
 
     def refresh(self) -> None:
-        """Forget what was found on the disk beside the files that were read: executables may have come or gone."""
+        """Look at the disk again: executables may have come or gone."""
+        self.sources.look()
         with self._lock:
             self._views.clear()
             self._static.clear()
