@@ -14,7 +14,14 @@ from dataclasses import dataclass
 
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.packages import LEGACY_MANIFEST, MANIFEST, OF_ROS1, Found, crawl, find_packages
+from preflight_analysis.environment.packages import (
+    LEGACY_MANIFEST,
+    MANIFEST,
+    OF_ROS1,
+    FoundPackages,
+    crawl,
+    find_packages,
+)
 from preflight_analysis.environment.reach import named_folders, workspace_folders
 from preflight_analysis.environment.view import by_generation, is_installed_ros1
 from preflight_analysis.environment.walk import is_folder
@@ -270,7 +277,7 @@ def _own(workspace: str | None, packages: Iterable[Package]) -> list[Package]:
 
 
 def _in_order(
-    found: Found, prefixes: Sequence[str], system: Sequence[str], own: Sequence[Package], *, ros2: bool
+    found: FoundPackages, prefixes: Sequence[str], system: Sequence[str], own: Sequence[Package], *, ros2: bool
 ) -> tuple[dict[str, Package], dict[str, tuple[Package, ...]]]:
     """For each name the first package and the others. Generations are apart: an installed ROS 1 hides nothing of
     ROS 2, and is there at all in an environment of ROS 2 only where the workspace has packages of ROS 1."""
@@ -425,7 +432,7 @@ def _path_problems(path: Iterable[str]) -> list[str]:
     return [f"The package path names {folder}, which is not a folder." for folder in path if not os.path.isdir(folder)]
 
 
-def _workspace_problems(workspace: str | None, devel: Sequence[str], found: Found) -> list[str]:
+def _workspace_problems(workspace: str | None, devel: Sequence[str], found: FoundPackages) -> list[str]:
     if workspace is None or any(space.startswith(workspace + os.sep) for space in devel):
         return []
     generated = sorted(

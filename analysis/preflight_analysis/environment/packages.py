@@ -27,7 +27,7 @@ _FLAT = "/usr/share/"
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FoundPackages:
     """What a package path leads to: for each name the first package, the others of that name, and bad manifests."""
 
     packages: dict[str, Package]
@@ -35,7 +35,7 @@ class Found:
     problems: tuple[str, ...]
 
 
-def find_packages(package_path: Iterable[str], skip: Collection[str] = ()) -> Found:
+def find_packages(package_path: Iterable[str], skip: Collection[str] = ()) -> FoundPackages:
     """Crawl the folders of a package path, in its order: the first package of a name wins, as for rospkg.
 
     `skip` names folders that are not entered where they stand right below a folder of the path. A metapackage is
@@ -53,7 +53,9 @@ def find_packages(package_path: Iterable[str], skip: Collection[str] = ()) -> Fo
             places.add(place)
             if packages.setdefault(package.name, package) is not package:
                 shadowed.setdefault(package.name, []).append(package)
-    return Found(packages, {name: tuple(others) for name, others in shadowed.items()}, tuple(dict.fromkeys(problems)))
+    return FoundPackages(
+        packages, {name: tuple(others) for name, others in shadowed.items()}, tuple(dict.fromkeys(problems))
+    )
 
 
 def crawl(

@@ -28,7 +28,7 @@ class Connection:
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """A topic, service or action: everything that meets under one name. Servers are on the offering side."""
+    """A topic, service or action: everything that meets under one name. Servers are among its providers."""
 
     name: str
     providers: tuple[Connection, ...]

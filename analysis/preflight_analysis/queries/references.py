@@ -160,7 +160,7 @@ _FINDERS: Mapping[Kind, Callable[[QueryContext, NamedSymbol], Iterator[Reference
 
 
 def connections(graph: Graph, wanted: frozenset[str]) -> Iterator[tuple[Connection, bool]]:
-    """The ends of topics, services and actions of these names, and whether each is on the offering side."""
+    """The endpoints of topics, services and actions of these names, and whether each is a provider."""
     for channels in (graph.topics, graph.services, graph.actions):
         for name in wanted:
             if (channel := channels.get(name)) is not None:

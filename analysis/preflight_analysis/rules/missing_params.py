@@ -40,7 +40,7 @@ def missing_params(context: Context) -> Mapping[int, tuple[Missing, ...]]:
 
 def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     params = graph.tree.params
-    unset = [r for r in filter(None, context.kept.each(_wanting, graph.param_reads)) if r.name not in params]
+    unset = [r for r in filter(None, context.kept.each(_mandatory, graph.param_reads)) if r.name not in params]
     if not unset:
         return {}
     known = names.with_namespaces(context.once(namespaces)) | {command.param for command in graph.tree.commands}
@@ -57,7 +57,7 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     return found
 
 
-def _wanting(read: ParamRead) -> ParamRead | None:
+def _mandatory(read: ParamRead) -> ParamRead | None:
     """The read itself, if the node may lack the parameter."""
     use = read.use
     if use.builtin or not (use.access == "has" or (use.access == "get" and use.mandatory)):

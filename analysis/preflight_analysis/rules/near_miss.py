@@ -42,14 +42,14 @@ class NearMiss:
 
     @property
     def site(self) -> Connection:
-        """The end at which it is reported: that whose name the launch file sets, else the wanting one."""
+        """The endpoint at which it is reported: that whose name the launch file sets, else the consumer."""
         if self.consumer.remap is None and self.provider.remap is not None:
             return self.provider
         return self.consumer
 
     @property
     def other(self) -> Connection:
-        """The end that is not the site."""
+        """The endpoint that is not the site."""
         return self.provider if self.site is self.consumer else self.consumer
 
     @property
@@ -79,7 +79,7 @@ class NearMiss:
 
 
 def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
-    """For each wanting end that dangles the offering end that it was most likely meant for, if there is one.
+    """For each consumer that dangles the provider that it was most likely meant for, if there is one.
 
     Where what is not known of some node may well be the other end, only strong evidence counts.
     """
@@ -118,7 +118,7 @@ class _Index:
         self._names: Counter[str] = Counter()
         self._consumers = {self.seeker(consumer): consumer for consumer in consumers}
         self.seekers = {seeker: _pools(consumer) for seeker, consumer in self._consumers.items()}
-        """The wanting ends, with the pools of the channels that each may have been meant for."""
+        """The consumers, with the pools of the channels that each may have been meant for."""
         self.pools: dict[Hashable, list[Hashable]] = {pool: [] for pools in self.seekers.values() for pool in pools}
         self._channels: dict[Hashable, Channel] = {}
         self._lone: Counter[tuple[str, str | None, str]] = Counter()
@@ -274,7 +274,7 @@ def by_type(connections: Iterable[Connection]) -> Mapping[str | None, list[Conne
 
 
 def lone_of_type(consumer: Connection, dangling: Mapping[str | None, list[Connection]]) -> Connection | None:
-    """The only one of the dangling offering ends that has the same specific type, if there is exactly one."""
+    """The only one of the dangling providers that has the same specific type, if there is exactly one."""
     type_ = consumer.endpoint.type
     if type_ is None or type_ == "*" or type_.startswith(_GENERIC_PACKAGES):
         return None
@@ -339,7 +339,7 @@ def _partner(near: NearMiss, connection: Connection) -> Connection:
 
 
 def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, Evidence, int]]:
-    """Which of the channel's offering ends the wanting one may have been meant for, how they are alike and how far they
+    """Which of the providers of the channel the consumer may have been meant for, how they are alike and how far they
     are apart."""
     dangles = _dangles(channel)
     if any(connection.node is consumer.node for connection in channel.consumers):

@@ -21,7 +21,7 @@ class Verbs:
 
 
 def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs: Verbs) -> Iterator[Finding]:
-    """A finding for each wanting end and each type that does not fit it."""
+    """A finding for each consumer and each type that does not fit it."""
     for channel in channels.values():
         # Of those that are alike the first one is told; a topic that all nodes share has many.
         providers: dict[tuple[str | None, str | None, bool], Connection] = {}

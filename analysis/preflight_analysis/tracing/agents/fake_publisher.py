@@ -29,7 +29,7 @@ ANY_TYPE = "preflight/Any"
 _UNTYPED = {"type": ANY_TYPE, "md5sum": "992ce8a1687cec8c8bd883ec73ca41d1"}
 """For those who take any type. What they advertise with it has whatever type their input has."""
 _LONGEST = 3.0
-"""Seconds until somebody who was to be fed is given up."""
+"""Seconds until a subscriber that waits for a message is given up."""
 
 
 class FakePublisher:

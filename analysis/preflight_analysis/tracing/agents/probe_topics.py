@@ -3,7 +3,7 @@
 Nodes that are told of their subscribers (lazy nodelets, image_transport) often subscribe to their own input only once
 there is one, and tools for any type of message (topic_tools) advertise with the first message, which has their type. So
 once a node spins, its topics of these kinds are connected to, by the protocol of http://wiki.ros.org/ROS/TCPROS. What
-it makes after that is marked. A node that is told of nothing of the kind is not visited, and pays nothing.
+it makes after that is marked. A node that is told of nothing of the kind is not probed, and pays nothing.
 """
 
 from __future__ import annotations
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 _CALLER = "/preflight_visitor"
 _LIMIT = 4.0
-"""Seconds for all visits."""
+"""Seconds for all probes."""
 _QUIET = 0.1
-"""Seconds that a node must have nothing to do after a visit."""
+"""Seconds that a node must have nothing to do after a probe."""
 _MOST = 200
 _TIMEOUT = 3.0
 _MAX_ANSWER = 65_536
 
 
 class TopicProbes:
-    """The visits of one run. `publish(topic)` sends messages, `report(event)` hears of the first visit."""
+    """The probes of one run. `publish(topic)` sends messages, `report(event)` hears of the first probe."""
 
     def __init__(self, master: Master, publish: Callable[[str], None], report: Callable[[str], object]) -> None:
         self._master = master
         self._publish = publish
         self._report = report
         self._probed: dict[tuple[str, str], bool] = {}
-        """Role and name of the topics of the node, and whether they were visited."""
+        """Role and name of the topics of the node, and whether they were probed."""
         self._began = 0.0
         self._since = 0.0
         self._threads: list[threading.Thread] = []
@@ -51,13 +51,13 @@ class TopicProbes:
         return self._began > 0
 
     def add(self, role: str, topic: str) -> None:
-        """A topic of the node that wants a visit."""
+        """A topic of the node that is to be probed."""
         if len(self._probed) < _MOST:
             self._probed.setdefault((role, topic), False)
 
     def busy(self, pid: int, active: float, fed: bool) -> bool:
         """Whether the node, last `active` then and perhaps just being `fed`, may still have something to do because of
-        a visit. Makes those that are due."""
+        a probe. Makes those that are due."""
         due = [end for end, probed in self._probed.items() if not probed]
         if not self._probed or (self.made and time.monotonic() - self._began > _LIMIT):
             return False
