@@ -4,11 +4,12 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
-from preflight_analysis.rules.near_miss import NearMiss, dangling_consumers, fixes, near_misses, nodes_looked_at, weight
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.near_miss import NearMiss, dangling_consumers, fixes, near_misses, nodes_looked_at
+from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
+_VERBS = Verbs("offers", "is a client of")
 _OF_GOALS = ("/goal", "/send_goal")
 """How the first part of an action is called, in ROS 1 and 2."""
 
@@ -19,34 +20,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     near = near_misses(context, "actions")
     for pair in near:
-        severity, confidence = weight(graph, pair)
-        yield rule.finding(
+        message = (
             f"{nodes_looked_at(graph)} offers action '{pair.consumer.name}', of which {pair.consumer.node.name} is a "
-            f"client; did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?",
-            connection_location(pair.site),
-            severity=severity,
-            confidence=confidence,
-            related=(
-                related_endpoint(pair.other, "offers" if pair.other is pair.provider else "is a client of"),
-                *include_chain(pair.site.node.origin),
-            ),
-            fixes=_fixes(context, pair),
-            endpoints=endpoints_of(pair.consumer, pair.provider),
+            f"client; did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?"
         )
+        yield near_miss_finding(rule, graph, pair, message, _VERBS, _fixes(context, pair))
     explained = {id(pair.consumer) for pair in near}
     for connection in dangling_consumers(context, "actions"):
         if id(connection) not in explained and not graph.blind:
-            sure = graph.complete and not connection.endpoint.uncertain
-            kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
-            yield rule.finding(
-                f"{nodes_looked_at(graph)} offers action '{connection.name}'{kind}, "
-                f"of which {connection.node.name} is a client",
-                connection_location(connection),
-                severity="hint",
-                confidence="likely" if sure else "possible",
-                related=include_chain(connection.node.origin),
-                endpoints=endpoints_of(connection),
-            )
+            action, client = with_type(connection), connection.node.name
+            message = f"{nodes_looked_at(graph)} offers action {action}, of which {client} is a client"
+            yield lone_finding(rule, connection, message, whole=graph.complete)
 
 
 def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:

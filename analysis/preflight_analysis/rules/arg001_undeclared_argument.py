@@ -7,7 +7,7 @@ from preflight_analysis.evaluation.problems import ArgumentNeeded, Problem, Unde
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import declarations, declare
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -48,12 +48,13 @@ def _unsure(
 ) -> Finding:
     """What comes before could not be evaluated, and in ROS 2 it may have set the argument."""
     name = problem.kind.name
-    return rule.finding(
+    return problem_finding(
+        rule,
+        problem,
         f"nothing that could be read declares argument '{name}'{did_you_mean(near)}",
-        problem.location,
         severity="warning" if near else "hint",
         confidence="possible",
-        related=(Related("this could not be read, and may set it", not_followed), *include_chain(problem.origin)),
+        related=(Related("this could not be read, and may set it", not_followed),),
         fixes=rename(context, problem.location, name, near) if near else (),
     )
 

@@ -39,6 +39,17 @@ def check_missing_files(kind: type[UnreadablePath], what: str) -> Check:
     return check
 
 
+def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:
+    """The check of a rule about files that are there and cannot be read, `what` they are."""
+
+    def check(rule: Rule, context: Context) -> Iterator[Finding]:
+        for problem in problems_of(context, kind):
+            path, reason = shown(problem.kind.path, context), problem.kind.reason
+            yield problem_finding(rule, problem, f"{what} '{path}' cannot be read: {reason}")
+
+    return check
+
+
 def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     """The path of an existing file that `path` is probably meant to be, None if nothing is near.
 

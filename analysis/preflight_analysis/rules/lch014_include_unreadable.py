@@ -1,18 +1,8 @@
 """LCH014: an include of a file that cannot be read as a launch file."""
 
-from collections.abc import Iterator
-
 from preflight_analysis.evaluation.problems import UnreadableInclude
-from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.problems import problem_finding, problems_of, shown
-from preflight_analysis.rules.rule import Context, Rule
-
-
-def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(context, UnreadableInclude):
-        path = shown(problem.kind.path, context)
-        yield problem_finding(rule, problem, f"included file '{path}' cannot be read: {problem.kind.reason}")
-
+from preflight_analysis.rules.files import check_unreadable_files
+from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(
     id="LCH014",
@@ -23,6 +13,6 @@ RULE = Rule(
     why="`roslaunch` stops and starts nothing.",
     example='<include file="$(find camera)/launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',
-    check=_check,
+    check=check_unreadable_files(UnreadableInclude, "included file"),
     problems=(UnreadableInclude,),
 )

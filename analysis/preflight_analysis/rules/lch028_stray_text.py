@@ -9,7 +9,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import problem_finding, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _TAG = re.compile(rf"(?:{'|'.join(TAGS)})(?=\s+[\w-]+\s*=)")
@@ -19,10 +19,11 @@ _REMARK = re.compile(r"(?:#|//)")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, StrayText):
         text = problem.kind.text
-        shown = text if len(text) <= 40 else text[:40] + "..."
         lost = _TAG.match(text) is not None
         hint = "; is a '<' missing before it?" if lost else ""
-        message = f"the text '{shown}' in <{problem.kind.tag}> means nothing: roslaunch does not look at it{hint}"
+        message = (
+            f"the text '{shortened(text)}' in <{problem.kind.tag}> means nothing: roslaunch does not look at it{hint}"
+        )
         severity: Severity | None = "hint" if _REMARK.match(text) else None
         fixes = _fixes(context, problem.location, text, lost)
         yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)

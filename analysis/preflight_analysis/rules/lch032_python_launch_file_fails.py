@@ -7,7 +7,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.rules.installed import has_ros
-from preflight_analysis.rules.problems import include_chain, problems_of
+from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 _LAUNCH = re.compile(r"launch(_\w+)?\Z")
@@ -28,14 +28,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
-        yield rule.finding(
-            message,
-            problem.location,
-            severity=severity,
-            confidence=confidence,
-            related=(*related, *include_chain(problem.origin)),
-            stops_launch=problem.fatal,
-        )
+        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, related=related)
 
 
 def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros: bool) -> str:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from preflight_analysis.evaluation.tree import Param
-from preflight_analysis.findings.finding import Edit, Fix
-from preflight_analysis.rules.rule import Context
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.rules.places import related_node
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import ParamUse
 
 
 def by_namespace(context: Context) -> Mapping[str, list[Param]]:
@@ -37,6 +40,17 @@ def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:
 def namespace_of(param: Param) -> str:
     """`/a/b` of `/a/b/c`, the empty text of `/c`."""
     return param.name.rpartition("/")[0]
+
+
+def refusal_finding(rule: Rule, node: LaunchNode, param: Param, use: ParamUse, message: str) -> Finding:
+    """The finding for a value at which a node of ROS 2 stops when it declares the parameter."""
+    return rule.finding(
+        message,
+        param.place,
+        severity="warning" if use.assumed else "error",
+        confidence="possible" if use.assumed else "likely",
+        related=(related_node(node), *include_chain(node.origin)),
+    )
 
 
 def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Literal
 
 from preflight_analysis.documents.span import Location
@@ -20,6 +21,14 @@ _KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
     "action_server": "action",
     "action_client": "action",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Verbs:
+    """How to say what the two ends do: `publishes`, `subscribes to`."""
+
+    provides: str
+    consumes: str
 
 
 def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:
@@ -42,6 +51,11 @@ def related_endpoint(connection: Connection, verb: str) -> Related:
 def endpoints_of(*connections: Connection) -> tuple[EndpointRef, ...]:
     """The ends as a finding names them."""
     return tuple(EndpointRef(_KINDS[c.endpoint.role], c.name, c.node.name) for c in connections)
+
+
+def related_node(node: LaunchNode) -> Related:
+    """Where the node is started."""
+    return Related(f"{node.name} is started here", node.location)
 
 
 def related_param_read(read: ParamRead) -> Related:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import renamed
-from preflight_analysis.rules.places import related_param_read
+from preflight_analysis.rules.places import related_node, related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import Unread, unread_params
@@ -29,7 +29,7 @@ def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Find
             severity="hint",
             confidence="possible",
             related=(
-                *((Related(f"{who} is started here", holder.location),) if holder is not None else ()),
+                *((related_node(holder),) if holder is not None else ()),
                 *include_chain(param.origin),
             ),
         )

@@ -1,18 +1,8 @@
 """PRM003: a parameter file that cannot be read."""
 
-from collections.abc import Iterator
-
 from preflight_analysis.evaluation.problems import UnreadableParameterFile
-from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.problems import problem_finding, problems_of, shown
-from preflight_analysis.rules.rule import Context, Rule
-
-
-def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(context, UnreadableParameterFile):
-        path = shown(problem.kind.path, context)
-        yield problem_finding(rule, problem, f"parameter file '{path}' cannot be read: {problem.kind.reason}")
-
+from preflight_analysis.rules.files import check_unreadable_files
+from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(
     id="PRM003",
@@ -23,6 +13,6 @@ RULE = Rule(
     why="`roslaunch` stops and starts nothing.",
     example='<rosparam command="load" file="$(find camera)/config"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
-    check=_check,
+    check=check_unreadable_files(UnreadableParameterFile, "parameter file"),
     problems=(UnreadableParameterFile,),
 )

@@ -11,7 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import YamlKeyTwice
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
 from preflight_analysis.findings.finding import Finding, Related, Severity
-from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of
+from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tag, Tags, has_condition
 
@@ -253,7 +253,7 @@ def _shown(value: object) -> str:
     if isinstance(value, (bytes, list)):
         return "another value" if isinstance(value, bytes) else f"a list of {len(value)}"
     text = str(value).lower() if isinstance(value, bool) else str(value)
-    return f"'{text}'" if len(text) <= 40 else f"'{text[:37]}...'"
+    return f"'{shortened(text)}'"
 
 
 RULE = Rule(

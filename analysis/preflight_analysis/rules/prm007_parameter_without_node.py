@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Param
-from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_for_tools
@@ -47,7 +48,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if meant in context.once(_known):
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
         places = [_prefix_place(context, param, leaf) for param in params]
-        related = [Related(f"{meant} is started here", n.location) for n in tree.nodes if n.name == meant][-1:]
+        related = [related_node(n) for n in tree.nodes if n.name == meant][-1:]
         yield rule.finding(
             f"no node is called '{prefix}', for which {_what(params)}; did you mean '{meant}'?",
             places[0],

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.rules.places import related_param_read
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import include_chain, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _BOOLEAN_WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "y", "n", "t", "f"})
@@ -100,8 +100,7 @@ def _kind(value: Any) -> str:
 
 
 def _shown(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 40 else f"{text[:37]}..."
+    return shortened(repr(value))
 
 
 RULE = Rule(

@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import Param
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import reports_params
@@ -33,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue  # it may have come to it later
             severity: Severity = "warning" if near or interface.complete else "info"
             use = declared.get(near) if near is not None else None
-            related = [Related(f"{node.name} is started here", node.location)]
+            related = [related_node(node)]
             yield rule.finding(
                 f"{node.name} declares no parameter '{param.name}': its value is ignored{did_you_mean(near)}",
                 param.place,

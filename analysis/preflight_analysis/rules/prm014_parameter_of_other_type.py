@@ -5,8 +5,9 @@ from typing import Any
 
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.parameters import refusal_finding
+from preflight_analysis.rules.problems import shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
@@ -45,16 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if message is None or (place, wanted) in reported:
                 continue  # what is written once for several nodes is wrong for each
             reported.add((place, wanted))
-            yield rule.finding(
-                message,
-                place,
-                confidence="likely" if not use.assumed else "possible",
-                severity="error" if not use.assumed else "warning",
-                related=(
-                    Related(f"{node.name} is started here", node.location),
-                    *include_chain(node.origin),
-                ),
-            )
+            yield refusal_finding(rule, node, param, use, message)
 
 
 def _is_as_declared(param: Param, use: ParamUse, wanted: str) -> bool:
@@ -117,8 +109,7 @@ def _named(type_: str) -> str:
 
 
 def _shown(value: Any) -> str:
-    text = str(value)
-    return repr(text if len(text) <= 40 else f"{text[:37]}...")
+    return repr(shortened(str(value)))
 
 
 RULE = Rule(

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from textwrap import shorten
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.parameters import refusal_finding
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse, Range
 
@@ -30,16 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if use is None or why is None or at in reported:
                 continue
             reported.add(at)
-            yield rule.finding(
-                f"{why} (InvalidParameterValueException)",
-                param.place,
-                confidence="possible" if use.assumed else "likely",
-                severity="warning" if use.assumed else "error",
-                related=(
-                    Related(f"{node.name} is started here", node.location),
-                    *include_chain(node.origin),
-                ),
-            )
+            yield refusal_finding(rule, node, param, use, f"{why} (InvalidParameterValueException)")
 
 
 def _wrong(param: Param, use: ParamUse, node: LaunchNode) -> str | None:

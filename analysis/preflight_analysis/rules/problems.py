@@ -100,6 +100,11 @@ def quoted(names: Iterable[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
+def shortened(text: str) -> str:
+    """A value as a message shows it, which may be as long as a file."""
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
 def as_written(name: str) -> str:
     """A name with `$(anon x)` in place of what the evaluation makes of it, which is another at every launch."""
     pieces: list[str] = []

@@ -13,12 +13,13 @@ from preflight_analysis.rules.near_miss import (
     fixes,
     near_misses,
     nodes_looked_at,
-    weight,
 )
 from preflight_analysis.rules.nearest import numbers_in, share_words
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.places import Verbs, related_endpoint
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
+
+_VERBS = Verbs("offers", "calls")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -29,20 +30,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_endpoints)
     near = [pair for pair in near_misses(context, "services") if id(pair.consumer) not in remapped]
     for pair in near:
-        severity, confidence = weight(graph, pair)
-        yield rule.finding(
+        message = (
             f"{nodes_looked_at(graph)} offers service '{pair.consumer.name}', which {pair.consumer.node.name} calls; "
-            f"did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?",
-            connection_location(pair.site),
-            severity=severity,
-            confidence=confidence,
-            related=(
-                related_endpoint(pair.other, "offers" if pair.other is pair.provider else "calls"),
-                *include_chain(pair.site.node.origin),
-            ),
-            fixes=fixes(context, pair),
-            endpoints=endpoints_of(pair.consumer, pair.provider),
+            f"did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?"
         )
+        yield near_miss_finding(rule, graph, pair, message, _VERBS, fixes(context, pair))
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
@@ -50,21 +42,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     explained = {id(pair.consumer) for pair in near} | remapped
     for connection in dangling_consumers(context, "services"):
         if id(connection) not in explained:
-            sure = graph.complete and not connection.endpoint.uncertain
-            kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
             meant = _meant(connection, answers.get(id(connection.node), ()), unused)
             if graph.blind and meant is None:
                 continue
             hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
-            related = [related_endpoint(meant, "offers")] if meant is not None else []
-            yield rule.finding(
-                f"{nodes_looked_at(graph)} offers service '{connection.name}'{kind}, "
-                f"which {connection.node.name} calls{hint}",
-                connection_location(connection),
+            service, client = with_type(connection), connection.node.name
+            yield lone_finding(
+                rule,
+                connection,
+                f"{nodes_looked_at(graph)} offers service {service}, which {client} calls{hint}",
+                whole=graph.complete,
                 severity="hint" if meant is None else "warning",
-                confidence="likely" if sure else "possible",
-                related=(*related, *include_chain(connection.node.origin)),
-                endpoints=endpoints_of(connection),
+                related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
             )
 
 

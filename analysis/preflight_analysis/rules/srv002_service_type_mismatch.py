@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.type_mismatch import Verbs, mismatches
+from preflight_analysis.rules.type_mismatch import mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

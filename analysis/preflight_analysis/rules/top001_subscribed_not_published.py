@@ -14,11 +14,12 @@ from preflight_analysis.rules.near_miss import (
     lone_of_type,
     nodes_looked_at,
     topic_near_misses,
-    weight,
 )
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.places import Verbs, related_endpoint
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
+
+_VERBS = Verbs("publishes", "subscribes to")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -29,27 +30,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_endpoints)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
-    dangling, whole = by_type(context.once(dangling_topic_providers)), nodes_looked_at(graph)
+    dangling, who = by_type(context.once(dangling_topic_providers)), nodes_looked_at(graph)
     for pair in near:
-        severity, confidence = weight(graph, pair)
-        yield rule.finding(
-            _near_message(graph, pair),
-            connection_location(pair.site),
-            severity=severity,
-            confidence=confidence,
-            related=(
-                related_endpoint(pair.other, "publishes" if pair.other is pair.provider else "subscribes to"),
-                *include_chain(pair.site.node.origin),
-            ),
-            fixes=fixes(context, pair),
-            endpoints=endpoints_of(pair.consumer, pair.provider),
-        )
+        yield near_miss_finding(rule, graph, pair, _near_message(graph, pair), _VERBS, fixes(context, pair))
     explained = {id(pair.consumer) for pair in near} | remapped
     for connection in dangling_consumers(context, "topics"):
         if id(connection) not in explained and not graph.blind:
-            sure = graph.complete and not connection.endpoint.uncertain
-            lone = lone_of_type(connection, dangling)
-            yield context.kept.get(_hint, (connection.name, connection.node.name), rule, whole, connection, lone, sure)
+            lone, key = lone_of_type(connection, dangling), (connection.name, connection.node.name)
+            yield context.kept.get(_hint, key, rule, who, connection, lone, graph.complete)
 
 
 def _near_message(graph: Graph, pair: NearMiss) -> str:
@@ -65,21 +53,12 @@ def _near_message(graph: Graph, pair: NearMiss) -> str:
     )
 
 
-def _hint(rule: Rule, whole: str, connection: Connection, lone: Connection | None, sure: bool) -> Finding:
-    kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
-    message = f"{whole} publishes '{connection.name}'{kind}, to which {connection.node.name} subscribes"
-    related = include_chain(connection.node.origin)
-    if lone is not None:
-        message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
-        related = (related_endpoint(lone, "publishes"), *related)
-    return rule.finding(
-        message,
-        connection_location(connection),
-        severity="hint",
-        confidence="likely" if sure else "possible",
-        related=related,
-        endpoints=endpoints_of(connection),
-    )
+def _hint(rule: Rule, who: str, connection: Connection, lone: Connection | None, whole: bool) -> Finding:
+    message = f"{who} publishes {with_type(connection)}, to which {connection.node.name} subscribes"
+    if lone is None:
+        return lone_finding(rule, connection, message, whole=whole)
+    message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
+    return lone_finding(rule, connection, message, whole=whole, related=(related_endpoint(lone, _VERBS.provides),))
 
 
 RULE = Rule(

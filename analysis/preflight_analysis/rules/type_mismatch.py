@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Rule
-
-
-@dataclass(frozen=True, slots=True)
-class Verbs:
-    """How to say what the two ends do: `publishes`, `subscribes to`."""
-
-    provides: str
-    consumes: str
 
 
 def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs: Verbs) -> Iterator[Finding]:
