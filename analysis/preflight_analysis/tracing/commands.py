@@ -18,8 +18,8 @@ import shutil
 import signal
 import sys
 import threading
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -114,6 +114,16 @@ class _Job:
     visible: list[str]
 
 
+@dataclass(frozen=True, slots=True)
+class _Done:
+    """A run that has ended; `unchanged`: what it names is what it was before."""
+
+    result: CommandResult
+    ended: _Ended
+    started: float
+    unchanged: bool
+
+
 class CommandRunner:
     """Runs commands of one environment in the folder `cwd`. Usable from several threads at once."""
 
@@ -206,31 +216,78 @@ class CommandRunner:
         beyond = recipes.command_paths(self.environment, recipe, recipe.argv[0], named[1:], self._interpreter)
         return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
+    def run_together(self, lines: Sequence[str], cancel: threading.Event) -> list[CommandResult]:
+        """The same for the lines of one of `alike`, by one run as far as that is possible."""
+        results: dict[str, CommandResult] = {}
+        if len(lines) > 1:
+            try:
+                results = self._from_one_run(lines, cancel)
+            except Exception:
+                _log.exception("running commands together failed; each is run alone")
+        return [results.get(line) or self.run(line, cancel) for line in lines]
+
+    def _from_one_run(self, lines: Sequence[str], cancel: threading.Event) -> dict[str, CommandResult]:
+        jobs = {line: job for line in lines if isinstance(job := self._job(line), _Job)}
+        results = {line: known for line, job in jobs.items() if (known := self._known(job)) is not None}
+        left = {line: job for line, job in jobs.items() if line not in results}
+        if len(left) < 2 or cancel.is_set() or not sandbox.probe().works:
+            return results
+        requests = [request for line in left if (request := parse_request(line)) is not None]
+        whole = launch_files.make(self._of_ros2, launch_files.together(requests), self.cwd)
+        done = self._execute(self._asked(whole, str(requests[0]["file"])), cancel)
+        if done.result.status == "done":
+            answers = launch_files.apart(done.result.output, len(left))
+            for (line, job), answer in zip(left.items(), answers, strict=True):
+                if answer is not None:
+                    results[line] = self._kept(line, job, replace(done, result=CommandResult("done", answer)))
+        return results
+
     def _run(self, line: str, job: _Job, cancel: threading.Event) -> CommandResult:
         status = sandbox.probe()
         if not status.works:
             return CommandResult("not-run", reason=f"no sandbox: {status.reason}")
         if cancel.is_set():
             return CommandResult("not-run", reason="the run was cancelled")
+        done = self._execute(job, cancel)
+        if done.result.status == "failed":
+            if status.narrow:
+                why = (
+                    f"{done.result.reason} in the sandbox by {status.backend}, which refuses more than bubblewrap would"
+                )
+                return CommandResult("not-run", reason=why, stderr_tail=done.result.stderr_tail)
+            return _sandbox_to_blame(done.result, job, done.ended) or done.result
+        return self._kept(line, job, done)
+
+    def _execute(self, job: _Job, cancel: threading.Event) -> _Done:
         shown = Visible(tuple(job.visible), self._repositories)
         agents = compiled.copies().of(self._interpreter, shown)
         before = list(map(identity, job.named))
         raw = run.execute_command(job.recipe, shown, self._interpreter, cancel, agents)
         ended = _read(raw)
-        result = _result(raw, ended)
-        if result.status == "failed":
-            if status.narrow:
-                why = f"{result.reason} in the sandbox by {status.backend}, which refuses more than bubblewrap would"
-                return CommandResult("not-run", reason=why, stderr_tail=result.stderr_tail)
-            return _sandbox_to_blame(result, job, ended) or result
+        return _Done(_result(raw, ended), ended, raw.started, before == list(map(identity, job.named)))
+
+    def _kept(self, line: str, job: _Job, done: _Done) -> CommandResult:
+        """The result, which is kept if it is one to rely on."""
+        result = done.result
         if result.status == "done" and line.startswith(MARK):
-            refused = launch_files.sandbox_to_blame(result.output, job.visible, narrow=status.narrow)
+            narrow = sandbox.probe().narrow
+            refused = launch_files.sandbox_to_blame(result.output, job.visible, narrow=narrow)
             if refused is not None:
                 return CommandResult("not-run", reason=refused)
-        if result.status == "done" and self.cache is not None and before == list(map(identity, job.named)):
-            files = (*job.named, *on_host(ended.files, job.visible))
-            self.cache.store(job.recipe, self._packages, result.output, files, started=raw.started)
+        if result.status == "done" and self.cache is not None and done.unchanged:
+            files = (*job.named, *on_host(done.ended.files, job.visible))
+            self.cache.store(job.recipe, self._packages, result.output, files, started=done.started)
         return result
+
+
+def alike(lines: Iterable[str], most: int) -> list[tuple[str, ...]]:
+    """Command lines in groups of at most so many, each of which one run may answer: other calls of the same Python
+    launch file."""
+    groups: dict[str, list[str]] = {}
+    for line in lines:
+        request = parse_request(line)
+        groups.setdefault((request and launch_files.group(request)) or line, []).append(line)
+    return [tuple(group[at : at + most]) for group in groups.values() for at in range(0, len(group), most)]
 
 
 def _files_of(words: Iterable[str], cwd: str) -> Iterator[str]:

@@ -11,7 +11,7 @@ import os
 import re
 import sys
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -55,6 +55,35 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "fake_launch": _edition()}
     return replace(recipe, env={**recipe.env, **fixed}, stable=stable)
+
+
+def group(request: dict[str, Any]) -> str | None:
+    """The same for requests that differ in their last call alone; None for one without calls."""
+    if not request["calls"]:
+        return None
+    *before, _ = request["calls"]
+    alike = {name: value for name, value in request.items() if before or name != "files"}
+    return json.dumps({**alike, "calls": before}, sort_keys=True)
+
+
+def together(requests: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """One request for several of a `group`: what comes before the last call is done once, and each last call in a copy
+    of the process."""
+    *before, _ = requests[0]["calls"]
+    branches = [{"call": each["calls"][-1], "files": each.get("files", {})} for each in requests]
+    files = requests[0].get("files", {}) if before else {}
+    return {**requests[0], "calls": before, "files": files, "branches": branches}
+
+
+def apart(output: str, count: int) -> list[str | None]:
+    """The answers to requests that were run together; None for one that has to be asked alone."""
+    try:
+        found = json.loads(output).get("branches")
+    except (ValueError, RecursionError, AttributeError):
+        found = None
+    if not isinstance(found, list) or len(found) != count:
+        return [None] * count
+    return [each if isinstance(each, str) else None for each in found]
 
 
 def _installed_elsewhere(environment: Environment, file: str, text: str) -> list[tuple[str, str]]:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
 
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.python_runs import MARK, good_series
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.tracing.commands import CommandRunner
+from preflight_analysis.tracing.commands import CommandRunner, alike
 from preflight_analysis.tracing.schedule import run_all
 
+MOST_TOGETHER = 24
+"""Calls of a Python launch file that one run answers: it has the time of one."""
 MAX_LAUNCH_FILES = 1_000
 """How many runs of Python launch files are remembered, the latest."""
 
@@ -59,12 +62,16 @@ def command_lines(tree: LaunchTree) -> tuple[str, ...]:
 
 
 def run_commands(runner: CommandRunner, lines: Sequence[str], cancel: threading.Event) -> dict[str, CommandResult]:
-    """The results of command lines, from the cache or a run; of those that were cancelled none."""
+    """The results of command lines, from the cache or a run, as many at a time as there are processors; of those that
+    were cancelled none."""
     results: dict[str, CommandResult] = {}
+    groups = alike(lines, MOST_TOGETHER)
 
-    def done(index: int, result: CommandResult) -> None:
-        if result.status != "not-run" or not cancel.is_set():
-            results[lines[index]] = result
+    def done(index: int, found: Sequence[CommandResult]) -> None:
+        for line, result in zip(groups[index], found, strict=True):
+            if result.status != "not-run" or not cancel.is_set():
+                results[line] = result
 
-    run_all(runner.run, lines, on_done=done, cancel=cancel)
+    workers = max(2, len(os.sched_getaffinity(0)))
+    run_all(runner.run_together, groups, workers=workers, on_done=done, cancel=cancel)
     return results

@@ -6,10 +6,11 @@ What runs tell asks for further runs: an include for that of its file, an opaque
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from preflight_analysis.tracing.commands import CommandRunner
-from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
+from preflight_analysis.workspace.commands import CommandResults, run_commands
+from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 MAX_ROUNDS = 100
@@ -27,14 +28,37 @@ def resolve_commands(
     only_launch_files: bool = False,
 ) -> Analysis:
     """The analysis once nothing is left to run. `results` are those that the workspace's trees are made with."""
-    analysis = workspace.static(path, args)
-    tried: set[str] = set()
+    root = Root.of(path, args)
+    resolve_together(workspace, [root], results, runner, cancel, only_launch_files=only_launch_files)
+    return workspace.static(path, args)
+
+
+def resolve_together(
+    workspace: Workspace,
+    roots: Sequence[Root],
+    results: CommandResults,
+    runner: CommandRunner,
+    cancel: threading.Event,
+    *,
+    only_launch_files: bool = False,
+    tried: set[str] | None = None,
+) -> None:
+    """Run all that several roots ask for: what one has to wait for keeps no other one waiting. `tried` is what was run
+    already, to which this adds."""
+    tried = set() if tried is None else tried
+    waiting = list(roots)
     for _ in range(MAX_ROUNDS):
-        wanted = {c.line for c in analysis.tree.commands if c.launch_file or not only_launch_files}
-        lines = [line for line in command_lines(analysis.tree) if line in wanted and line not in tried]
-        if not lines or cancel.is_set():
-            break
-        tried.update(lines)
-        results.update(run_commands(runner, lines, cancel))
-        analysis = workspace.static(path, args)
-    return analysis
+        asked: dict[Root, set[str]] = {}
+        wanted: dict[str, None] = {}
+        for root in waiting:
+            if cancel.is_set():
+                return
+            commands = workspace.static(root.path, dict(root.args)).tree.commands
+            lines = [c.line for c in commands if c.launch_file or not only_launch_files]
+            asked[root] = {line for line in lines if line not in tried}
+            wanted.update(dict.fromkeys(line for line in lines if line in asked[root]))
+        if not wanted:
+            return
+        tried.update(wanted)
+        results.update(run_commands(runner, list(wanted), cancel))
+        waiting = [root for root, lines in asked.items() if lines]

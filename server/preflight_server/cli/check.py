@@ -30,6 +30,8 @@ from preflight_server.cli.output import colours, print_json, print_text, say
 from preflight_server.cli.progress import Progress
 from preflight_server.cli.project import run_nodes
 
+TOGETHER = 32
+"""Launches whose commands and Python launch files are run side by side; their analyses are at hand meanwhile."""
 FORMATS = ("text", "json", "sarif", "junit", "github")
 
 DESCRIPTION = """Tells what is wrong with launch files and everything they include. Without a file it is those of
@@ -108,7 +110,9 @@ def _check(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report
     done = 0
     try:
         for launch in chosen:
-            for root in launch.roots:
+            for number, root in enumerate(launch.roots):
+                if number % TOGETHER == 0:
+                    launch.workspace.run_commands(launch.roots[number : number + TOGETHER])
                 progress.step(done, printable(relative(root.label, os.getcwd())))
                 done += 1
                 project = launch.workspace.analysed(root.path, dict(root.args))

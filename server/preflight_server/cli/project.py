@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 import threading
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
@@ -19,8 +19,9 @@ from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.commands import CommandResults
+from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -74,16 +75,20 @@ class OpenWorkspace:
     results: CommandResults
     no_run: bool
     runner: CommandRunner
+    _tried: set[str] = field(default_factory=set)
 
     def analysed(self, path: str, values: Mapping[str, str]) -> Project:
         """A launch file with its arguments."""
+        self.run_commands([Root.of(path, values)])
+        return Project(self.workspace, self.workspace.static(path, values))
+
+    def run_commands(self, roots: Sequence[Root]) -> None:
+        """Run what has to be run before these are known, side by side."""
         if self.no_run:
-            return Project(self.workspace, self.workspace.static(path, values))
+            return
         cancel = threading.Event()
         try:
-            return Project(
-                self.workspace, resolve_commands(self.workspace, path, values, self.results, self.runner, cancel)
-            )
+            resolve_together(self.workspace, roots, self.results, self.runner, cancel, tried=self._tried)
         except KeyboardInterrupt:
             cancel.set()
             raise

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import base64
 import inspect
 import json
@@ -9,10 +10,11 @@ import os
 import stat
 import sys
 import tempfile
+import threading
 import traceback
 import types
 import zlib
-from typing import Any
+from typing import Any, Callable, Optional
 
 from . import installed
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
@@ -23,6 +25,7 @@ MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log")
+_fork = os.fork
 
 
 def main() -> None:
@@ -36,24 +39,73 @@ def main() -> None:
     os.environ.update(job["env"])
     sys.argv = ["ros2", "launch", job["file"]]
     sys.path[:0] = job["paths"]
+    branches = job.get("branches")
+    text = _answer(lambda: _run(job))
+    if branches is not None:
+        failed = "error" in json.loads(text)
+        text = json.dumps({"branches": [text if failed else _branch(each) for each in branches]})
+    with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
+        out.write(text)
+
+
+def _answer(work: Callable[[], dict[str, Any]]) -> str:
+    """What some work gives or raises, with the files that were written, as JSON."""
     try:
-        result = _run(job)
+        result = work()
     except SystemExit as error:
         result = {"error": {"type": "SystemExit", "message": str(error), "frames": []}}
     except BaseException as error:
         result = {"error": _error_record(error)}
     result["files"] = _files()
-    with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
-        out.write(json.dumps(result))
+    return json.dumps(result)
+
+
+def _branch(branch: dict[str, Any]) -> Optional[str]:
+    """The answer to one more call, in a process of its own: the next one finds everything as this one did. None where
+    that is not possible, or where it went wrong."""
+    if threading.active_count() > 1 or not hasattr(os, "memfd_create"):
+        return None  # other threads are not there in a copy
+    before = _files()
+    answer = os.memfd_create("answer")
+    sys.stdout.flush()
+    sys.stderr.flush()
+    child = _fork()
+    if not child:
+        try:
+            text = _answer(lambda: _in_branch(branch))
+            with open(answer, "wb") as out:
+                out.write(text.encode(errors="surrogatepass"))
+            atexit._run_exitfuncs()
+            sys.stdout.flush()
+            sys.stderr.flush()
+        finally:
+            os._exit(0)
+    _, status = os.waitpid(child, 0)
+    with open(answer, "rb") as written:
+        written.seek(0)
+        text = written.read().decode(errors="surrogatepass")
+    after = _files()
+    for path in after.keys() - before.keys():
+        os.unlink(path)
+    return text if text and not status and all(after.get(path) == known for path, known in before.items()) else None
+
+
+def _in_branch(branch: dict[str, Any]) -> dict[str, Any]:
+    _write(branch["files"])
+    return _call(branch["call"])
+
+
+def _write(files: dict[str, str]) -> None:
+    for path, text in files.items():
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 def _run(job: dict[str, Any]) -> dict[str, Any]:
     install()
     installed.install(job["installed"])
     environment = dict(os.environ)
-    for path, text in job.get("files", {}).items():
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+    _write(job.get("files", {}))
     module = types.ModuleType("python_launch_file")
     module.__file__ = job["file"]
     sys.modules["python_launch_file"] = module
