@@ -22,9 +22,13 @@ STILL_SECONDS = 0.7
 """Longer than the server waits after the last keystroke before it looks at the roots that are not shown."""
 QUESTIONS = 16
 """That both servers are asked at each comparison."""
-MAX_PACKAGES = 5
 MAX_NAMES = 4
-"""Of a format in one workspace."""
+"""Of a format in one workspace, edited in one sitting."""
+GUESTS_EVERY = 10
+"""In one of so many sittings two more workspaces are opened, and closed again."""
+_ROS1, _ROS2 = ("ros1",), ("xml", "yaml", "python")
+_LARGE, _SMALL = 8, 1
+"""How many packages of a format are drawn; what they find comes with them."""
 
 
 @dataclass
@@ -37,7 +41,10 @@ class Figures:
     changes_on_disk: int = 0
     comparisons: int = 0
     questions: int = 0
-    sittings: int = 0
+    guests: int = 0
+    """How often two more workspaces were opened and closed."""
+    launch_files: int = 0
+    """Of the workspaces that are always there."""
     files: dict[str, int] = field(default_factory=dict)
     """How many were edited, by format."""
     idle: float = 0.0
@@ -61,15 +68,15 @@ def folders_of(root: Path, seed: int) -> tuple[Path, Path]:
     return (root / f"{seed}/ros1", root / f"{seed}/ros2")
 
 
-def make_room(packages: Sequence[materials.Package], root: Path, seed: int) -> Room:
-    """The same from the same seed and packages."""
+def make_room(packages: Sequence[materials.Package], root: Path, seed: int, times: int) -> Room:
+    """The same from the same seed and packages. So many packages are drawn of each format."""
     chance = random.Random(seed)
     one, two = folders_of(root, seed)
     return Room(
         (one, two),
         (
-            materials.sample(packages, one, chance, ("ros1", "ros1"), MAX_PACKAGES),
-            materials.sample(packages, two, chance, ("xml", "yaml", "python"), MAX_PACKAGES),
+            materials.sample(packages, one, chance, _ROS1 * 2 * times, 6 * times),
+            materials.sample(packages, two, chance, _ROS2 * times, 6 * times),
         ),
     )
 
@@ -104,8 +111,9 @@ class Runner:
         (self.root / "home").mkdir(parents=True)
         self._packages = packages
         self._seeds = seeds
-        self._rooms = {seeds[0]: make_room(packages, self.root, seeds[0])}
+        self._rooms = {seeds[0]: make_room(packages, self.root, seeds[0], _LARGE)}
         self._base = self._rooms[seeds[0]]
+        self.figures.launch_files = sum(len(p) for s in self._base.samples for p in s.launch_files.values())
         self.server = self._start("server", [])
         self.figures.idle = self.server.megabytes()
         self._open_folders(self._base)
@@ -132,13 +140,17 @@ class Runner:
     # One sitting
 
     def sit(self, seed: int, edits: int, compare_every: int) -> None:
-        """Open the workspaces of a seed beside the first ones, edit files of both, compare, and close all of it."""
+        """Edit files of the workspaces, now and then of two more, compare, and close all of it."""
         chance = random.Random(seed)
         typist = self._begin(seed, chance)
         before = self.desk.edits
         while (left := before + edits - self.desk.edits) > 0:
             for step in typist.steps(min(compare_every, left)):
                 self._do(step)
+            if self.trusted:
+                # While a text cannot be run, its last good run stands in, which a fresh server does not know.
+                for step in typist.restored(".py"):
+                    self._do(step)
             self.compare(chance)
         for step in typist.restored():
             self._do(step)
@@ -153,9 +165,8 @@ class Runner:
 
     def _begin(self, seed: int, chance: random.Random) -> Typist:
         self.steps = []
-        self.figures.sittings += 1
-        if seed not in self._rooms:
-            self._rooms[seed] = make_room(self._packages, self.root, seed)
+        if seed % GUESTS_EVERY == 0 and seed not in self._rooms:
+            self._rooms[seed] = make_room(self._packages, self.root, seed, _SMALL)
             self._open_folders(self._rooms[seed])
         names, pool = self._names(chance)
         return Typist(self.desk, chance, names, pool)
@@ -167,8 +178,9 @@ class Runner:
     def _end(self, seed: int) -> None:
         """Leave the server with the first workspaces alone, nothing open, and measure what it uses."""
         self.desk.do(["wait"])
-        if seed != self._seeds[0]:
-            self._open_folders(self._rooms.pop(seed), close=True)
+        guest = self._rooms.pop(seed) if seed != self._seeds[0] and seed in self._rooms else None
+        if guest is not None:
+            self._open_folders(guest, close=True)
         self._rest()
         self.check_faults()
         if left := self.server.children():
@@ -179,7 +191,8 @@ class Runner:
         self.figures.megabytes[self.figures.edits] = self.server.megabytes()
         self.figures.descriptors.append(self.server.descriptors())
         self.figures.threads.append(self.server.threads())
-        if seed != self._seeds[0]:
+        if guest is not None:
+            self.figures.guests += 1
             shutil.rmtree(self.root / str(seed))
 
     def _take_over(self) -> None:

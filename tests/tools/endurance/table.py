@@ -40,8 +40,8 @@ def grown(figures: Figures) -> str | None:
     return None
 
 
-def text(figures: Figures | None, rows: Sequence[Row], where: str) -> str:
-    """The page, in Markdown."""
+def text(figures: Figures | None, ran: Figures | None, rows: Sequence[Row], where: str) -> str:
+    """The page, in Markdown. `ran` are the figures of edits where launch files were run."""
     lines = ["# Endurance", "`make endurance` writes this page; what it does stands in `tests/tools/endurance`.", ""]
     if figures is not None:
         machine = f"{os.cpu_count()} cores, Python {platform.python_version()}"
@@ -56,7 +56,8 @@ def text(figures: Figures | None, rows: Sequence[Row], where: str) -> str:
             f"| requests in between, and how many were cancelled | {figures.requests:,}, {figures.cancelled:,} |",
             f"| files that came, went, became folders, links, rings, pipes | {figures.changes_on_disk:,} |",
             f"| files that were edited | {', '.join(done)} |",
-            f"| workspaces that were opened and closed | {2 * figures.sittings:,} |",
+            f"| launch files of the two workspaces; how often two more were opened and closed |"
+            f" {figures.launch_files:,}; {figures.guests:,} |",
             f"| comparisons with a fresh server, findings of all files equal | {figures.comparisons:,} |",
             f"| answers of both compared, all equal | {figures.questions:,} |",
             "| exceptions, internal errors, message boxes; processes left | 0; 0 |",
@@ -72,6 +73,12 @@ def text(figures: Figures | None, rows: Sequence[Row], where: str) -> str:
             if (found := _after(figures, count)) is not None:
                 lines.append(f"| after {count:,} edits | {found:.0f} |")
         lines.append("")
+    if ran is not None:
+        lines += [
+            f"Then {ran.edits:,} edits in a server that runs launch files and commands in the sandbox, compared"
+            f" {ran.comparisons:,} times: all equal, no process left, {ran.descriptors[-1]} descriptors.",
+            "",
+        ]
     if rows:
         lines += ["## What is not as usual", "| what | what must hold | measured |", "| --- | --- | --- |"]
         lines += [f"| {row.title} | {row.asserted} | {row.failure or row.measured} |" for row in rows]

@@ -254,15 +254,18 @@ class Typist:
         odd += [name for name in self._extra if os.path.lexists(self._desk.path(name))]
         return self._chance.sample(odd, min(len(odd), 2))
 
-    def restored(self) -> Iterator[Step]:
-        """Everything closed and every file as it was."""
-        for name in list(self._desk.texts):
+    def restored(self, suffix: str = "") -> Iterator[Step]:
+        """Everything with that suffix closed and as it was."""
+        for name in [name for name in self._desk.texts if name.endswith(suffix)]:
             yield ["close", name]
         for name, text in self._originals.items():
+            if not name.endswith(suffix):
+                continue
             if self._desk.path(name).is_symlink() or readable(self._desk.path(name)) != text:
                 yield ["write", name, text]
         for name in [*self._extra, *(name + ".launch" for name in self._names)]:
-            yield ["delete", name]
+            if name.endswith(suffix):
+                yield ["delete", name]
 
 
 def _typed(at: int, text: str) -> Iterator[list[tuple[int, int, str]]]:
