@@ -26,6 +26,7 @@ from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.launch.schema import Tag
 from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.tracing.agents.fake_launch.base import Action as FakeAction
+from preflight_analysis.tracing.agents.fake_launch.base import LaunchDescription
 from preflight_analysis.tracing.agents.fake_launch.modules import TABLE
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -246,6 +247,17 @@ def test_a_python_class_has_its_fake_that_takes_the_same(name: str) -> None:
     assert tuple(p.name for p in own if p.kind is p.POSITIONAL_OR_KEYWORD) == known.positional
     assert set(known.keywords.values()) <= {p.name for p in parameters}
     assert {known.parameter(attribute) for attribute in known.unrun or ()} <= {p.name for p in parameters}
+
+
+@pytest.mark.parametrize(("kind", "name"), [(entity.kind, each.name) for entity, each in _classes()])
+def test_a_fake_says_that_it_is_of_the_kind(kind: str, name: str) -> None:
+    module, _, short = name.rpartition(".")
+    fake = TABLE[module][short]
+    if fake is LaunchDescription:  # which `serialize.py` knows by itself
+        return
+    said = f't.kind = "{kind}"', f'kind = "{kind}"', f"t.{kind}()"
+    texts = [inspect.getsource(cls.preflight_serialize) for cls in fake.__mro__ if "preflight_serialize" in vars(cls)]
+    assert getattr(fake, "preflight_kind", None) == kind or any(each in text for text in texts for each in said)
 
 
 def _parameters(cls: type) -> list[inspect.Parameter]:

@@ -39,6 +39,12 @@ for a container; `argument`, `parameter`, `variable` (of the environment), `mach
 `remap-to`: the name of a topic, service or action."""
 
 
+Taken = Literal["", "verbatim", "performed", "text", "command-line", "seconds"]
+"""How the launcher of ROS 2 takes a value, where that is not usual for its kind. `verbatim`: a text without
+substitutions; `performed`: no text, and yet with substitutions; `text`: no text, and yet taken as one;
+`command-line`: a text that is split into words; `seconds`: a number that is not negative."""
+
+
 @dataclass(frozen=True, slots=True)
 class Attribute:
     """An attribute of a tag. `required`: without it the launcher stops."""
@@ -49,6 +55,7 @@ class Attribute:
     choices: tuple[str, ...] = ()
     default: str | None = None
     required: bool = False
+    taken: Taken = ""
 
 
 @dataclass(frozen=True, slots=True)

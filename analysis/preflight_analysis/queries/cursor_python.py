@@ -18,6 +18,7 @@ from tree_sitter import Node
 
 from preflight_analysis.documents.document import Attribute, Element, SpannedText
 from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.ros2.actions.registry import node_classes
 from preflight_analysis.launch.python_source import open_brackets
 from preflight_analysis.launch.python_tree import PythonTree, arguments, called, written
 from preflight_analysis.queries.cursor import Place
@@ -48,12 +49,6 @@ _PLACES: Mapping[str, PythonKind] = {
     "executable": "executable",
     "plugin": "component",
     "namespace": "namespace",
-}
-NODES = {
-    "Node": "node",
-    "LifecycleNode": "lifecycle_node",
-    "ComposableNodeContainer": "node_container",
-    "ComposableNode": "composable_node",
 }
 _PACKAGES = {
     "get_package_share_directory": "package_name",
@@ -196,7 +191,7 @@ class _Reader:
             return self._answer("package")
         if (name in _USES and key in ("0", _USES[name])) or (key == "0" and name == "get" and _of_context(call)):
             return self._answer("used")
-        if name in NODES or "executable" in given or "plugin" in given:
+        if name in node_classes() or "executable" in given or "plugin" in given:
             kind = _PLACES.get(key or "")
             return self._answer(kind, self._node(call)) if kind is not None else None
         if name == "join":
@@ -209,7 +204,7 @@ class _Reader:
         names = {"package": "pkg", "executable": "exec", "plugin": "plugin", "name": "name", "namespace": "namespace"}
         attributes = [self._attribute(ours, given[theirs]) for theirs, ours in names.items() if theirs in given]
         children = [self._named("param", "name", key) for key in self._keys(given.get("parameters"))]
-        kind = NODES.get(called(call), "node")
+        kind = node_classes().get(called(call), "node")
         return self._element(kind, call, [each for each in attributes if each is not None], children)
 
     def _keys(self, node: Node | None) -> Iterator[Node]:

@@ -10,6 +10,7 @@ from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile, Substitution
@@ -18,7 +19,6 @@ from preflight_analysis.rules.rule import Context, Rule
 _DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^<>]*>[^<]*</\w+>", re.MULTILINE)
 _END = re.compile(r"^([ \t]*)</package\s*>", re.MULTILINE)
 _FORMAT = re.compile(r"<package\b[^<>]*\bformat\s*=\s*[\"']([23])[\"']")
-_OF_A_PACKAGE = ("node", "test", "node_container", "lifecycle_node", "composable_node")
 _FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
 
@@ -60,10 +60,13 @@ def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     found: dict[str, Span] = {}
     if launch_file.root is None:
         return found
+    tags = tags_of(launch_file.generation)
     for action in launch_file.root.walk():
+        tag = tags.get(action.kind) or tags.get(action.kind.lower())
         for attribute in action.attributes:
             value = attribute.value
-            if attribute.name == "pkg" and action.kind.lower() in _OF_A_PACKAGE and value.is_literal:
+            known = tag.attributes.get(attribute.name) if tag is not None else None
+            if known is not None and known.kind == "package" and value.is_literal:
                 found.setdefault(value.text, value.span)
             for part in value.substitutions:
                 _found(part, found)

@@ -17,23 +17,10 @@ from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.problems import BadSubstitution, BadValue, LanguageProblem
+from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 
 _TYPES = {"flag": "bool", "integer": "int", "number": "float"}
-_TEXT_ALL_THE_SAME = ("respawn",)
-"""A flag that is taken as text with substitutions."""
-_NO_SUBSTITUTIONS = {
-    ("arg", "name"),
-    ("arg", "description"),
-    ("choice", "value"),
-    ("launch", "deprecated"),
-    ("param", "type"),
-}
-"""Texts that are taken as they stand; in an `<include>` an argument's name is not among them."""
-_WITH_SUBSTITUTIONS = ("period", "prepend", "cancel_on_shutdown")
-"""Of those that are no texts."""
-_SECONDS = ("respawn_delay", "sigkill_timeout", "sigterm_timeout")
-_COMMAND_LINES = ("args", "ros_args", "cmd")
 _UNREADABLE = {"any": "or", "all": "and"}
 """`AnySubstitution.parse` and `AllSubstitution.parse` name an argument that their classes do not have."""
 _EXPECTED = {
@@ -67,16 +54,15 @@ def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
             if "name" in given:
                 yield from _param(action, value)
         else:
-            type_name = "str" if name in _TEXT_ALL_THE_SAME else _TYPES.get(known.kind, "str")
-            yield from _attribute(action, parent, name, value, type_name)
+            yield from _attribute(action, parent, known, value)
     for child in action.children:
         if child.kind in tag.children:
             yield from _check(child, action.kind)
 
 
-def _attribute(
-    action: Action, parent: str | None, name: str, value: Value, type_name: str
-) -> Iterator[LanguageProblem]:
+def _attribute(action: Action, parent: str | None, known: Attribute, value: Value) -> Iterator[LanguageProblem]:
+    name, performed = known.name, known.taken == "performed"
+    type_name = "str" if known.taken == "text" else _TYPES.get(known.kind, "str")
     taken, in_yaml = value.text, value.typed is not None
     try:
         if value.typed is not None:
@@ -86,7 +72,7 @@ def _attribute(
         else:
             # In YAML a text in quotes stays one.
             written = taken if is_from_yaml(action) else coerce(taken, type_name, or_text=True)
-        if name in _SECONDS and (isinstance(written, str) or written < 0):
+        if known.taken == "seconds" and (isinstance(written, str) or written < 0):
             raise NotOfTypeError("a number that is not negative")
         if name == "allow_substs" and isinstance(written, str):
             raise NotOfTypeError("true or false")
@@ -94,8 +80,8 @@ def _attribute(
             raise NotOfTypeError("a type of parameters")
         if name == "on_exit" and written != "shutdown":
             raise NotOfTypeError("shutdown")
-        if name in _WITH_SUBSTITUTIONS and isinstance(written, str) and value.is_literal and value.problem is None:
-            if name != "period":
+        if performed and isinstance(written, str) and value.is_literal and value.problem is None:
+            if known.kind == "flag":
                 raise NotOfTypeError("true or false")
             if action.kind == "ros_timer":
                 raise NotOfTypeError("a number")
@@ -103,11 +89,11 @@ def _attribute(
     except NotOfTypeError as problem:
         yield _bad_value(action, name, value, _EXPECTED_IN_YAML[type_name] if in_yaml else str(problem))
         return
-    plain = (action.kind, name) in _NO_SUBSTITUTIONS and not (action.kind == "arg" and parent == "include")
-    if not isinstance(written, str) or plain or (type_name != "str" and name not in _WITH_SUBSTITUTIONS):
+    verbatim = known.taken == "verbatim" and not (action.kind == "arg" and parent == "include")
+    if not isinstance(written, str) or verbatim or (type_name != "str" and not performed):
         return
     yield from substitution_problems(value)
-    if name in _COMMAND_LINES and value.problem is None:
+    if known.taken == "command-line" and value.problem is None:
         for part in value.parts:
             if isinstance(part, Literal):
                 try:

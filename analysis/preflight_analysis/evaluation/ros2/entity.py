@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from preflight_analysis.launch.python_classes import PythonClass
-from preflight_analysis.launch.schema import Attribute, Tag
+from preflight_analysis.launch.schema import Attribute, Tag, Taken
 
 PARAM_TYPES = ("str", "bool", "float", "int", "list_of_str", "list_of_bool", "list_of_float", "list_of_int", "yaml")
 """`launch.frontend.type_utils.get_data_type_from_identifier`."""
@@ -68,9 +68,9 @@ def part_tag(
     return Tag(doc, {a.name: a for a in attributes}, children, named_by=named_by, detail=detail)
 
 
-def flag(name: str, doc: str, default: str = "false") -> Attribute:
+def flag(name: str, doc: str, default: str = "false", taken: Taken = "") -> Attribute:
     """An attribute that is true or false."""
-    return Attribute(name, doc, "flag", ("true", "false"), default)
+    return Attribute(name, doc, "flag", ("true", "false"), default, taken=taken)
 
 
 def required(attribute: Attribute) -> Attribute:

@@ -60,10 +60,10 @@ ENTITIES = (
         kind="arg",
         tag=action_tag(
             "Declares an argument of this file; inside of an `<include>`: passes one on.",
-            replace(CONFIGURATION_NAME, doc="The name of the argument, for `$(var name)`."),
+            replace(CONFIGURATION_NAME, doc="The name of the argument, for `$(var name)`.", taken="verbatim"),
             Attribute("default", "The value where none is given. Without it one has to be."),
             Attribute("value", "In an `<include>`: the value to pass."),
-            Attribute("description", "What it is for, shown by `ros2 launch --show-args`.", "prose"),
+            Attribute("description", "What it is for, shown by `ros2 launch --show-args`.", "prose", taken="verbatim"),
             children=("choice",),
             named_by=("name",),
             detail=("value", "default"),
@@ -84,7 +84,9 @@ ENTITIES = (
     Part(
         kind="choice",
         tag=part_tag(
-            "A value that the argument may have.", Attribute("value", "The value.", required=True), named_by=("value",)
+            "A value that the argument may have.",
+            Attribute("value", "The value.", required=True, taken="verbatim"),
+            named_by=("value",),
         ),
         python=(),
         parameter="choices",

@@ -80,7 +80,7 @@ ENTITIES = (
             "Adds to an environment variable for what comes later in this group.",
             VARIABLE,
             Attribute("value", "What to add.", required=True),
-            flag("prepend", "Whether to add it in front."),
+            flag("prepend", "Whether to add it in front.", taken="performed"),
             Attribute("separator", "What to put between.", default=":"),
             named_by=("name",),
             detail=("value",),

@@ -24,7 +24,7 @@ ENTITIES = (
         kind="executable",
         tag=action_tag(
             "Starts a process that is no node.",
-            Attribute("cmd", "The command line.", required=True),
+            Attribute("cmd", "The command line.", required=True, taken="command-line"),
             Attribute("name", "What the process is called in the logs."),
             *PROCESS,
             children=("env",),

@@ -10,7 +10,12 @@ ENTITIES = (
         kind="launch",
         tag=part_tag(
             "The root of every launch file.",
-            Attribute("deprecated", "Tell users that the file should no longer be used, with this message.", "prose"),
+            Attribute(
+                "deprecated",
+                "Tell users that the file should no longer be used, with this message.",
+                "prose",
+                taken="verbatim",
+            ),
         ),
         python=(),
         of=(),

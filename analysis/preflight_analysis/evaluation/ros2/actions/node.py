@@ -16,8 +16,8 @@ NODE = (
     Attribute("exec", "The executable of the package.", "executable", required=True),
     Attribute("name", "The name of the node; without it the one that its code gives.", "node"),
     NAMESPACE,
-    Attribute("args", "Command-line arguments for the node."),
-    Attribute("ros_args", "Arguments that follow `--ros-args`."),
+    Attribute("args", "Command-line arguments for the node.", taken="command-line"),
+    Attribute("ros_args", "Arguments that follow `--ros-args`.", taken="command-line"),
     Attribute("exec_name", "What the process is called in the logs."),
     *PROCESS,
 )

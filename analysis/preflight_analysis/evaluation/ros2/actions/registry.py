@@ -65,6 +65,13 @@ def python_classes() -> PythonClasses:
     )
 
 
+@cache
+def node_classes() -> Mapping[str, str]:
+    """The kinds of what starts nodes, by the names of their Python classes."""
+    nodes = [entity for entity in entities().values() if entity.tag is not None and "pkg" in entity.tag.attributes]
+    return {each.short_name: entity.kind for entity in nodes for each in entity.python}
+
+
 def _modules() -> Iterator[ModuleType]:
     for info in pkgutil.iter_modules(package.__path__):
         if info.name != "registry":

@@ -9,7 +9,7 @@ from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
-_PERIOD = Attribute("period", "Seconds to wait.", "number", required=True)
+_PERIOD = Attribute("period", "Seconds to wait.", "number", required=True, taken="performed")
 
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
@@ -23,7 +23,7 @@ ENTITIES = (
         tag=action_tag(
             "Executes what is inside after some time.",
             _PERIOD,
-            flag("cancel_on_shutdown", "Whether a shutdown ends the wait.", "true"),
+            flag("cancel_on_shutdown", "Whether a shutdown ends the wait.", "true", taken="performed"),
             named_by=("period",),
         ),
         python=(
