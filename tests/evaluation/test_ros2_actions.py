@@ -28,6 +28,7 @@ from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.tracing.agents.fake_launch.base import Action as FakeAction
 from preflight_analysis.tracing.agents.fake_launch.base import LaunchDescription
 from preflight_analysis.tracing.agents.fake_launch.modules import TABLE
+from preflight_analysis.tracing.agents.fake_launch.processes import Executable, ExecuteProcess
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -242,7 +243,8 @@ def test_a_python_class_has_its_fake_that_takes_the_same(name: str) -> None:
     known = next(each for _, each in _classes() if each.name == name)
     module, _, short = name.rpartition(".")
     fake = TABLE[module][short]
-    parameters = [p for cls in fake.__mro__ for p in _parameters(cls)]
+    bases = (*fake.__mro__, Executable) if issubclass(fake, ExecuteProcess) else fake.__mro__  # to which it hands on
+    parameters = [p for cls in bases for p in _parameters(cls)]
     own = next(found for cls in fake.__mro__ if (found := _parameters(cls)))
     assert tuple(p.name for p in own if p.kind is p.POSITIONAL_OR_KEYWORD) == known.positional
     assert set(known.keywords.values()) <= {p.name for p in parameters}
