@@ -84,6 +84,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
 from preflight_server.cli.output import dumps_json, visible
+from support.logged_errors import LoggedErrors
 from support.open_buffers import disk_with
 from support.scripted_master import master
 
@@ -152,18 +153,7 @@ def bounded(run: Callable[[bytes], None], data: bytes, seconds: float = SECONDS)
         raise Wrong(_errors.messages[0])
 
 
-class _Errors(logging.Handler):
-    """What raises in a rule is logged and left out: here that is a failure."""
-
-    def __init__(self) -> None:
-        super().__init__(logging.ERROR)
-        self.messages: list[str] = []
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.messages.append(logging.Formatter().format(record))
-
-
-_errors = _Errors()
+_errors = LoggedErrors()
 logging.getLogger("preflight_analysis").addHandler(_errors)
 logging.getLogger("preflight_analysis").propagate = False
 

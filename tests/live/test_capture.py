@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 import yaml
-from support.live_harness import Done, Ros1System, preflight, private_domain
+from support.command import Done
+from support.live_harness import Ros1System, preflight, private_domain
 from support.ros2_harness import Ros2Harness, node_of, ros2_prefix
 from support.waiting import until
 

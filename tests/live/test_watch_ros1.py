@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 from preflight_analysis.live.model import CannotObserveError
 from preflight_analysis.live.observe_ros1 import Ros1Observer
-from support.live_harness import Done, Ros1System, Watching, differences, preflight
+from support.command import Done
+from support.live_harness import Ros1System, Watching, differences, preflight
 from support.waiting import until
 
 pytestmark = pytest.mark.ros

@@ -29,10 +29,7 @@ COMMANDS = {"clientCommands": ["rosPreflight.showReferences", "rosPreflight.sele
 
 @pytest.fixture
 def files(harness: Harness) -> tuple[Path, Path]:
-    inner, outer = harness.launch_file.with_name("inner.launch"), harness.launch_file.with_name("outer.launch")
-    inner.write_text(INNER)
-    outer.write_text(OUTER)
-    return outer, inner
+    return harness.write("outer.launch", OUTER), harness.write("inner.launch", INNER)
 
 
 async def titles(editor: Editor, path: Path) -> list[str]:

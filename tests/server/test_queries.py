@@ -34,10 +34,8 @@ INNER = """<launch>
 
 @pytest.fixture
 def outer(harness: Harness) -> Path:
-    harness.launch_file.with_name("inner.launch").write_text(INNER)
-    path = harness.launch_file.with_name("outer.launch")
-    path.write_text(OUTER)
-    return path
+    harness.write("inner.launch", INNER)
+    return harness.write("outer.launch", OUTER)
 
 
 async def hovered(editor: Editor, path: Path, needle: str, after: int = 0) -> str:

@@ -31,10 +31,8 @@ BROKEN = OUTER.replace("  </include>\n", '    <arg name="rate" value="$(eval 2 *
 
 @pytest.fixture
 def outer(harness: Harness) -> Path:
-    harness.launch_file.with_name("inner.launch").write_text(INNER)
-    path = harness.launch_file.with_name("outer.launch")
-    path.write_text(OUTER)
-    return path
+    harness.write("inner.launch", INNER)
+    return harness.write("outer.launch", OUTER)
 
 
 @pytest.fixture

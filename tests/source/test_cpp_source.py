@@ -10,35 +10,21 @@ import pytest
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import find_packages
-from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
-from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.source_harness import SourceHarness
 
 HEAD = "#include <ros/ros.h>\n#include <std_msgs/String.h>\n"
-NODE = '<node pkg="p" type="t" name="n" args="{args}">{inner}</node>'
 CMAKE = "project(p)\nadd_executable(t src/t.cpp)\n"
 
 
-class Harness:
-    """A package that was never built, with a node in it."""
+class Harness(SourceHarness):
+    """Its node is made of C++."""
 
     def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.write("package.xml", "<package><name>p</name></package>")
+        super().__init__(folder)
         self.write("CMakeLists.txt", CMAKE)
-        package = Package("p", str(folder), str(folder / "package.xml"))
-        self.environment = Environment(1, "noetic", {}, (str(folder),), {"p": package}, {}, (), (), None)
-        self.sources = Sources()
-        self.analysis = SourceAnalysis(self.environment, self.sources)
-
-    def write(self, name: str, text: str) -> Path:
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(textwrap.dedent(text))
-        return path
 
     def add_package(self, name: str) -> Path:
         self.write(f"{name}/package.xml", f"<package><name>{name}</name></package>")
@@ -48,18 +34,9 @@ class Harness:
         self.analysis = SourceAnalysis(self.environment, self.sources)
         return self.folder / name
 
-    def launch(self, inner: str = "", args: str = "", node: str = NODE) -> LaunchTree:
-        path = self.write("main.launch", f"<launch>{node.format(inner=inner, args=args)}</launch>")
-        return Workspace(self.environment, self.sources, str(self.folder)).static(str(path)).tree
-
     def read(self, text: str, **more: str) -> SourceInterface | None:
         self.write("src/t.cpp", HEAD + textwrap.dedent(text))
         return self.again(**more)
-
-    def again(self, **more: str) -> SourceInterface | None:
-        tree = self.launch(**more)
-        params = LaunchParams({p.name: p.value for p in tree.params.values()})
-        return self.analysis.read(tree.nodes[0], params)
 
     def main(self, body: str, before: str = "", **more: str) -> list[tuple[str, str, str | None]]:
         start = 'int main(int argc, char** argv) {\nros::init(argc, argv, "t");\n'

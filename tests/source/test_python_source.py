@@ -8,48 +8,25 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
-from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.workspace.sources import Sources
-from preflight_analysis.workspace.workspace import Workspace
+from preflight_analysis.source.analyse import SourceInterface
+from support.source_harness import SourceHarness
 
 HEAD = "import rospy\nfrom std_msgs.msg import String\n"
 
 
-class Harness:
-    """A package with a node in it."""
+class Harness(SourceHarness):
+    """Its node is a script."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        (folder / "package.xml").write_text("<package><name>p</name></package>")
-        package = Package("p", str(folder), str(folder / "package.xml"))
-        self.environment = Environment(1, "noetic", {}, (str(folder),), {"p": package}, {}, (), (), None)
-        self.sources = Sources()
-        self.analysis = SourceAnalysis(self.environment, self.sources)
+    node = '<node pkg="p" type="node.py" name="n" args="{args}">{inner}</node>'
 
     def write(self, name: str, text: str) -> Path:
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(textwrap.dedent(text))
+        path = super().write(name, text)
         path.chmod(0o755)
         return path
-
-    def launch(self, inner: str = "", args: str = "") -> LaunchTree:
-        path = self.write(
-            "main.launch", f'<launch><node pkg="p" type="node.py" name="n" args="{args}">{inner}</node></launch>'
-        )
-        return Workspace(self.environment, self.sources, str(self.folder)).static(str(path)).tree
 
     def read(self, text: str, inner: str = "", args: str = "") -> SourceInterface | None:
         self.write("node.py", "#!/usr/bin/env python3\n" + HEAD + textwrap.dedent(text))
         return self.again(inner, args)
-
-    def again(self, inner: str = "", args: str = "") -> SourceInterface | None:
-        tree = self.launch(inner, args)
-        params = LaunchParams({p.name: p.value for p in tree.params.values()})
-        return self.analysis.read(tree.nodes[0], params)
 
     def ends(self, text: str, **more: Any) -> list[tuple[str, str, str | None]]:
         found = self.read(text, **more)

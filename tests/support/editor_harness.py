@@ -26,6 +26,12 @@ class Harness:
     environment: dict[str, str]
     sandbox_record: Path
 
+    def write(self, name: str, text: str) -> Path:
+        """A launch file beside the demo's."""
+        path = self.launch_file.with_name(name)
+        path.write_text(text)
+        return path
+
     def sandbox_starts(self) -> int:
         """How often bubblewrap was called since the harness was created."""
         return len(self.sandbox_record.read_text().splitlines())

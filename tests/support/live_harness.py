@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from support.command import Done, run_command
 from support.tracing_harness import SYSTEM_PYTHON
 
 LIMIT_SECONDS = 60
@@ -205,24 +206,6 @@ def differences(state: dict[str, Any]) -> list[str]:
     return sorted(issue["message"] for issue in state.get("issues", ()) if issue["counts"])
 
 
-@dataclass(frozen=True)
-class Done:
-    code: int
-    out: str
-    err: str
-
-
 def preflight(environment: dict[str, str], *args: str | Path, cwd: Path | None = None) -> Done:
-    """The command as installed."""
-    done = subprocess.run(
-        [str(COMMAND), *map(str, args)],
-        env=environment,
-        cwd=cwd,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        timeout=180,
-        check=False,
-    )
-    assert "Traceback" not in done.stderr, done.stderr
-    return Done(done.returncode, done.stdout, done.stderr)
+    """The command as installed, with time for a system to come up."""
+    return run_command(COMMAND, *args, environment=environment, cwd=cwd, seconds=180)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import tempfile
 import textwrap
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +76,17 @@ def trace(executable: Path, node: str = "/node", *, variables: dict[str, str] | 
 def own(interface: Interface) -> set[tuple[str, str, str | None]]:
     """Role, name and type of what the node made itself."""
     return {(e.role, e.name, e.type) for e in interface.endpoints if not e.builtin}
+
+
+@contextlib.contextmanager
+def planted_key() -> Iterator[Path]:
+    """A key in a folder of the home folder, which is removed afterwards."""
+    folder = Path(tempfile.mkdtemp(prefix=".preflight-planted-", dir=Path.home()))
+    key = folder / "id_ed25519"
+    key.write_text("PRIVATE KEY")
+    yield key
+    key.unlink()
+    folder.rmdir()
 
 
 def processes_with(marker: str) -> list[str]:

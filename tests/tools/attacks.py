@@ -27,7 +27,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 
 from preflight_analysis.tracing import sandbox
-from support.tracing_harness import trace, write_node
+from support.tracing_harness import planted_key, trace, write_node
 
 ROOT = Path(__file__).parents[2]
 SECURITY = ROOT / "docs" / "security.md"
@@ -184,17 +184,6 @@ def documented() -> dict[str, dict[str, set[str]]]:
     return {row[0]: {name: set(cell.split(", ")) for name, cell in zip(COLUMNS, row[2:], strict=True)} for row in rows}
 
 
-@contextlib.contextmanager
-def _planted() -> Iterator[Path]:
-    """A key in a folder of the home folder."""
-    folder = Path(tempfile.mkdtemp(prefix=".preflight-attack-", dir=Path.home()))
-    key = folder / "id_ed25519"
-    key.write_text("PRIVATE KEY")
-    yield key
-    key.unlink()
-    folder.rmdir()
-
-
 def _silent(receiver: socket.socket) -> bool:
     """Whether nothing came."""
     receiver.setblocking(False)
@@ -216,7 +205,7 @@ def attack(folder: Path, proc: str = "") -> dict[str, str]:
     precious.write_text("as it was")
     before = precious.stat()
     with ExitStack() as at_end:
-        key = at_end.enter_context(_planted())
+        key = at_end.enter_context(planted_key())
         shared = at_end.enter_context(tempfile.NamedTemporaryFile(prefix="preflight-", dir="/tmp"))
         shared.write(b"x")
         shared.flush()

@@ -36,6 +36,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.text_store import TextStore, to_uri
 from support import lsp_client
+from support.logged_errors import LoggedErrors
 
 LONGEST = 6_000
 """Of a file, in characters: many edits in small files find more than few in large ones."""
@@ -322,20 +323,9 @@ def _difference(remembered: str, fresh: str) -> str:
     return f"  remembered: ...{remembered[start : at + 300]}\n  fresh:      ...{fresh[start : at + 300]}"
 
 
-class _Errors(logging.Handler):
-    """Rules that raise are logged and left out: here that is a failure."""
-
-    def __init__(self) -> None:
-        super().__init__(logging.ERROR)
-        self.messages: list[str] = []
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.messages.append(logging.Formatter().format(record))
-
-
 def run(folder: Path, packages: Mapping[str, Package], seed: int, edits: int, deadline: float = float("inf")) -> int:
     """`edits` random edits from `seed` on, in as many workspaces as that takes; how many it were until the deadline."""
-    errors = _Errors()
+    errors = LoggedErrors()
     logging.getLogger().addHandler(errors)
     done = 0
     try:

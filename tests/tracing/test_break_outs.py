@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import socket
-import tempfile
 import threading
 import time
 import uuid
@@ -17,7 +16,7 @@ import pytest
 from preflight_analysis.tracing import run
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer
-from support.tracing_harness import environment, own, processes_with, request, trace, write_node
+from support.tracing_harness import environment, own, planted_key, processes_with, request, trace, write_node
 
 pytestmark = pytest.mark.ros
 
@@ -40,13 +39,8 @@ def attempts(folder: Path, body: str) -> dict[str, str]:
 
 @pytest.fixture
 def planted() -> Iterator[Path]:
-    """A folder in the home folder, with a key in it, that a test may plant there and has to remove."""
-    folder = Path(tempfile.mkdtemp(prefix=".preflight-test-", dir=Path.home()))
-    key = folder / "id_ed25519"
-    key.write_text("PRIVATE KEY")
-    yield key
-    key.unlink()
-    folder.rmdir()
+    with planted_key() as key:
+        yield key
 
 
 def test_keys_in_the_home_folder_cannot_be_read(tmp_path: Path, planted: Path) -> None:

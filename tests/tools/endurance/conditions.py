@@ -303,7 +303,7 @@ def _gone(pids: Sequence[int]) -> None:
     while left := [pid for pid in pids if _alive(pid)]:
         if time.monotonic() > deadline:
             raise Failure(f"processes outlive the server: {[_command(pid) for pid in left]}")
-        time.sleep(0.05)
+        time.sleep(0.05)  # between two looks
 
 
 def _alive(pid: int) -> bool:
