@@ -93,12 +93,11 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
     if old.parent == new.parent:
         return rename(context, location, old.name, new.name)
     share = package_folder(path, context.environment)
-    document = context.documents.get(location.file)
-    if share is None or document is None or old.name != new.name or old.parent == share:
+    if share is None or old.name != new.name or old.parent == share:
         return ()
     folders = f"/{old.parent.relative_to(share)}/"
     below = new.parent.relative_to(share)
-    written = document.text[location.span.start : location.span.end]
+    written = context.text(location)
     if written.count(folders) != 1:
         return ()
     start = location.span.start + written.index(folders)

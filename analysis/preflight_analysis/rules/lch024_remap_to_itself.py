@@ -41,11 +41,8 @@ def _idle(remap: Remap) -> bool:
 
 def _literal(context: Context, remap: Remap) -> bool:
     """Whether both names are written as they are: what an argument gives may be another name in another launch."""
-    document = context.documents.get(remap.source_location.file)
-    if document is None:
-        return False
-    written = (document.text[at.span.start : at.span.end] for at in (remap.source_location, remap.target_location))
-    return not any("$(" in text for text in written)
+    written = (context.text(place) for place in (remap.source_location, remap.target_location))
+    return all(text and "$(" not in text for text in written)
 
 
 RULE = Rule(

@@ -5,8 +5,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
@@ -82,14 +81,10 @@ def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]
     package, args = attribute_location(context, node, "pkg"), attribute_location(context, node, "args")
     # x y z and yaw pitch roll or a quaternion, two frames, the period.
     period = _PERIOD.search(document.text, args.span.start, args.span.end)
-    if period is None or len(node.args.split()) not in (9, 10) or _text(document, package) != "tf":
+    if period is None or len(node.args.split()) not in (9, 10) or context.text(package) != "tf":
         return ()
     edits = (Edit(package, "tf2_ros"), Edit(context.location(args.file, Span(period.start(), args.span.end)), ""))
     return (Fix("Use static_transform_publisher of tf2_ros", edits),)
-
-
-def _text(document: Document, location: Location) -> str:
-    return document.text[location.span.start : location.span.end]
 
 
 def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:

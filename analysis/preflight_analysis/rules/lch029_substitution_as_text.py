@@ -14,8 +14,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, SubstitutionAsText):
         text, meant = problem.kind.text, problem.kind.meant
         place = problem.location
-        document = context.documents.get(place.file)
-        exact = document is not None and document.text[place.span.start : place.span.end] == text
+        exact = context.text(place) == text
         fixes = (Fix(f"Write '{meant}'", (Edit(place, meant),), True),) if exact else ()
         message = f"'{text}' is no substitution: roslaunch takes it as text; '{meant}' is one"
         yield problem_finding(rule, problem, message, fixes=fixes)

@@ -33,9 +33,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not near and len(containers) == 1:
             near = [name for name in containers if name not in filled]
         near = near[:1] if len(near) == 1 else []
-        document = context.documents.get(location.file)
         # What an argument says may be the container of another launch, which includes this file.
-        written = document.text[location.span.start : location.span.end] if document is not None else ""
+        written = context.text(location)
         given = "$(" in written or container not in written
         message = f"no node '{full}' is started by this launch, into which components are to be loaded"
         if near and names.leaf(near[0]) == leaf and not container.startswith("/"):

@@ -401,11 +401,7 @@ def _says_enough(name: str, other: str, type_: str) -> bool:
 
 
 def _correct_remap(context: Context, connection: Connection, remap: Remap, new: str) -> Fix | None:
-    document = context.documents.get(remap.target_location.file)
-    if document is None:
-        return None
-    span = remap.target_location.span
-    written = document.text[span.start : span.end]
+    written = context.text(remap.target_location)
     if "$(" in written or "&" in written or not written:
         return None
     text = _in_style_of(written, connection.name, new)

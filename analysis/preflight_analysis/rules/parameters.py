@@ -58,10 +58,7 @@ def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
     location = param.name_location
     if location is None:
         return ()
-    document = context.documents.get(location.file)
-    if document is None:
-        return ()
-    written = document.text[location.span.start : location.span.end]
+    written = context.text(location)
     mark = "~" if written.startswith("~") else ""
     stem = written[len(mark) :]
     if stem.startswith("/"):

@@ -172,8 +172,7 @@ def _is_own(lost: _Ros2Setting, counts: _Ros2Setting, node: LaunchNode, context:
     another dictionary what a Python launch file keeps in a variable for several nodes, or takes from a function."""
     if not lost.of_launch_file:
         return False
-    document = context.documents.get(lost.place.file)
-    written = document.text[lost.place.span.start : lost.place.span.end] if document is not None else ""
+    written = context.text(lost.place)
     if not written or ("$" not in written and not lost.name.endswith(written)):
         return False
     return _is_inside(lost.place, node) or counts.path is not None

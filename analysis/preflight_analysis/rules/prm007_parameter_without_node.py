@@ -130,11 +130,7 @@ def _is_alone(context: Context, prefix: str, params: list[Param]) -> bool:
 
 def _written(context: Context, param: Param) -> str:
     """The parameter's name as it stands in the `name` of a tag."""
-    location = param.name_location
-    document = context.documents.get(location.file) if location is not None else None
-    if location is None or document is None:
-        return ""
-    return document.text[location.span.start : location.span.end]
+    return context.text(param.name_location) if param.name_location is not None else ""
 
 
 def _what(params: list[Param]) -> str:

@@ -58,12 +58,9 @@ def _declared(interface: Interface) -> dict[str, ParamUse] | None:
 def _rename(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
     """A fix where the name is written in one piece; of `a.b` in a file only the last key stands at the place."""
     location = param.name_location
-    document = context.documents.get(location.file) if location is not None else None
-    if location is None or document is None:
-        return ()
-    written = document.text[location.span.start : location.span.end]
+    written = context.text(location) if location is not None else ""
     prefix = param.name.removesuffix(written)
-    if not written or not param.name.endswith(written) or not name.startswith(prefix):
+    if location is None or not written or not param.name.endswith(written) or not name.startswith(prefix):
         return ()
     new = name[len(prefix) :]
     return (Fix(f"Rename '{written}' to '{new}'", (Edit(location, new),), True),)

@@ -82,12 +82,8 @@ def include_chain(origin: Origin) -> tuple[Related, ...]:
 
 def rename(context: Context, location: Location, old: str, new: str, *, preferred: bool = True) -> tuple[Fix, ...]:
     """A fix that writes `new` for `old` at `location`; none if the text there does not hold `old` exactly once."""
-    document = context.documents.get(location.file)
-    if document is None or not old:
-        return ()
-    text = document.text[location.span.start : location.span.end]
-    hits = [m.start() for m in re.finditer(rf"(?<![\w]){re.escape(old)}(?![\w])", text)]
-    if len(hits) != 1:
+    hits = [m.start() for m in re.finditer(rf"(?<![\w]){re.escape(old)}(?![\w])", context.text(location))]
+    if not old or len(hits) != 1:
         return ()
     start = location.span.start + hits[0]
     edit = Edit(context.location(location.file, Span(start, start + len(old))), new)

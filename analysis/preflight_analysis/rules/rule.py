@@ -71,6 +71,11 @@ class Context:
             document = self.disk.text(path)
         return document.location(span) if isinstance(document, Document) else Location.of_file(path)
 
+    def text(self, location: Location) -> str:
+        """What stands at a place; nothing where its file is not known."""
+        document = self.documents.get(location.file)
+        return document.text[location.span.start : location.span.end] if document is not None else ""
+
     def once(self, make: Callable[[Context], T]) -> T:
         """`make(context)`, made by the first rule that asks and the same for those that come later."""
         if make not in self._made:

@@ -58,10 +58,7 @@ def _given(connection: Connection) -> str:
 
 def _fix(context: Context, idle: IdleRemap, meant: Connection) -> tuple[Fix, ...]:
     location = idle.remap.source_location
-    document = context.documents.get(location.file)
-    if document is None:
-        return ()
-    written = document.text[location.span.start : location.span.end]
+    written = context.text(location)
     if not written or "$(" in written or "&" in written:
         return ()
     return (Fix(f"Replace '{written}' by '{_given(meant)}'", (Edit(location, _given(meant)),), True),)
