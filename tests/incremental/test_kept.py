@@ -78,28 +78,46 @@ def test_many_items_in_any_order_have_their_own_results(rounds: list[list[int]])
 
 
 @given(st.lists(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), max_size=9), max_size=5))
-def test_pairs_in_any_order_have_their_own_results(rounds: list[list[tuple[int, int]]]) -> None:
+def test_rows_in_any_order_have_their_own_results(rounds: list[list[tuple[int, int]]]) -> None:
     pool = [[number] for number in range(4)]
     kept = Kept()
     for pairs in rounds:
         kept = Kept(kept)
-        found = kept.each_pair(described, [pool[one] for one, _ in pairs], [pool[other] for _, other in pairs], 0)
+        found = kept.each_row(described, ([pool[one] for one, _ in pairs], [pool[other] for _, other in pairs]), 0)
         assert found == [f"[{one}] [{other}] 0" for one, other in pairs]
 
 
-def test_of_pairs_only_those_are_looked_at_in_which_one_is_another_object() -> None:
+def test_of_rows_only_those_are_looked_at_in_which_one_is_another_object() -> None:
     items, others = [["a"], ["b"], ["c"]], [["d"], ["e"], ["f"]]
     CALLS.clear()
     first = Kept()
-    first.each_pair(described, items, others)
+    first.each_row(described, (items, others))
     others[2] = ["g"]
     second = Kept(first)
-    assert second.each_pair(described, items, others) == ["['a'] ['d']", "['b'] ['e']", "['c'] ['g']"]
+    assert second.each_row(described, (items, others)) == ["['a'] ['d']", "['b'] ['e']", "['c'] ['g']"]
     assert CALLS[3:] == [(["c"], ["g"])]
-    Kept(second).each_pair(described, items[1:], others[1:])
+    Kept(second).each_row(described, (items[1:], others[1:]))
     assert len(CALLS) == 4
-    with pytest.raises(ValueError, match="another one"):
-        second.each_pair(described, items, others[1:])
+    with pytest.raises(ValueError, match="same length"):
+        second.each_row(described, (items, others[1:]))
+
+
+def parity(item: list[int]) -> int:
+    return item[0] % 3
+
+
+@given(st.lists(st.lists(st.integers(0, 7), max_size=9), max_size=6))
+def test_groups_are_those_of_all_items(rounds: list[list[int]]) -> None:
+    pool = [[number] for number in range(8)]
+    kept, before = Kept(), dict[int, tuple[list[int], ...]]()
+    for numbers in rounds:
+        kept = Kept(kept)
+        found = kept.grouped(parity, "", [pool[number] for number in numbers])
+        assert found == {
+            key: tuple(pool[number] for number in numbers if number % 3 == key) for key in {n % 3 for n in numbers}
+        }
+        assert all(found[key] is before[key] for key in found if found[key] == before.get(key))
+        before = found
 
 
 def test_what_is_patched_gets_what_it_was() -> None:

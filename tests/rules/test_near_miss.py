@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from functools import cache
 from types import SimpleNamespace
 from typing import Any
 
@@ -45,12 +46,19 @@ def _channels(ends: list[EndpointRef]) -> dict[str, Channel]:
     return {name: Channel(name, tuple(o), tuple(w), name.startswith("/x")) for name, (o, w) in sorted(sides.items())}
 
 
-def _context(topics: dict[str, Channel]) -> Any:
+def _context(topics: dict[str, Channel], nodes: list[Any], before: Kept | None = None) -> Any:
     """As much of a context as is looked at."""
-    graph = SimpleNamespace(channels=lambda kind: topics if kind == "topics" else {}, blind=0)
-    context = SimpleNamespace(kept=Kept(), graph=graph)
-    context.once = lambda make: make(context)
+    graph = SimpleNamespace(
+        channels=lambda kind: topics if kind == "topics" else {}, blind=0, tree=SimpleNamespace(nodes=nodes)
+    )
+    context = SimpleNamespace(kept=Kept(before), graph=graph)
+    context.once = cache(lambda make: make(context))
     return context
+
+
+def _same(before: Channel | None, channel: Channel) -> Channel:
+    """The one from before, if it has the same ends: as a graph that is patched has it."""
+    return before if before == channel else channel
 
 
 def _told(found: tuple[NearMiss, ...]) -> list[tuple[Any, ...]]:
@@ -62,16 +70,17 @@ def test_edits_one_by_one(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     made = random.Random(seed)
     nodes = [SimpleNamespace(name=_name(made)) for _ in range(made.randint(2, 25))]
     ends = [_end(made, nodes) for _ in range(made.choice((10, 60, 150)))]
-    remembering = Nearest()
+    remembering, kept, known = Nearest(), Kept(), dict[str, Channel]()
     found = 0
     for _ in range(20):
         for _ in range(made.choice((0, 1, 1, 2, 8))):
             at = made.randrange(len(ends))
             ends[at : at + made.randint(0, 1)] = [_end(made, nodes)]
-        channels = _channels(ends)
+        channels = known = {name: _same(known.get(name), channel) for name, channel in _channels(ends).items()}
         monkeypatch.setattr(near_miss, "_nearest", remembering)
-        again = near_misses(_context(channels), "topics")
+        context = _context(channels, nodes, kept)
+        again, kept = near_misses(context, "topics"), context.kept
         monkeypatch.setattr(near_miss, "_nearest", Nearest())
-        assert _told(again) == _told(near_misses(_context(channels), "topics"))
+        assert _told(again) == _told(near_misses(_context(channels, nodes), "topics"))
         found += len(again)
     assert found

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import fnmatch
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
@@ -45,29 +46,18 @@ def build_graph(
     Raises `ValueError` if the lengths differ.
     """
     kept = kept or Kept()
-    pairs = zip(tree.nodes, interfaces, strict=True)
-    processes = tuple(kept.get(annotated, node.name, interface, node.action) for node, interface in pairs)
+    if len(tree.nodes) != len(interfaces):
+        raise ValueError(f"{len(interfaces)} interfaces of {len(tree.nodes)} nodes")
+    actions_of_nodes = [node.action for node in tree.nodes]
+    processes = tuple(kept.each_row(annotated, (interfaces, actions_of_nodes)))
     tree, merged = each_node(tree, processes, documents or {})
-    topics: list[Connection] = []
-    services: list[Connection] = []
-    actions: list[Connection] = []
-    reads: list[ParamRead] = []
-    moving = moves_actions(distro)
-    for node, interface in zip(tree.nodes, merged, strict=True):
-        if interface.endpoints or interface.params:
-            made = kept.get(_of_node, node.name, node, interface, tree.generation, moving)
-            topics += made.topics
-            services += made.services
-            actions += made.actions
-            reads += made.reads
+    made = kept.each_row(_of_node, (tree.nodes, merged), tree.generation, moves_actions(distro))
     return Graph(
         tree,
         merged,
         processes,
-        _channels(kept, "topic", topics, external_topics),
-        _channels(kept, "service", _named(services)),
-        _channels(kept, "action", actions),
-        tuple(reads),
+        *_all_channels(kept, made, external_topics),
+        tuple(chain.from_iterable(each.reads for each in made)),
         tuple(external_topics),
     )
 
@@ -152,9 +142,11 @@ def _connect_action(
     return [Connection(full, node, endpoint, remap)] if together else [], parts
 
 
-def _named(services: Sequence[Connection]) -> list[Connection]:
+def _named(kept: Kept, services: Sequence[Connection]) -> Sequence[Connection]:
     """A client that told only its MD5 sum has the type of the server of that sum, if its own server does not have it of
     the only one in the graph."""
+    if not any(kept.each(_has_no_type, services)):
+        return services
     types: dict[tuple[str | None, str], set[str]] = {}
     for server in services:
         end = server.endpoint
@@ -163,33 +155,53 @@ def _named(services: Sequence[Connection]) -> list[Connection]:
                 types.setdefault((name, end.md5), set()).add(end.type)
 
     def named(client: Connection) -> Connection:
-        end = client.endpoint
-        if end.role != "client" or end.type is not None or not end.md5:
+        if not _has_no_type(client):
             return client
-        found = types.get((client.name, end.md5)) or types.get((None, end.md5)) or set()
+        end = client.endpoint
+        found = types.get((client.name, end.md5 or "")) or types.get((None, end.md5 or "")) or set()
         return replace(client, endpoint=replace(end, type=next(iter(found)))) if len(found) == 1 else client
 
     return [named(connection) for connection in services]
 
 
-def _channels(
-    kept: Kept, kind: str, connections: Iterable[Connection], external: Sequence[str] = ()
-) -> dict[str, Channel]:
-    """Grouped by final name, sorted by it; ends that a node made twice alike count once."""
+def _has_no_type(client: Connection) -> bool:
+    end = client.endpoint
+    return end.role == "client" and end.type is None and bool(end.md5)
+
+
+def _all_channels(
+    kept: Kept, made: Sequence[_Made], external: Sequence[str]
+) -> tuple[dict[str, Channel], dict[str, Channel], dict[str, Channel]]:
+    """Topics, services and actions."""
+    connections = (
+        chain.from_iterable(each.topics for each in made),
+        _named(kept, [*chain.from_iterable(each.services for each in made)]),
+        chain.from_iterable(each.actions for each in made),
+    )
+    grouped = [kept.grouped(_name, kind, each) for kind, each in enumerate(connections)]
+    sorted_names = [sorted(groups) for groups in grouped]
     is_external = re.compile("|".join(fnmatch.translate(pattern) for pattern in external)).match if external else None
-    grouped: dict[str, list[Connection]] = {}
-    for connection in connections:
-        grouped.setdefault(connection.name, []).append(connection)
-    return {
-        name: kept.get(
+    outside = [
+        kind == 0 and is_external is not None and is_external(name) is not None
+        for kind in range(3)
+        for name in sorted_names[kind]
+    ]
+    channels = iter(
+        kept.each_row(
             _channel,
-            (kind, name),
-            name,
-            tuple(grouped[name]),
-            is_external is not None and is_external(name) is not None,
+            (
+                chain.from_iterable(sorted_names),
+                [groups[name] for groups, found in zip(grouped, sorted_names, strict=True) for name in found],
+                outside,
+            ),
         )
-        for name in sorted(grouped)
-    }
+    )
+    topics, services, actions = ({name: next(channels) for name in found} for found in sorted_names)
+    return topics, services, actions
+
+
+def _name(connection: Connection) -> str:
+    return connection.name
 
 
 def _channel(name: str, connections: Sequence[Connection], external: bool) -> Channel:

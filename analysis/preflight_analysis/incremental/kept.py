@@ -9,8 +9,8 @@ from operator import is_, is_not, itemgetter
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 P = ParamSpec("P")
+K = TypeVar("K", bound=Hashable)
 T = TypeVar("T")
-U = TypeVar("U")
 V = TypeVar("V")
 Before = tuple[tuple[Any, ...], V]
 """The arguments of last time, and what they gave."""
@@ -24,13 +24,15 @@ class Kept:
     these, which moves as lines come and go above it.
     """
 
-    __slots__ = ("_before", "_each_before", "_each_now", "_now")
+    __slots__ = ("_before", "_each_before", "_each_now", "_groups_before", "_groups_now", "_now")
 
     def __init__(self, before: Kept | None = None) -> None:
         self._before: dict[Hashable, tuple[tuple[Any, ...], Any]] = before._now if before is not None else {}
         self._now: dict[Hashable, tuple[tuple[Any, ...], Any]] = {}
         self._each_before: dict[Hashable, _Round] = before._each_now if before is not None else {}
         self._each_now: dict[Hashable, _Round] = {}
+        self._groups_before: dict[Hashable, _Groups] = before._groups_now if before is not None else {}
+        self._groups_now: dict[Hashable, _Groups] = {}
 
     def each(
         self,
@@ -45,21 +47,39 @@ class Kept:
         _refuse(none)
         return self._of_rows(function, ([*items],), shared)
 
-    def each_pair(
-        self,
-        function: Callable[Concatenate[T, U, P], V],
-        items: Iterable[T],
-        others: Iterable[U],
-        /,
-        *shared: P.args,
-        **none: P.kwargs,
-    ) -> list[V]:
-        """As `each`, for items that are each looked at together with another one: `function(item, other, *shared)`."""
-        _refuse(none)
-        columns = [*items], [*others]
-        if len(columns[0]) != len(columns[1]):
-            raise ValueError("each item has another one")
-        return self._of_rows(function, columns, shared)
+    def each_row(self, function: Callable[..., V], columns: Iterable[Iterable[Any]], /, *shared: object) -> list[V]:
+        """As `each`, for rows of items that are looked at together: `function(*row, *shared)`."""
+        lists = tuple([*column] for column in columns)
+        if len({*map(len, lists)}) != 1:
+            raise ValueError("columns of a row have the same length")
+        return self._of_rows(function, lists, shared)
+
+    def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> dict[K, tuple[T, ...]]:
+        """The items by their `key`, in order, the groups in none. A group of the same objects as last time is the same
+        object. Ask once for each key and `tag`."""
+        now, name = [*items], (key, tag)
+        before = self._groups_before.get(name)
+        if before is None:
+            keys = [*map(key, now)]
+            groups: dict[Any, tuple[Any, ...]] = {}
+            touched = set(keys)
+        else:
+            row = _Round((), (before.items,), before.keys)
+            keys = _taken_over(row, (now,), lambda columns: map(key, *columns))
+            start, end = _same_ends(before.items, now)
+            groups = before.groups.copy()
+            touched = {*before.keys[start : len(before.keys) - end], *keys[start : len(keys) - end]}
+        made: dict[Any, list[Any]] = {}
+        for at, item in compress(zip(keys, now, strict=True), map(touched.__contains__, keys)):
+            made.setdefault(at, []).append(item)
+        for at in touched:
+            group = tuple(made.get(at, ()))
+            if not group:
+                groups.pop(at, None)
+            elif (known := groups.get(at)) is None or not _are(known, group):
+                groups[at] = group
+        self._groups_now[name] = _Groups(now, keys, groups)
+        return groups.copy()
 
     def _of_rows(self, function: Callable[..., V], columns: tuple[list[Any], ...], shared: tuple[Any, ...]) -> list[V]:
         before = self._each_before.get(function)
@@ -110,7 +130,7 @@ class Kept:
 
     def end(self) -> None:
         """The whole is made: let go of what was not used for it."""
-        self._before, self._each_before = {}, {}
+        self._before, self._each_before, self._groups_before = {}, {}, {}
 
 
 def _refuse(keywords: Mapping[str, object]) -> None:
@@ -126,7 +146,7 @@ def _same(some: tuple[Any, ...], others: tuple[Any, ...]) -> bool:
             if kind is not type(other):
                 return False
             if kind is tuple:
-                if len(one) != len(other) or not (all(map(is_, one, other)) or _same(one, other)):
+                if not _are(one, other) and (len(one) != len(other) or not _same(one, other)):
                     return False
             elif kind not in _SCALARS or one != other:
                 return False
@@ -136,6 +156,11 @@ def _same(some: tuple[Any, ...], others: tuple[Any, ...]) -> bool:
 _SCALARS = frozenset({str, bytes, int, float, bool})
 
 
+def _are(some: Sequence[object], others: Sequence[object]) -> bool:
+    """Whether they are the same objects."""
+    return len(some) == len(others) and all(map(is_, some, others))
+
+
 class _Round(NamedTuple):
     """What was shared, and the items (and the others, if each has another one) with what was made of each. They are
     held, so nothing else can have their ids."""
@@ -143,6 +168,14 @@ class _Round(NamedTuple):
     shared: tuple[Any, ...]
     columns: tuple[list[Any], ...]
     results: list[Any]
+
+
+class _Groups(NamedTuple):
+    """Items with their keys, and the groups that they make."""
+
+    items: list[Any]
+    keys: list[Any]
+    groups: dict[Any, tuple[Any, ...]]
 
 
 _Make = Callable[[Sequence[Iterable[Any]]], Iterable[V]]
@@ -165,9 +198,8 @@ def _taken_over(before: _Round, columns: tuple[list[Any], ...], make: _Make[V]) 
         for at, result in zip(places, found, strict=True):
             made[at] = result
         return made
-    most = min(length, now)
-    start = min(_alike(a, b, most) for a, b in zip(old, columns, strict=True))
-    end = min(_alike(reversed(a), reversed(b), most - start) for a, b in zip(old, columns, strict=True))
+    ends = [_same_ends(some, others) for some, others in zip(old, columns, strict=True)]
+    start, end = min(start for start, _ in ends), min(end for _, end in ends)
     if not start and not end:
         return list(make(columns))
     of_old, of_items = slice(start, length - end), slice(start, now - end)
@@ -198,6 +230,13 @@ def _ids(columns: Sequence[Iterable[object]]) -> Iterable[Hashable]:
 
 
 _NEW = object()
+
+
+def _same_ends(some: Sequence[object], others: Sequence[object]) -> tuple[int, int]:
+    """How many at the beginning are the same objects, and how many of the others at the end."""
+    most = min(len(some), len(others))
+    start = _alike(some, others, most)
+    return start, _alike(reversed(some), reversed(others), most - start)
 
 
 def _alike(some: Iterable[object], others: Iterable[object], most: int) -> int:

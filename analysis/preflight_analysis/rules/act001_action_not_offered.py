@@ -4,7 +4,14 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
-from preflight_analysis.rules.near_miss import NearMiss, dangling_consumers, fixes, near_misses, nodes_looked_at
+from preflight_analysis.rules.near_miss import (
+    NearMiss,
+    dangling_consumers,
+    fixes_in,
+    near_misses,
+    nodes_looked_at,
+    weight,
+)
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
@@ -24,7 +31,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"{nodes_looked_at(graph)} offers action '{pair.consumer.name}', of which {pair.consumer.node.name} is a "
             f"client; did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?"
         )
-        yield near_miss_finding(rule, graph, pair, message, _VERBS, _fixes(context, pair))
+        weighed = weight(pair, graph.complete, graph.likely_complete)
+        yield near_miss_finding(rule, pair, message, _VERBS, _fixes(context, pair), weighed)
     explained = {id(pair.consumer) for pair in near}
     for connection in dangling_consumers(context, "actions"):
         if id(connection) not in explained and not graph.blind:
@@ -40,7 +48,7 @@ def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:
         return ()
     remap = pair.site.remap
     one_by_one = remap is not None and remap.target.endswith(_OF_GOALS) and not pair.site.name.endswith(_OF_GOALS)
-    return () if one_by_one else fixes(context, pair)
+    return () if one_by_one else fixes_in(context, pair)
 
 
 RULE = Rule(

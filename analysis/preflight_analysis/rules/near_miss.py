@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
-from typing import Literal
+from typing import Any, Concatenate, Literal, ParamSpec, TypeVar
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
+from preflight_analysis.incremental.kept import Before
 from preflight_analysis.rules.nearest import has_all_words, likeness, numbers_in, share_words
 from preflight_analysis.rules.nearest_memory import Hit, Nearest
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS, may_dangle
+
+P = ParamSpec("P")
+T = TypeVar("T")
+V = TypeVar("V")
 
 _GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
 """Types that say nothing of what is carried: that two ends have the same one is no evidence."""
@@ -83,108 +88,191 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
 
     Where what is not known of some node may well be the other end, only strong evidence counts.
     """
-    consumers = tuple(dangling_consumers(context, kind))
-    if context.graph is None or not consumers:
+    graph, seekers = context.graph, context.once(_all_seekers)[kind]
+    if graph is None or not seekers:
         return ()
-    channels = tuple(context.graph.channels(kind).values())
-    return context.kept.get(_near_misses, kind, channels, consumers, context.graph.blind > 0)
+    candidates = context.once(_all_candidates)[kind]
+    found = context.kept.patched(_near_misses, kind, candidates, seekers, graph.blind > 0)
+    return tuple(near for near in found.near if near is not None)
 
 
-def _near_misses(channels: tuple[Channel, ...], consumers: tuple[Connection, ...], blind: bool) -> tuple[NearMiss, ...]:
-    index = _Index(channels, consumers)
-    hits = _nearest.best(index.seekers, index.pools, index.rate)
-    found = []
-    for consumer in consumers:
-        hit = hits.get(index.seeker(consumer))
-        if hit is not None:
-            near = index.near_miss(consumer, hit)
-            if not index.ambiguous(near) and (near.strong or not blind):
-                found.append(near)
-    return tuple(found)
+@dataclass(frozen=True, eq=False, slots=True)
+class _Candidate:
+    """A channel with all that a comparison looks at, which is not where its ends stand."""
+
+    channel: Channel
+    key: Hashable
+    """None where nothing is offered."""
+    pools: tuple[Hashable, ...]
+    provided: frozenset[tuple[str | None, str]]
+    """The types that are offered, each with the last segment of the name."""
+    lone: tuple[tuple[str, str | None, str], ...]
+    """Of each end, where one side is missing, the side, the type, and that segment."""
+
+    def is_like(self, other: _Candidate) -> bool:
+        """Whether a comparison would find no difference."""
+        return self is other or (self.key == other.key and self.pools == other.pools and self.lone == other.lone)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Seeker:
+    """A consumer, with the pools of the channels that it may have been meant for."""
+
+    consumer: Connection
+    key: Hashable
+    pools: tuple[Hashable, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Found:
+    """The best hit of each seeker, and what it says; the channels by key."""
+
+    hits: tuple[Hit | None, ...]
+    near: tuple[NearMiss | None, ...]
+    channels: Mapping[Hashable, Channel]
+
+
+def _all_candidates(context: Context) -> Mapping[ChannelKind, tuple[_Candidate, ...]]:
+    """Those of each kind, in the order of the graph."""
+    return _of_all_kinds(context, _candidate, _channels_of(context), context.once(_namesakes))
+
+
+def _all_seekers(context: Context) -> Mapping[ChannelKind, tuple[_Seeker, ...]]:
+    lone = context.once(_all_lone_consumers)
+    consumers = {kind: tuple(chain.from_iterable(lone[kind])) for kind in lone}
+    return _of_all_kinds(context, _seeker, consumers, context.once(_namesakes))
+
+
+def _namesakes(context: Context) -> Mapping[int, int]:
+    """Of nodes with the name of one before them, by id, how many of those there are."""
+    nodes = context.graph.tree.nodes if context.graph is not None else ()
+    if len({node.name for node in nodes}) == len(nodes):
+        return {}
+    seen: Counter[str] = Counter()
+    found: dict[int, int] = {}
+    for node in nodes:
+        if seen[node.name]:
+            found[id(node)] = seen[node.name]
+        seen[node.name] += 1
+    return found
+
+
+def _candidate(channel: Channel, namesakes: Mapping[int, int]) -> _Candidate:
+    # What a near miss has to share: the type, and the numbers in the name (`/robot3/scan`) or its last segment. In a
+    # fleet of like robots that leaves few to compare.
+    leaf, numbers = names.leaf(channel.name), numbers_in(channel.name)
+    lone: tuple[tuple[str, str | None, str], ...] = ()
+    if not channel.providers or not channel.consumers:
+        side = "providers" if channel.providers else "consumers"
+        lone = tuple((side, each.endpoint.type, leaf) for each in channel.providers or channel.consumers)
+    if not channel.providers:
+        return _Candidate(channel, None, (), frozenset(), lone)
+    consumed_by = tuple(_node(each, namesakes) for each in channel.consumers)
+    key = channel.name, _dangles(channel), consumed_by, *(_key(each, namesakes) for each in channel.providers)
+    types = frozenset(map(_known_type, channel.providers))
+    pools = tuple(pool for type_ in types for pool in ((), (type_,), (type_, numbers), (type_, leaf)))
+    return _Candidate(channel, key, pools, frozenset((type_, leaf) for type_ in types), lone)
+
+
+def _seeker(consumer: Connection, namesakes: Mapping[int, int]) -> _Seeker:
+    return _Seeker(consumer, (consumer.name, _key(consumer, namesakes)), _pools(consumer))
+
+
+def _key(connection: Connection, namesakes: Mapping[int, int]) -> Hashable:
+    given = connection.endpoint
+    return _node(connection, namesakes), connection.remap is None, given.name, given.type, given.builtin
+
+
+def _node(connection: Connection, namesakes: Mapping[int, int]) -> tuple[str, int]:
+    return connection.node.name, namesakes.get(id(connection.node), 0)
+
+
+def _near_misses(
+    before: Before[_Found] | None, candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool
+) -> _Found:
+    if before is None or not _are_alike(before[0], candidates, seekers, blind):
+        return _compared(candidates, seekers, blind)
+    # The same as before, said of the ends as they are now.
+    (old_candidates, old_seekers, _), known = before
+    changed = {now.key: now.channel for old, now in zip(old_candidates, candidates, strict=True) if old is not now}
+    channels = {**known.channels, **changed}
+    near = tuple(
+        was
+        if was is None or hit is None or (old is now and hit.candidate not in changed)
+        else _near_miss(now.consumer, hit, channels)
+        for was, hit, old, now in zip(known.near, known.hits, old_seekers, seekers, strict=True)
+    )
+    return _Found(known.hits, near, channels)
+
+
+def _are_alike(
+    old: tuple[Any, ...], candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool
+) -> bool:
+    old_candidates, old_seekers, was_blind = old
+    return (
+        (len(old_candidates), len(old_seekers), was_blind) == (len(candidates), len(seekers), blind)
+        and all(map(_Candidate.is_like, old_candidates, candidates))
+        and all(one is other or one.key == other.key for one, other in zip(old_seekers, seekers, strict=True))
+    )
+
+
+def _compared(candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool) -> _Found:
+    channels = {each.key: each.channel for each in candidates if each.key is not None}
+    pools: dict[Hashable, list[Hashable]] = {pool: [] for seeker in seekers for pool in seeker.pools}
+    for each in candidates:
+        for pool in each.pools:
+            if pool in pools:
+                pools[pool].append(each.key)
+    consumers = {seeker.key: seeker.consumer for seeker in seekers}
+
+    def rate(seeker: Hashable, candidate: Hashable) -> Hit | None:
+        """How well a channel fits an end."""
+        return min(_hits(consumers[seeker], candidate, channels), key=lambda hit: hit.rank, default=None)
+
+    best = _nearest.best({seeker.key: seeker.pools for seeker in seekers}, pools, rate)
+    hits = tuple(best.get(seeker.key) for seeker in seekers)
+    provided = Counter(chain.from_iterable(each.provided for each in candidates))
+    lone = Counter(chain.from_iterable(each.lone for each in candidates))
+    near: list[NearMiss | None] = []
+    for seeker, hit in zip(seekers, hits, strict=True):
+        found = _near_miss(seeker.consumer, hit, channels) if hit is not None else None
+        tells = found is not None and (found.strong or not blind) and not _is_ambiguous(found, provided, lone)
+        near.append(found if tells else None)
+    return _Found(hits, tuple(near), channels)
 
 
 _nearest = Nearest()
 
 
-class _Index:
-    """The ends of a graph as `Nearest` wants them: as all that a comparison looks at, which is not where they stand.
+def _hits(consumer: Connection, candidate: Hashable, channels: Mapping[Hashable, Channel]) -> Iterator[Hit]:
+    channel = channels[candidate]
+    for number, kind, distance in _candidates(consumer, channel):
+        how = _EVIDENCE.index(kind)
+        yield Hit((how > 0, not _dangles(channel), how, distance, channel.name, number), candidate)
 
-    Channels are put together by what a near miss has to share: the type, and the numbers in the name (`/robot3/scan`)
-    or its last segment. In a fleet of like robots that leaves few to compare.
-    """
 
-    def __init__(self, channels: Iterable[Channel], consumers: Iterable[Connection]) -> None:
-        self._nodes: dict[int, tuple[str, int]] = {}
-        self._names: Counter[str] = Counter()
-        self._consumers = {self.seeker(consumer): consumer for consumer in consumers}
-        self.seekers = {seeker: _pools(consumer) for seeker, consumer in self._consumers.items()}
-        """The consumers, with the pools of the channels that each may have been meant for."""
-        self.pools: dict[Hashable, list[Hashable]] = {pool: [] for pools in self.seekers.values() for pool in pools}
-        self._channels: dict[Hashable, Channel] = {}
-        self._lone: Counter[tuple[str, str | None, str]] = Counter()
-        self._provided: Counter[tuple[str | None, str]] = Counter()
-        for channel in channels:
-            leaf, numbers = names.leaf(channel.name), numbers_in(channel.name)
-            if not channel.providers or not channel.consumers:
-                side = "providers" if channel.providers else "consumers"
-                connections = channel.providers or channel.consumers
-                self._lone.update((side, connection.endpoint.type, leaf) for connection in connections)
-            if channel.providers:
-                consumed_by = tuple(map(self._node, channel.consumers))
-                key = channel.name, _dangles(channel), consumed_by, *(map(self._key, channel.providers))
-                self._channels[key] = channel
-                for type_ in {_known_type(connection) for connection in channel.providers}:
-                    self._provided[type_, leaf] += 1
-                    for pool in ((), (type_,), (type_, numbers), (type_, leaf)):
-                        if pool in self.pools:
-                            self.pools[pool].append(key)
+def _near_miss(consumer: Connection, hit: Hit, channels: Mapping[Hashable, Channel]) -> NearMiss:
+    """What a hit says, with the ends as they are now."""
+    channel = channels[hit.candidate]
+    provider = channel.providers[hit.rank[-1]]
+    known = _known_type(consumer) is not None and _known_type(provider) is not None
+    return NearMiss(consumer, provider, _EVIDENCE[hit.rank[2]], known, _dangles(channel))
 
-    def _key(self, connection: Connection) -> Hashable:
-        given = connection.endpoint
-        return self._node(connection), connection.remap is None, given.name, given.type, given.builtin
 
-    def _node(self, connection: Connection) -> tuple[str, int]:
-        """The node's name, and a number where several have it."""
-        found = self._nodes.get(id(connection.node))
-        if found is None:
-            name = connection.node.name
-            found = self._nodes[id(connection.node)] = name, self._names[name]
-            self._names[name] += 1
-        return found
-
-    def seeker(self, consumer: Connection) -> Hashable:
-        """The end as `Nearest` knows it."""
-        return consumer.name, self._key(consumer)
-
-    def rate(self, seeker: Hashable, candidate: Hashable) -> Hit | None:
-        """How well a channel fits an end."""
-        return min(self._hits(self._consumers[seeker], candidate), key=lambda hit: hit.rank, default=None)
-
-    def _hits(self, consumer: Connection, candidate: Hashable) -> Iterator[Hit]:
-        channel = self._channels[candidate]
-        for number, kind, distance in _candidates(consumer, channel):
-            how = _EVIDENCE.index(kind)
-            yield Hit((how > 0, not _dangles(channel), how, distance, channel.name, number), candidate)
-
-    def near_miss(self, consumer: Connection, hit: Hit) -> NearMiss:
-        """What a hit says, with the ends as they are now."""
-        channel = self._channels[hit.candidate]
-        provider = channel.providers[hit.rank[-1]]
-        known = _known_type(consumer) is not None and _known_type(provider) is not None
-        return NearMiss(consumer, provider, _EVIDENCE[hit.rank[2]], known, _dangles(channel))
-
-    def ambiguous(self, near: NearMiss) -> bool:
-        """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
-        was meant, if any?"""
-        type_ = near.consumer.endpoint.type or ""
-        leaf = names.leaf(near.consumer.name)
-        if near.likeness == "words" and leaf == names.leaf(near.provider.name):
-            return self._provided[type_, leaf] > 1 and not share_words(
-                *map(names.parent, (near.consumer.name, near.provider.name))
-            )
-        if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
-            return False
-        return any(self._lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))
+def _is_ambiguous(
+    near: NearMiss, provided: Counter[tuple[str | None, str]], lone: Counter[tuple[str, str | None, str]]
+) -> bool:
+    """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
+    was meant, if any?"""
+    type_ = near.consumer.endpoint.type or ""
+    leaf = names.leaf(near.consumer.name)
+    if near.likeness == "words" and leaf == names.leaf(near.provider.name):
+        return provided[type_, leaf] > 1 and not share_words(
+            *map(names.parent, (near.consumer.name, near.provider.name))
+        )
+    if near.likeness not in ("slash", "level") or not type_.startswith(_GENERIC_PACKAGES):
+        return False
+    return any(lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))
 
 
 def _dangles(channel: Channel) -> bool:
@@ -224,22 +312,31 @@ def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
 
 _Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
 """The ends of each channel of a kind, in the order of the graph."""
+_KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
 
 
 def _all_lone_consumers(context: Context) -> _Lone:
-    return _of_all_channels(context, _lone_consumers)
+    return _of_all_kinds(context, _lone_consumers, _channels_of(context))
 
 
 def _all_lone_providers(context: Context) -> _Lone:
-    return _of_all_channels(context, _lone_providers)
+    return _of_all_kinds(context, _lone_providers, _channels_of(context))
 
 
-def _of_all_channels(context: Context, lone: Callable[[Channel], tuple[Connection, ...]]) -> _Lone:
+def _channels_of(context: Context) -> Mapping[ChannelKind, Collection[Channel]]:
     graph = context.graph
-    kinds: tuple[ChannelKind, ...] = ("topics", "services", "actions")
-    channels = {kind: tuple(graph.channels(kind).values()) if graph is not None else () for kind in kinds}
-    found = iter(context.kept.each(lone, chain.from_iterable(channels.values())))
-    return {kind: tuple(islice(found, len(some))) for kind, some in channels.items()}
+    return {kind: graph.channels(kind).values() if graph is not None else () for kind in _KINDS}
+
+
+def _of_all_kinds(
+    context: Context,
+    function: Callable[Concatenate[T, P], V],
+    items: Mapping[ChannelKind, Collection[T]],
+    *shared: P.args,
+    **none: P.kwargs,
+) -> Mapping[ChannelKind, tuple[V, ...]]:
+    found = iter(context.kept.each(function, chain.from_iterable(items.values()), *shared, **none))
+    return {kind: tuple(islice(found, len(some))) for kind, some in items.items()}
 
 
 def dangling_topic_providers(context: Context) -> list[Connection]:
@@ -282,12 +379,13 @@ def lone_of_type(consumer: Connection, dangling: Mapping[str | None, list[Connec
     return found[0] if len(found) == 1 else None
 
 
-def weight(graph: Graph, near: NearMiss) -> tuple[Severity, Confidence]:
-    """How severe a near miss is and how sure: without evidence beside a like name it is but a hint."""
+def weight(near: NearMiss, complete: bool, likely_complete: bool) -> tuple[Severity, Confidence]:
+    """How severe a near miss is and how sure, in a graph of which that is known: without evidence beside a like name it
+    is but a hint."""
     connections = (near.consumer.endpoint, near.provider.endpoint)
     speculative = any(connection.uncertain for connection in connections)
-    sure = graph.complete and near.same_type and not speculative
-    alike = near.likeness == "typo" or (near.provider_dangles and graph.likely_complete and not _of_another_node(near))
+    sure = complete and near.same_type and not speculative
+    alike = near.likeness == "typo" or (near.provider_dangles and likely_complete and not _of_another_node(near))
     evidence = near.same_type and alike
     severity: Severity = (
         "info" if any(connection.assumed or connection.on_demand for connection in connections) else "warning"
@@ -311,20 +409,27 @@ def nodes_looked_at(graph: Graph) -> str:
     return f"{nodes} ({unknown} of them not fully known)" if unknown else nodes
 
 
-def fixes(context: Context, near: NearMiss) -> tuple[Fix, ...]:
-    """What makes the two ends meet: the remap that gave the wrong name corrected, else a remap into a node's tag."""
+def fixes(near: NearMiss, consumers: Document | None, providers: Document | None) -> tuple[Fix, ...]:
+    """What makes the two ends meet: the remap that gave the wrong name corrected, else a remap into a node's tag.
+    `consumers` and `providers` are the texts in which the ends have their places: see `documents_of`."""
     site, other = near.site, near.other
     if not near.mendable:
         return ()
     if site.remap is not None:
-        corrected = _correct_remap(context, site, site.remap, other.name)
+        document = consumers if site is near.consumer else providers
+        corrected = _correct_remap(document, site, site.remap, other.name)
         if corrected is not None:
             return (corrected,)
     # A remap at a publisher that others listen to would only move the gap to them.
     movable = (near.consumer, *((near.provider,) if near.provider_dangles else ()))
     connections = [connection for connection in movable if connection.remap is None]
     found = [
-        _insert_remap(context, connection, _partner(near, connection).name, connection is connections[0])
+        _insert_remap(
+            consumers if connection is near.consumer else providers,
+            connection,
+            _partner(near, connection).name,
+            connection is connections[0],
+        )
         for connection in connections
     ]
     return tuple(fix for fix in found if fix is not None)
@@ -400,8 +505,26 @@ def _says_enough(name: str, other: str, type_: str) -> bool:
     return short.count("/") >= 2 and long.endswith(short)
 
 
-def _correct_remap(context: Context, connection: Connection, remap: Remap, new: str) -> Fix | None:
-    written = context.text(remap.target_location)
+def fixes_in(context: Context, near: NearMiss) -> tuple[Fix, ...]:
+    """`fixes` in the texts as they are."""
+    (consumers,), (providers,) = documents_of(context, [near])
+    return fixes(near, consumers, providers)
+
+
+def documents_of(context: Context, near: Iterable[NearMiss]) -> tuple[list[Document | None], list[Document | None]]:
+    """The texts in which the consumers have their places, and those of the providers."""
+    get, pairs = context.documents.get, list(near)
+    return (
+        [get(connection_location(pair.consumer).file) for pair in pairs],
+        [get(connection_location(pair.provider).file) for pair in pairs],
+    )
+
+
+def _correct_remap(document: Document | None, connection: Connection, remap: Remap, new: str) -> Fix | None:
+    if document is None:
+        return None
+    span = remap.target_location.span
+    written = document.text[span.start : span.end]
     if "$(" in written or "&" in written or not written:
         return None
     text = _in_style_of(written, connection.name, new)
@@ -420,9 +543,7 @@ def _in_style_of(written: str, full: str, new: str) -> str:
     return new
 
 
-def _insert_remap(context: Context, connection: Connection, target: str, preferred: bool) -> Fix | None:
-    location: Location = connection_location(connection)
-    document = context.documents.get(location.file)
+def _insert_remap(document: Document | None, connection: Connection, target: str, preferred: bool) -> Fix | None:
     if document is None:
         return None
     source = connection.endpoint.name

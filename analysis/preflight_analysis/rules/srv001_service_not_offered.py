@@ -10,9 +10,10 @@ from preflight_analysis.rules.near_miss import (
     by_type,
     dangling_consumers,
     dangling_providers,
-    fixes,
+    fixes_in,
     near_misses,
     nodes_looked_at,
+    weight,
 )
 from preflight_analysis.rules.nearest import numbers_in, share_words
 from preflight_analysis.rules.places import Verbs, related_endpoint
@@ -34,7 +35,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"{nodes_looked_at(graph)} offers service '{pair.consumer.name}', which {pair.consumer.node.name} calls; "
             f"did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?"
         )
-        yield near_miss_finding(rule, graph, pair, message, _VERBS, fixes(context, pair))
+        weighed = weight(pair, graph.complete, graph.likely_complete)
+        yield near_miss_finding(rule, pair, message, _VERBS, fixes_in(context, pair), weighed)
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }

@@ -2,18 +2,21 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import (
     NearMiss,
     by_type,
     dangling_consumers,
     dangling_topic_providers,
+    documents_of,
     fixes,
     lone_of_type,
     nodes_looked_at,
     topic_near_misses,
+    weight,
 )
 from preflight_analysis.rules.places import Verbs, related_endpoint
 from preflight_analysis.rules.rule import Context, Rule
@@ -30,30 +33,46 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_endpoints)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
-    dangling, who = by_type(context.once(dangling_topic_providers)), nodes_looked_at(graph)
-    for pair in near:
-        yield near_miss_finding(rule, graph, pair, _near_message(graph, pair), _VERBS, fixes(context, pair))
+    who = nodes_looked_at(graph)
+    columns = (near, *documents_of(context, near))
+    yield from context.kept.each_row(_near, columns, rule, who, graph.complete, graph.likely_complete)
+    if graph.blind:
+        return
     explained = {id(pair.consumer) for pair in near} | remapped
-    for connection in dangling_consumers(context, "topics"):
-        if id(connection) not in explained and not graph.blind:
-            lone, key = lone_of_type(connection, dangling), (connection.name, connection.node.name)
-            yield context.kept.get(_hint, key, rule, who, connection, lone, graph.complete)
+    others = [each for each in dangling_consumers(context, "topics") if id(each) not in explained]
+    if others:
+        dangling = by_type(context.once(dangling_topic_providers))
+        lone = [lone_of_type(each, dangling) for each in others]
+        yield from context.kept.each_row(_hint, (others, lone), rule, who, graph.complete)
 
 
-def _near_message(graph: Graph, pair: NearMiss) -> str:
+def _near(
+    pair: NearMiss,
+    consumers: Document | None,
+    providers: Document | None,
+    rule: Rule,
+    who: str,
+    complete: bool,
+    likely_complete: bool,
+) -> Finding:
+    weighed = weight(pair, complete, likely_complete)
+    return near_miss_finding(rule, pair, _near_message(who, pair), _VERBS, fixes(pair, consumers, providers), weighed)
+
+
+def _near_message(who: str, pair: NearMiss) -> str:
     consumer, provider = pair.consumer, pair.provider
     if pair.site is consumer:
         return (
-            f"{nodes_looked_at(graph)} publishes '{consumer.name}', to which {consumer.node.name} subscribes; "
+            f"{who} publishes '{consumer.name}', to which {consumer.node.name} subscribes; "
             f"did you mean '{provider.name}', published by {provider.node.name} ({pair.why})?"
         )
     return (
         f"{provider.node.name} publishes '{provider.name}', but {consumer.node.name} subscribes to '{consumer.name}' "
-        f"({pair.why}), which {nodes_looked_at(graph)} publishes; did you mean '{consumer.name}'?"
+        f"({pair.why}), which {who} publishes; did you mean '{consumer.name}'?"
     )
 
 
-def _hint(rule: Rule, who: str, connection: Connection, lone: Connection | None, whole: bool) -> Finding:
+def _hint(connection: Connection, lone: Connection | None, rule: Rule, who: str, whole: bool) -> Finding:
     message = f"{who} publishes {with_type(connection)}, to which {connection.node.name} subscribes"
     if lone is None:
         return lone_finding(rule, connection, message, whole=whole)

@@ -17,21 +17,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None or graph.blind:
         return
     reported = {id(pair.provider) for pair in context.once(topic_near_misses)} | context.once(meant_endpoints)
+    dangling = [each for each in context.once(dangling_topic_providers) if id(each) not in reported]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
-    at: dict[tuple[Location, str], list[Connection]] = {}
-    for connection in context.once(dangling_topic_providers):
-        if id(connection) not in reported:
-            at.setdefault((connection_location(connection), connection.node.name), []).append(connection)
-    for (location, node), dangling in at.items():
-        sure = graph.complete and not any(connection.endpoint.uncertain for connection in dangling)
-        yield context.kept.get(_finding, (location, node), rule, location, tuple(dangling), sure)
+    grouped = context.kept.grouped(_place, rule.id, dangling)
+    yield from context.kept.each(_finding, grouped.values(), rule, graph.complete)
 
 
-def _finding(rule: Rule, location: Location, connections: tuple[Connection, ...], sure: bool) -> Finding:
+def _place(connection: Connection) -> tuple[Location, str]:
+    return connection_location(connection), connection.node.name
+
+
+def _finding(connections: tuple[Connection, ...], rule: Rule, complete: bool) -> Finding:
     topics, node = quoted(sorted({connection.name for connection in connections})), connections[0].node
+    sure = complete and not any(connection.endpoint.uncertain for connection in connections)
     return rule.finding(
         f"no node of this launch subscribes to {topics}, published by {node.name}",
-        location,
+        connection_location(connections[0]),
         confidence="likely" if sure else "possible",
         related=include_chain(node.origin),
         endpoints=endpoints_of(*connections),

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
-from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.rules.near_miss import NearMiss, weight
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.near_miss import NearMiss
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Rule
 
 
 def near_miss_finding(
-    rule: Rule, graph: Graph, near: NearMiss, message: str, verbs: Verbs, fixes: Iterable[Fix]
+    rule: Rule, near: NearMiss, message: str, verbs: Verbs, fixes: Iterable[Fix], weight: tuple[Severity, Confidence]
 ) -> Finding:
     """The finding for two endpoints that were probably meant to meet."""
-    severity, confidence = weight(graph, near)
+    severity, confidence = weight
     return rule.finding(
         message,
         connection_location(near.site),
