@@ -16,7 +16,7 @@ from preflight_analysis.queries.hover import hover
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.similar import SimilarTraces
+from preflight_analysis.tracing.similar import SimilarTraces, asked
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.sources import Sources
@@ -260,8 +260,8 @@ def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(harness: Harness) ->
     harness.script.unlink()
     (node,) = harness.analyse("works.launch", WORKS, run=False).tree.nodes
     similar = SimilarTraces(harness.cache, harness.environment)
-    assert similar.looking({}, 1)(node) is not None
-    assert similar.looking({}, 2)(node) is None
+    assert similar.looking({})(asked(node, 1)) is not None
+    assert similar.looking({})(asked(node, 2)) is None
 
 
 @pytest.mark.parametrize("built", [True, False])

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
+from operator import is_
 from types import ModuleType
 
 import preflight_analysis.rules as package
@@ -20,6 +21,7 @@ from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
+from preflight_analysis.incremental.kept import Before
 from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain, numbered_problems
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
@@ -74,7 +76,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             _of_file,
             path,
             path,
-            tuple(by_file.get(path, ())),
+            context.kept.patched(_alike, path, tuple(by_file.get(path, ()))),
             silenced,
             context.documents[path] if silenced else None,
             chains.get(path, ()),
@@ -84,6 +86,20 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         )
     context.kept.end()
     return sorted_findings
+
+
+def _alike(before: Before[tuple[Finding, ...]] | None, findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """The findings, the equal ones of before for those: what was made of them is found again."""
+    if before is None:
+        return findings
+    known = {finding: finding for finding in before[1]}
+    found = tuple(old if (old := known.get(each)) is not None and _is_alike(old, each) else each for each in findings)
+    return before[1] if found == before[1] and all(map(is_, found, before[1])) else found
+
+
+def _is_alike(one: Finding, other: Finding) -> bool:
+    # What is not compared has to be the same, too.
+    return one.launch_order == other.launch_order and one.endpoints == other.endpoints
 
 
 def _suppressions(document: Document) -> tuple[Suppression, ...]:

@@ -65,11 +65,23 @@ class SourceInterface:
 _NOTHING = SourceInterface()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Remembered:
     files: Mapping[str, str]
     asked: Mapping[str, Any]
+    asked_of: int
+    """The number of the last parameters that were seen to answer so."""
     found: SourceInterface
+
+
+SourceKey = tuple[str | None, str, str, str, str, tuple[tuple[str, str], ...]]
+
+
+def source_key(node: LaunchNode) -> SourceKey:
+    """What the source of a node is read with: the file first, and last the remaps."""
+    path = node.resolved.path or next(iter(node.resolved.not_executable), None)
+    remaps = tuple((remap.source, remap.target) for remap in node.remaps)
+    return path, node.package, node.executable, node.name, node.args, remaps
 
 
 class SourceAnalysis:
@@ -79,7 +91,7 @@ class SourceAnalysis:
         self._environment = environment
         self._texts = texts
         self._lock = threading.Lock()
-        self._remembered: dict[tuple[object, ...], _Remembered] = {}
+        self._remembered: dict[SourceKey, _Remembered] = {}
         self._trees: dict[str, ast.Module | None] = {}
 
     def read(
@@ -87,17 +99,20 @@ class SourceAnalysis:
     ) -> SourceInterface | None:
         """What the source of the node says, None if there is none that can be read. For the nodes of one launch
         `digests` keeps those of files that were looked at, so that the disk is asked once for each."""
-        path = node.resolved.path or next(iter(node.resolved.not_executable), None)
-        remaps = tuple((remap.source, remap.target) for remap in node.remaps)
-        key = (path, node.package, node.executable, node.name, node.args, remaps)
+        return self.read_as(source_key(node), node, params, {} if digests is None else digests)
+
+    def read_as(
+        self, key: SourceKey, node: LaunchNode, params: LaunchParams, digests: dict[str, str]
+    ) -> SourceInterface | None:
+        """As `read`, where the `source_key` of the node is at hand."""
         known = self._remembered.get(key)
-        if known is None or not self._is_valid(known, params, {} if digests is None else digests):
-            known = self._analyse(path, node, remaps, params)
+        if known is None or not self._is_valid(known, params, digests):
+            known = self._analyse(key[0], node, key[-1], params)
             with self._lock:
                 self._remembered[key] = known
                 if len(self._remembered) > _MAX_REMEMBERED:
                     del self._remembered[next(iter(self._remembered))]
-        return known.found if known.found != _NOTHING else None
+        return known.found if known.found is not _NOTHING else None
 
     def _is_valid(self, known: _Remembered, params: LaunchParams, digests: dict[str, str]) -> bool:
         for path, digest in known.files.items():
@@ -105,7 +120,11 @@ class SourceAnalysis:
                 digests[path] = self._texts.digest(path)
             if digests[path] != digest:
                 return False
-        return all(params.look(name) == value for name, value in known.asked.items())
+        alike = params.answer_alike(known.asked_of, known.asked)
+        if not alike and any(params.look(name) != value for name, value in known.asked.items()):
+            return False
+        known.asked_of = params.number
+        return True
 
     def _analyse(
         self, path: str | None, node: LaunchNode, remaps: tuple[tuple[str, str], ...], params: LaunchParams
@@ -149,7 +168,8 @@ class SourceAnalysis:
             found = self._cpp.read_ros2((node.name, node.package, node.executable), args, asked, text, node.plugin)
         else:
             found = self._cpp.read((node.name, node.package, node.executable), args, resolved, asked, text, config)
-        return _Remembered(files, asked.asked, SourceInterface(found.endpoints, found.params, found.nodes))
+        said = SourceInterface(found.endpoints, found.params, found.nodes)
+        return _Remembered(files, asked.asked, params.number, said if said != _NOTHING else _NOTHING)
 
     def _generation(self, node: LaunchNode) -> int:
         package = self._environment.packages.get(node.package)

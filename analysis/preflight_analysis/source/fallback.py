@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
+from operator import is_
+from typing import Any, Literal
 
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
+from preflight_analysis.generation import Generation
 from preflight_analysis.graph.annotations import read_annotation
-from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface
+from preflight_analysis.incremental.kept import Before, Kept
+from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, source_key
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Interface, ParamUse
-from preflight_analysis.tracing.similar import SimilarTraces
+from preflight_analysis.tracing.similar import SimilarTraces, asked
 
 _MAX_REMEMBERED = 4096
 
@@ -42,38 +46,44 @@ class Fallback:
 
         A node with an annotation is left alone: that is added with the graph, and is the user's word for all of it.
         """
-        annotated = kept.each(_is_annotated, tree.nodes)
-        lacking = [not has and _lacks(each) for has, each in zip(annotated, interfaces, strict=True)]
-        nodes = tuple(zip(lacking, tree.nodes, interfaces, strict=True))
-        placeless = [not lacks and _placeless(tree, each) for lacks, _, each in nodes]
-        later = [not lacks and _may_declare_later(tree, node, each) for lacks, node, each in nodes]
-        if not any((*lacking, *placeless, *later)):
+        gaps = kept.each_row(_gap, (tree.nodes, interfaces), tree.ros)
+        if not any(gaps):
             return tuple(interfaces)
-        values = {p.name: p.value for p in tree.params.values() if not isinstance(p.value, CommandValue)}
-        values |= {f"{node.name}/{param.name}": param.value for node in tree.nodes for param in node.params}
-        params = LaunchParams(values)
-        similar = self._similar.looking(values, tree.generation) if self._similar is not None else None
+        of_nodes = kept.each(_values_of_node, tree.nodes)
+        params = kept.patched(_launch_params, "", tuple(tree.params.values()), tuple(of_nodes))
+        similar = self._similar.looking(params.values) if self._similar is not None else None
+        as_asked, keys = kept.each(asked, tree.nodes, tree.generation), kept.each(source_key, tree.nodes)
         digests: dict[str, str] = {}
         whole = list(interfaces)
-        for at, node in enumerate(tree.nodes):
-            if lacking[at] or placeless[at] or later[at]:
-                found: Interface | SourceInterface | None = (
-                    similar(node) if similar is not None and lacking[at] else None
-                )
-                found = found or self._sources.read(node, params, digests)
-                if found is not None:
-                    key = node.name, node.resolved.path
-                    known = self._filled.get(key)
-                    if known is None or known.found is not found or known.interface != interfaces[at]:
-                        if lacking[at]:
-                            more = _with_more(node, interfaces[at], found)
-                        else:
-                            more = _with_places(interfaces[at], found) if placeless[at] else interfaces[at]
-                            more = _with_later(node, more, found) if later[at] else more
-                        known = _Filled(interfaces[at], found, more)
-                        self._remember(key, known)
-                    whole[at] = known.whole
+        for at, (node, gap) in enumerate(zip(tree.nodes, gaps, strict=True)):
+            if gap is None:
+                continue
+            found: Interface | SourceInterface | None = None
+            if similar is not None and gap == "all":
+                found = similar(as_asked[at])
+            found = found or self._sources.read_as(keys[at], node, params, digests)
+            if found is not None:
+                whole[at] = self._filled_in(node, interfaces[at], found, gap)
         return tuple(whole)
+
+    def _filled_in(
+        self, node: LaunchNode, interface: Interface, found: Interface | SourceInterface, gap: _Gap
+    ) -> Interface:
+        key = node.name, node.resolved.path
+        known = self._filled.get(key)
+        if (
+            known is None
+            or known.found is not found
+            or (known.interface is not interface and known.interface != interface)
+        ):
+            if gap == "all":
+                more = _with_more(node, interface, found)
+            else:
+                more = _with_places(interface, found) if "places" in gap else interface
+                more = _with_later(node, more, found) if "later" in gap else more
+            known = _Filled(interface, found, more)
+            self._remember(key, known)
+        return known.whole
 
     def _remember(self, key: tuple[str, str | None], filled: _Filled) -> None:
         with self._lock:
@@ -83,8 +93,40 @@ class Fallback:
                 del self._filled[next(iter(self._filled))]
 
 
-def _is_annotated(node: LaunchNode) -> bool:
-    return read_annotation(node.action)[0] is not None
+_Gap = Literal["all", "places", "later", "places, later"]
+"""What is not known of a node."""
+
+
+def _gap(node: LaunchNode, interface: Interface, ros: Generation) -> _Gap | None:
+    if _lacks(interface) and read_annotation(node.action)[0] is None:
+        return "all"
+    placeless = _is_placeless(interface, ros)
+    if _may_declare_later(node, interface, ros):
+        return "places, later" if placeless else "later"
+    return "places" if placeless else None
+
+
+def _launch_params(
+    before: Before[LaunchParams] | None, params: tuple[Param, ...], of_nodes: tuple[Mapping[str, Any], ...]
+) -> LaunchParams:
+    """What is set by full name, in ROS 2 for the nodes. Commands that were not run give nothing."""
+    if before is not None:
+        (old_params, old_of_nodes), known = before
+        if all(map(is_, old_of_nodes, of_nodes)) and list(map(len, before[0])) == [len(params), len(of_nodes)]:
+            changed = [pair for pair in zip(old_params, params, strict=True) if pair[0] is not pair[1]]
+            return known.changed((old.name for old, _ in changed), _plain(new for _, new in changed))
+    return LaunchParams({**_plain(params), **dict(chain.from_iterable(each.items() for each in of_nodes))})
+
+
+def _plain(params: Iterable[Param]) -> dict[str, Any]:
+    return {param.name: param.value for param in params if not isinstance(param.value, CommandValue)}
+
+
+_NO_VALUES: Mapping[str, Any] = {}
+
+
+def _values_of_node(node: LaunchNode) -> Mapping[str, Any]:
+    return {f"{node.name}/{param.name}": param.value for param in node.params} if node.params else _NO_VALUES
 
 
 def _lacks(interface: Interface) -> bool:
@@ -93,18 +135,18 @@ def _lacks(interface: Interface) -> bool:
     return not (interface.complete or ended_well or interface.pending)
 
 
-def _placeless(tree: LaunchTree, interface: Interface) -> bool:
+def _is_placeless(interface: Interface, ros: Generation) -> bool:
     """Whether all is known of what a node does, but nothing of where in its source: rcl is not told that."""
     seen = interface.endpoints + interface.params
     has_places = any(each.source_file is not None for each in seen)
-    return not tree.ros.traces_have_places and interface.source == "trace" and bool(seen) and not has_places
+    return not ros.traces_have_places and interface.source == "trace" and bool(seen) and not has_places
 
 
-def _may_declare_later(tree: LaunchTree, node: LaunchNode, interface: Interface) -> bool:
+def _may_declare_later(node: LaunchNode, interface: Interface, ros: Generation) -> bool:
     """Whether a node of ROS 2 is given a parameter that its run did not declare: a callback may do so that the run did
     not wait for, of a timer for instance."""
     declared = {use.name.removeprefix("~") for use in interface.params}
-    declares = tree.ros.own_parameters and interface.source == "trace" and bool(declared)
+    declares = ros.own_parameters and interface.source == "trace" and bool(declared)
     return declares and any(param.name not in declared for param in node.params)
 
 

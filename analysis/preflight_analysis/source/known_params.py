@@ -3,29 +3,59 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
+from itertools import count
 from typing import Any
 
 from preflight_analysis.source.python_values import UNKNOWN, is_plain
 
 _MAX_BELOW = 200
+_NUMBERS = count()
 
 
 class LaunchParams:
     """What the launch sets, by full name. Other nodes may set more."""
 
-    def __init__(self, values: Mapping[str, Any]) -> None:
-        self._values = values
+    def __init__(self, values: Mapping[str, Any], follows: int = -1, differing: frozenset[str] = frozenset()) -> None:
+        self.values = values
+        self.number = next(_NUMBERS)
+        """Differs from that of all others of this process."""
+        self._follows = follows
+        self._differing = differing
+
+    def changed(self, gone: Iterable[str], come: Mapping[str, Any]) -> LaunchParams:
+        """Those without the names that are gone, and with those that come."""
+        gone = set(gone)
+        values = dict(self.values)
+        for name in gone:
+            values.pop(name, None)
+        values.update(come)
+        differing = {
+            "/".join(parts[:end])
+            for name in gone | come.keys()
+            if (parts := name.split("/"))
+            for end in range(len(parts) + 1)
+        }
+        new = LaunchParams(values, self.number, frozenset(differing))
+        if "_sorted" in self.__dict__ and values.keys() == self.values.keys():
+            new._sorted = self._sorted
+        return new
+
+    def answer_alike(self, number: int, asked: Iterable[str]) -> bool:
+        """Whether it is known that the parameters of that number have the same for all these names."""
+        if number == self.number:
+            return True
+        return number == self._follows and self._differing.isdisjoint(name.rstrip("/") for name in asked)
 
     @cached_property
     def _sorted(self) -> list[str]:
-        return sorted(self._values)
+        return sorted(self.values)
 
     def look(self, name: str) -> Any:
         """The value of a parameter, for a namespace that of all in it; UNKNOWN if it is not set or not known."""
-        if name in self._values:
-            value = self._values[name]
+        if name in self.values:
+            value = self.values[name]
             return value if is_plain(value) else UNKNOWN
         prefix = name.rstrip("/") + "/"
         start = bisect_left(self._sorted, prefix)
@@ -37,7 +67,7 @@ class LaunchParams:
             inner = below
             for space in spaces:
                 inner = inner.setdefault(space, {})
-            inner[leaf] = self._values[full] if is_plain(self._values[full]) else UNKNOWN
+            inner[leaf] = self.values[full] if is_plain(self.values[full]) else UNKNOWN
         return below or UNKNOWN
 
 

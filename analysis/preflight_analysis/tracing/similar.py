@@ -41,6 +41,27 @@ class _Memo:
     found: Interface | None
 
 
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A node as it is looked for. `path` is that of its executable, "" where there is none; `args` are its arguments as
+    written, `traces` names those of its executable."""
+
+    path: str
+    args: str
+    request: TraceRequest
+    traces: _Key
+
+
+def asked(node: LaunchNode, generation: int) -> Asked:
+    """`generation` is that of ROS: the other one may have a node of the same name."""
+    path = node.resolved.path or ""
+    executable, args, entry_point = path or node.executable, split_args(node.args), node.resolved.entry_point
+    request = nodelets.standalone(
+        TraceRequest(node.name, node.package, executable, args, generation=generation, entry_point=entry_point)
+    )
+    return Asked(path, node.args, request, (generation, node.package, os.path.basename(executable), part(request)))
+
+
 class SimilarTraces:
     """Looks for them in a cache, for one environment; what was read is remembered until the cache changes.
     Thread-safe; runs nothing."""
@@ -52,47 +73,39 @@ class SimilarTraces:
         self._remembered: dict[_Key, tuple[object, tuple[Kept, ...]]] = {}
         self._memos: dict[tuple[int, str, str, str, str], _Memo] = {}
 
-    def looking(self, params: Mapping[str, Any], generation: int) -> Callable[[LaunchNode], Interface | None]:
+    def looking(self, params: Mapping[str, Any]) -> Callable[[Asked], Interface | None]:
         """What the executable of a node did in the most similar run; None where none is known. `params` is the
-        parameter server of the launch, `generation` that of ROS: the other one may have a node of the same name. The
-        names are as the node would give them, everything is marked `similar`.
+        parameter server of the launch. The names are as the node would give them, everything is marked `similar`.
 
-        For the nodes of one launch: the disk is asked once for each executable.
+        For the nodes of one launch, each as `asked` has it: the disk is asked once for each executable.
         """
         said: list[frozenset[str]] = []
         known: dict[_Key, tuple[Kept, ...]] = {}
         builds: dict[str, str] = {}
 
-        def of(node: LaunchNode) -> Interface | None:
-            path = node.resolved.path or ""
-            executable = path or node.executable
-            request = nodelets.standalone(
-                TraceRequest(
-                    node.name,
-                    node.package,
-                    executable,
-                    split_args(node.args),
-                    params=params,
-                    generation=generation,
-                    entry_point=node.resolved.entry_point,
-                )
-            )
-            key = (generation, node.package, os.path.basename(executable), part(request))
-            if key not in known:
-                known[key] = self._traces(key)
-            if path not in builds:
-                builds[path] = fingerprint(path)
-            if not said and any(kept.given for kept in known[key]):
+        def of(node: Asked) -> Interface | None:
+            traces = known.get(node.traces)
+            if traces is None:
+                traces = known[node.traces] = self._traces(node.traces)
+            if not traces:
+                return None
+            if node.path not in builds:
+                builds[node.path] = fingerprint(node.path)
+            if not said and any(kept.given for kept in traces):
                 said.append(frozenset(map(bare, texts(params))))
-            return self._of(node, request, known[key], builds[path], said[0] if said else frozenset())
+            return self._of(node, traces, builds[node.path], said[0] if said else frozenset())
 
         return of
 
-    def _of(
-        self, node: LaunchNode, request: TraceRequest, traces: tuple[Kept, ...], build: str, said: frozenset[str]
-    ) -> Interface | None:
-        path = node.resolved.path or ""
-        key = (request.generation, node.name, node.package, f"{request.executable}:{request.entry_point}", node.args)
+    def _of(self, node: Asked, traces: tuple[Kept, ...], build: str, said: frozenset[str]) -> Interface | None:
+        path, request = node.path, node.request
+        key = (
+            request.generation,
+            request.node,
+            request.package,
+            f"{request.executable}:{request.entry_point}",
+            node.args,
+        )
         memo = self._memos.get(key)
         if memo is not None and memo.traces is traces and memo.build == build and memo.strange == memo.given - said:
             return memo.found

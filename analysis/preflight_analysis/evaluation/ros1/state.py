@@ -94,11 +94,9 @@ class State(Collector):
             return False
         self.node_names.update(record.node_names)
         self.nodes += record.nodes
-        if self.params.keys().isdisjoint(record.params):
-            self.params.update(record.params)
-        else:
-            for param in record.params.values():
-                self.set_param(param)
+        again = {name: self._replacing(record.params[name]) for name in self.params.keys() & record.params.keys()}
+        self.params.update(record.params)
+        self.params.update(again)
         self.clear_params += record.clear_params
         self.includes += record.includes
         self.commands += record.commands
@@ -119,10 +117,14 @@ class State(Collector):
 
     def set_param(self, param: Param) -> None:
         """Set a parameter as the last one to do so; what it replaces is kept with it."""
+        self.params[param.name] = self._replacing(param)
+
+    def _replacing(self, param: Param) -> Param:
+        """The parameter with those that it takes the place of; the one that was set is not set any more."""
         old = self.params.pop(param.name, None)
-        if old is not None:
-            param = param._replace(overrides=(*old.overrides, old._replace(overrides=()), *param.overrides))
-        self.params[param.name] = param
+        if old is None:
+            return param
+        return param._replace(overrides=(*old.overrides, old._replace(overrides=()), *param.overrides))
 
     def has_room(self, length: int, origin: Origin) -> bool:
         """As for any launch; what there was no room for is not remembered for another place."""
