@@ -14,23 +14,35 @@ T = TypeVar("T")
 
 
 def taken_over(tree: LaunchTree, before: LaunchTree) -> LaunchTree:
-    """The tree with the nodes and parameters of an earlier one where they are equal: what was kept of those is found
-    again by the objects themselves."""
+    """The tree with the nodes, parameters and includes of an earlier one where they are equal: what was kept of those
+    is found again by the objects themselves. The tags of the nodes get the places that they have in this tree."""
     # Most are the same objects anyway: to look at them is quicker than to compare them.
-    same = {*map(id, before.nodes), *map(id, before.params.values())}
+    same = {*map(id, before.nodes), *map(id, before.params.values()), *map(id, before.includes)}
     nodes = {node.name: node for node in before.nodes}
-    changed = {id(node) for node in _others(tree.nodes, same) if nodes.get(node.name) == node}
-    params = {
-        param.name: old
-        for param in _others(tree.params.values(), same)
-        if (old := before.params.get(param.name)) == param
+    kept_nodes = {
+        id(node): known
+        for node in _others(tree.nodes, same)
+        if (known := nodes.get(node.name)) is not None and known == node
     }
-    if not changed and not params:
-        return tree
+    params = {
+        param.name: before.params[param.name]
+        for param in _others(tree.params.values(), same)
+        if before.params.get(param.name) == param
+    }
+    by_place = {include.origin: include for include in before.includes}
+    includes = {
+        id(include): by_place[include.origin]
+        for include in _others(tree.includes, same)
+        if by_place.get(include.origin) == include
+    }
+    for node in tree.nodes if kept_nodes else ():
+        if (old := kept_nodes.get(id(node))) is not None:
+            old.tag.action = node.tag.action
     return replace(
         tree,
-        nodes=tuple(nodes[node.name] if id(node) in changed else node for node in tree.nodes),
-        params={**tree.params, **params},
+        nodes=tuple(kept_nodes.get(id(node), node) for node in tree.nodes) if kept_nodes else tree.nodes,
+        params={**tree.params, **params} if params else tree.params,
+        includes=tuple(includes.get(id(include), include) for include in tree.includes) if includes else tree.includes,
     )
 
 

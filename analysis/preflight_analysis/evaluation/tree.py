@@ -109,6 +109,33 @@ class ParamSource(NamedTuple):
     pushed: bool = False
 
 
+class Tag:
+    """The tag of a node. As a line does, it lives through edits: two are equal if they say the same, wherever that
+    stands, and the one that is kept gets the `action` of the text as it is now (`taken_over`).
+
+    `source` is its text in the file where that says all, None for what is made of values.
+    """
+
+    __slots__ = ("action", "source")
+
+    def __init__(self, action: Action, source: str | None = None) -> None:
+        self.action = action
+        self.source = source
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Tag):
+            return NotImplemented
+        if self.source is None or other.source is None:
+            return self.action == other.action
+        return self.source == other.source
+
+    def __hash__(self) -> int:
+        return hash(self.action.kind)
+
+    def __repr__(self) -> str:
+        return f"Tag({self.action!r})"
+
+
 class LaunchNode(NamedTuple):
     """One node or test. `kind` as in the contract of `tree --format json`.
 
@@ -124,7 +151,7 @@ class LaunchNode(NamedTuple):
     remaps: tuple[Remap, ...]
     env: tuple[tuple[str, str], ...]
     origin: Origin
-    action: Action
+    tag: Tag
     resolved: Executable
     machine: str | None = None
     respawn: bool = False
@@ -158,6 +185,11 @@ class LaunchNode(NamedTuple):
     def location(self) -> Location:
         """The node's own tag."""
         return self.origin[-1]
+
+    @property
+    def action(self) -> Action:
+        """The node's own tag, with its places in the text as it is now."""
+        return self.tag.action
 
 
 @dataclass(frozen=True, slots=True)

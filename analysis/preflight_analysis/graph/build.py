@@ -48,8 +48,7 @@ def build_graph(
     kept = kept or Kept()
     if len(tree.nodes) != len(interfaces):
         raise ValueError(f"{len(interfaces)} interfaces of {len(tree.nodes)} nodes")
-    actions_of_nodes = [node.action for node in tree.nodes]
-    processes = tuple(kept.each_row(annotated, (interfaces, actions_of_nodes)))
+    processes = tuple(kept.each_row(_process, (tree.nodes, interfaces)))
     tree, merged = each_node(tree, processes, documents or {})
     made = kept.each_row(_of_node, (tree.nodes, merged), tree.generation, moves_actions(distro))
     return Graph(
@@ -60,6 +59,10 @@ def build_graph(
         tuple(chain.from_iterable(each.reads for each in made)),
         tuple(external_topics),
     )
+
+
+def _process(node: LaunchNode, interface: Interface) -> Interface:
+    return annotated(interface, node.action)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,24 +1,25 @@
 """LCH020: an annotation that cannot be read."""
 
 from collections.abc import Iterator
+from itertools import compress
 
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.graph.annotations import AnnotationProblem, read_annotation
+from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for node, problems in filter(None, context.kept.each(_malformed, context.tree.nodes)):
-        for problem in problems:
+    nodes = context.tree.nodes
+    for node in compress(nodes, context.kept.each(_is_malformed, nodes)):
+        for problem in read_annotation(node.action)[1]:
             location = context.location(node.location.file, problem.span)
             yield rule.finding(problem.message, location, related=include_chain(node.origin))
 
 
-def _malformed(node: LaunchNode) -> tuple[LaunchNode, tuple[AnnotationProblem, ...]] | None:
-    problems = read_annotation(node.action)[1]
-    return (node, problems) if problems else None
+def _is_malformed(node: LaunchNode) -> bool:
+    return bool(read_annotation(node.action)[1])
 
 
 RULE = Rule(

@@ -15,7 +15,7 @@ from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_r
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.tags import clear_params, evaluate_env, evaluate_remap, namespace_of
-from preflight_analysis.evaluation.tree import LaunchNode, Unknown, Use
+from preflight_analysis.evaluation.tree import LaunchNode, Tag, Unknown, Use
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.launch.schema_ros1 import TAGS
@@ -77,7 +77,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
             remaps=tuple(remaps.remaps()),
             env=tuple(env.env),
             origin=origin,
-            action=action,
+            tag=Tag(action, scope.lines.text[slice(*action.span)]),
             resolved=resolved,
             machine=attributes.text("machine") or default_machine,
             respawn=options.respawn,

@@ -13,8 +13,11 @@ from typing import Any
 
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.resolved import Resolved
+from preflight_analysis.evaluation.tree import Tag
+from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.read import PYTHON_SUFFIX, YAML_SUFFIXES
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,3 +172,8 @@ class Place:
     def origin(self, span: Span) -> Origin:
         """The origin of a place in the file."""
         return (*self.chain, self.location(span))
+
+    def tag(self, action: Action) -> Tag:
+        """The tag of a node. In YAML and Python its text does not say all: there are anchors and variables."""
+        all_said = not self.file.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX))
+        return Tag(action, self.lines.text[slice(*action.span)] if all_said else None)
