@@ -40,6 +40,7 @@ class Twice:
         common = (str(path), {}, self.sources, self._executables, self._environment, self._cwd)
         without, remembered = evaluate(*common), evaluate(*common, memo=self._memo)
         assert remembered == without
+        assert [node.action for node in remembered.nodes] == [node.action for node in without.nodes]
         self.remembered = remembered
         return without
 
@@ -132,4 +133,55 @@ def test_what_only_moved_is_not_evaluated_again(tmp_path: Path) -> None:
         twice.sources.open(str(root), above + text)
         twice.tree(root)
         nodes.append(twice.remembered.nodes[0])
+    assert all(node is nodes[0] for node in nodes)
+
+
+NODE = '<node pkg="p" type="t" name="one"><param name="rate" value="$(arg rate)"/><remap from="a" to="b"/></node>'
+ABOVE = (
+    '<arg name="rate" default="5"/>',
+    '<arg name="rate" default="6"/>',
+    '<arg\n name="rate" default="6"/>',
+    '<arg name="rate"/>',
+    '<arg name="rate" default="5"/><remap from="a" to="c"/>',
+    '<arg name="rate" default="5"/><env name="E" value="1"/>',
+    '<arg name="rate" default="5"/><param name="~shared" value="1"/>',
+    '<arg name="rate" default="5"/><param name="one/rate" value="1"/>',
+    '<arg name="rate" default="5"/><machine name="m" address="a" default="true"/>',
+    '<arg name="rate" default="5"/><node pkg="p" type="t" name="one"/>',
+    '<arg name="rate" default="5"/><node pkg="p" type="t" name="$(anon x)"/>',
+    '<arg name="rate" default="5"/><node pkg="p" type="t" name="other"/>',
+)
+"""What stands above a node, all of which may change what its tag adds, but the last."""
+BELOW = (
+    "",
+    '<node pkg="p" type="t" name="two"><rosparam>{a: 1}</rosparam><rosparam file="$(dirname)/p.yaml"/></node>',
+    '<node pkg="p" type="t" name="$(anon x)"/><node pkg="p" type="t" name="$(anon x)_2"/>',
+    '<node pkg="p" type="t" name="two" if="$(eval rate == 6)"/><node pkg="p" nam="three"/>',
+    '<group ns="g"><node pkg="p" type="t" name="one"/><node pkg="p" type="t" name="one"/></group>',
+)
+
+
+@pytest.mark.parametrize("below", BELOW)
+def test_what_the_tag_of_a_node_depends_on(tmp_path: Path, below: str) -> None:
+    root, params = tmp_path / "root.launch", tmp_path / "p.yaml"
+    params.write_text("c: 1")
+    twice = Twice(tmp_path)
+    for number, first in enumerate(ABOVE):
+        for other in (first, "\n" + first, ABOVE[number - 1], first):
+            twice.sources.open(str(root), f"<launch>\n{other}\n{NODE}\n{below}\n</launch>")
+            twice.tree(root)
+        params.write_text(f"c: {number}")
+
+
+def test_a_node_that_only_moved_is_the_same_and_has_its_new_place(tmp_path: Path) -> None:
+    root = tmp_path / "root.launch"
+    twice = Twice(tmp_path)
+    nodes = []
+    for above in ("", "\n", '<node pkg="p" type="t" name="other"/>\n'):
+        text = f'<launch>\n<arg name="rate" default="5"/>\n{above}{NODE}\n</launch>'
+        twice.sources.open(str(root), text)
+        fresh = twice.tree(root).nodes[-1]
+        node = twice.remembered.nodes[-1]
+        assert node.action == fresh.action and text[slice(*node.action.span)] == NODE
+        nodes.append(node)
     assert all(node is nodes[0] for node in nodes)

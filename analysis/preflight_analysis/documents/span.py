@@ -158,6 +158,12 @@ class LineIndex:
             last = bisect_right(starts, end - 1) - 1
         return Location(path, lines[number], start - starts[number], lines[last], end - starts[last])
 
+    def lines_of(self, span: Span) -> tuple[Line, ...]:
+        """The lines that a span of this text is on. While they are the same ones and start with the same column and
+        text, all locations in it are."""
+        lines = self._lines or self._with_lines()
+        return tuple(lines[bisect_right(self._starts, span.start) - 1 : bisect_right(self._starts, span.end)])
+
     def _with_lines(self) -> list[Line]:
         with _LINES:
             if self._lines is None:

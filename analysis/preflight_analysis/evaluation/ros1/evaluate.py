@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
@@ -28,7 +29,7 @@ from preflight_analysis.evaluation.problems import (
 )
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
-from preflight_analysis.evaluation.ros1.memo import Memo, key_of
+from preflight_analysis.evaluation.ros1.memo import Memo, TagRecords, key_of, tags_key_of
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
@@ -159,14 +160,19 @@ def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
 
 
 def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
+    records: TagRecords | None = None
     for action in actions:
+        if action.kind in ("node", "test"):
+            # Those that follow each other have the same scope.
+            records = records or _tag_records(state, scope, default_machine)
+            _node(state, scope, action, default_machine, records)
+            continue
+        records = None
         match action.kind:
             case "arg":
                 evaluate_arg(state, scope, action)
             case "group":
                 default_machine = _group(state, scope, action, default_machine)
-            case "node" | "test":
-                evaluate_node(state, scope, action, default_machine)
             case "param":
                 evaluate_param(state, scope, action)
             case "rosparam":
@@ -182,6 +188,45 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
             case "include":
                 default_machine = _include(state, scope, action, default_machine)
     return default_machine
+
+
+def _tag_records(state: State, scope: Scope, default_machine: str | None) -> TagRecords | None:
+    key = tags_key_of(scope, default_machine) if state.memo is not None else None
+    if state.memo is None or key is None:
+        return None
+    records = state.tag_records.get(key)
+    if records is None:
+        records = state.tag_records[key] = state.memo.tags(key)
+    return records
+
+
+def _node(state: State, scope: Scope, action: Action, default_machine: str | None, records: TagRecords | None) -> None:
+    """As `evaluate_node`: what the tag added in the same scope is added again, where it says and stands the same."""
+    if records is None:
+        evaluate_node(state, scope, action, default_machine)
+        return
+    lines, source = scope.lines.lines_of(action.span), scope.lines.text[slice(*action.span)]
+    key = source, action.span.start - lines[0].start, lines
+    record = records.before.get(key)
+    anonymous, made_here = state.anonymous_names, dict(scope.anonymous)
+    if record is None or not state.is_current(record):
+        inner = state.inner()
+        evaluate_node(inner, scope, action, default_machine)
+        record = replace(inner.record(scope, None), inputs=dict(inner.inputs))
+        # What these hold has places of this text.
+        lasting = not (record.problems or record.not_taken or inner.depends_on_outside)
+        state.depends_on_outside |= inner.depends_on_outside
+    else:
+        lasting = True
+    if state.absorb(record):
+        if lasting:
+            records.now[key] = record
+        for node in record.nodes:
+            node.tag.action = action
+        return
+    # A node's name is taken: then order matters, and it is evaluated in its place.
+    state.anonymous_names, scope.anonymous = anonymous, made_here
+    evaluate_node(state, scope, action, default_machine)
 
 
 def _group(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:

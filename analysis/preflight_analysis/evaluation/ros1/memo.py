@@ -12,7 +12,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Line, Location
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
@@ -29,6 +29,8 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import LanguageProblem, ProblemKind
 
 MAX_RECORDS = 4_000
+MAX_SCOPES = 1_000
+"""In which nodes are remembered, the latest that were evaluated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +53,24 @@ class Record:
     default_machine: str | None
 
 
+TagKey = tuple[str, int, tuple[Line, ...]]
+"""What a tag says and where: its text, its column, and its lines."""
+
+
+@dataclass(frozen=True, slots=True)
+class TagRecords:
+    """What the tags of nodes in one scope added the last time that it was evaluated, and this time."""
+
+    before: Mapping[TagKey, Record]
+    now: dict[TagKey, Record]
+
+
 class Memo:
     """Records by what they depend on. One for each environment and set of executables; used by one thread at a time."""
 
     def __init__(self) -> None:
         self._records: OrderedDict[Hashable, Record] = OrderedDict()
+        self._tags: OrderedDict[Hashable, dict[TagKey, Record]] = OrderedDict()
         self._language: dict[str, tuple[LaunchFile, tuple[LanguageProblem, ...]]] = {}
 
     def get(self, key: Hashable, is_current: Callable[[Record], bool]) -> Record | None:
@@ -73,12 +88,26 @@ class Memo:
         if len(self._records) > MAX_RECORDS:
             self._records.popitem(last=False)
 
+    def tags(self, key: Hashable) -> TagRecords:
+        """The records of the nodes in a scope that is evaluated again."""
+        records = TagRecords(self._tags.pop(key, {}), {})
+        self._tags[key] = records.now
+        if len(self._tags) > MAX_SCOPES:
+            self._tags.popitem(last=False)
+        return records
+
     def language(self, launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
         """As `check_language`."""
         known = self._language.get(launch_file.path)
         if known is None or known[0] is not launch_file:
             known = self._language[launch_file.path] = (launch_file, tuple(check_language(launch_file)))
         return known[1]
+
+
+def tags_key_of(scope: Scope, default_machine: str | None) -> Hashable | None:
+    """As `key_of`, for the tags of nodes of this scope."""
+    key = key_of(scope, default_machine)
+    return None if key is None else (key, tuple(scope.declared.items()), tuple(scope.anonymous.items()))
 
 
 def key_of(inside: Scope, default_machine: str | None) -> Hashable | None:

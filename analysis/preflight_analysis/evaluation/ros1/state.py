@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
-from preflight_analysis.evaluation.ros1.memo import Memo, Record
+from preflight_analysis.evaluation.ros1.memo import Memo, Record, TagRecords
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
     Machine,
@@ -40,6 +40,8 @@ class State(Collector):
         self.depends_on_outside = False
         """Whether the result depends on more than what `memo.key_of` names: anonymous names are counted over the whole
         launch, machines known to all of it, and includes that include themselves bounded by what is above them."""
+        self.tag_records: dict[Hashable, TagRecords] = {}
+        """By scope, those of this evaluation."""
         self.includes_before = 0
         """How many includes the states around this one have met."""
 
@@ -62,7 +64,7 @@ class State(Collector):
         """A state for an included file alone, to be taken over with `absorb`."""
         inner = State(self.files, self.executables, self.environment, self.cwd, self.results, self.memo)
         inner.machines, inner._anonymous, inner._digests = self.machines, self._anonymous, self._digests
-        inner._room = self._room
+        inner._room, inner.tag_records = self._room, self.tag_records
         inner.includes_before, inner.exhausted = self.include_count, self.exhausted
         return inner
 
