@@ -67,7 +67,8 @@ class Starts:
         environment = detect(str(self.folder), variables=self.variables, package_path=[str(self.folder)])
         workspace = Counting(environment, Sources(), commands=self.commands)
         index = build_from_kept(self.store, workspace, str(self.folder))
-        self.made = [os.path.relpath(path, self.folder) for path in workspace.made]
+        # A root of files that were written just now is evaluated again: the next change might not show.
+        self.made = [os.path.relpath(path, self.folder) for path in dict.fromkeys(workspace.made)]
         assert index is not None
         cold = build_index(workspace, str(self.folder))
         assert cold is not None
@@ -160,6 +161,39 @@ def test_an_included_file_that_comes_is_noticed(starts: Starts) -> None:
     assert [*starts.start().nodes()] == []
 
 
+def test_what_is_there_counts_not_only_what_is_read(starts: Starts) -> None:
+    starts.write("p/package.xml", MANIFEST.format("p", AMENT))
+    starts.write("p/CMakeLists.txt", INSTALLED)
+    starts.write("p/launch/a.launch.xml", '<launch><include file="$(find-pkg-share p)/made/b.launch.xml"/></launch>')
+    named = '<launch><node pkg="p" exec="t" name="{}"/></launch>'
+
+    def names() -> list[str]:
+        return [node.name for root, node in starts.start().nodes() if root.path.endswith("a.launch.xml")]
+
+    assert names() == []
+    starts.write("p/from/b.launch.xml", named.format("built"))
+    assert names() == ["/built"]
+    installed = starts.write("p/made/b.launch.xml", named.format("there"))
+    assert names() == ["/there"]
+    starts.start()
+    assert starts.made == []
+    installed.unlink()
+    assert names() == ["/built"]
+    starts.write("p/CMakeLists.txt", "")
+    assert names() == []
+
+
+def test_a_program_that_a_substitution_finds_counts(starts: Starts) -> None:
+    starts.write("p/package.xml", MANIFEST.format("p", AMENT))
+    starts.write("p/CMakeLists.txt", "install(PROGRAMS scripts/t DESTINATION lib/${PROJECT_NAME})")
+    starts.write("p/launch/a.launch.xml", '<launch><include file="$(exec-in-pkg t p)"/></launch>')
+    starts.start()
+    program = starts.write("p/scripts/t", LEAF)
+    assert [inclusion.target for inclusion in starts.start().includers(str(program))] == [str(program)]
+    program.unlink()
+    assert starts.start().includers(str(program)) == ()
+
+
 def test_only_the_variables_that_count_do(starts: Starts) -> None:
     starts.write("p/launch/one.launch", LEAF.replace("$(arg x)", "$(env ROBOT)"))
     starts.write("p/launch/two.launch", LEAF.replace("$(arg x)", "$(optenv OTHER none)"))
@@ -237,7 +271,7 @@ def test_what_is_open_in_an_editor_counts(starts: Starts) -> None:
         workspace = Counting(environment, Sources())
         workspace.sources.open(str(path), text)
         build_from_kept(IndexStore(starts.store.folder), workspace, str(starts.folder))
-        assert workspace.made == made
+        assert [*dict.fromkeys(workspace.made)] == made
     starts.start()
     assert starts.made == ["p/launch/leaf.launch"], "that text was never saved"
 
@@ -356,7 +390,12 @@ TEXTS = (
     PYTHON,
     "<launch><unclosed",
     "",
+    '<launch><include file="$(find-pkg-share p)/made/{}"/></launch>',
+    '<launch><node pkg="p" exec="t" name="$(exec-in-pkg t p)"/></launch>',
+    '<launch><node pkg="p" exec="t" name="$(find-exec t)"/><include file="$(find-exec t)"/></launch>',
 )
+INSTALLED = "install(DIRECTORY from/ DESTINATION share/${PROJECT_NAME}/made)\n"
+INSTALLED_PROGRAM = "install(PROGRAMS scripts/t DESTINATION lib/${PROJECT_NAME})\n"
 NAMES = ("a.launch", "b.launch", "leaf.launch", "a.launch.xml", "leaf.launch.xml", "c_launch.py", "d.launch.yaml")
 
 
@@ -372,7 +411,7 @@ def test_whatever_changes_between_two_starts_the_index_is_that_of_a_cold_one(sta
 def change(starts: Starts, chosen: random.Random) -> None:
     package, name = chosen.choice("pq"), chosen.choice(NAMES)
     path = starts.folder / package / "launch" / name
-    match chosen.randrange(10):
+    match chosen.randrange(14):
         case 0:
             path.unlink(missing_ok=True)
         case 1:
@@ -389,5 +428,14 @@ def change(starts: Starts, chosen: random.Random) -> None:
         case 6:
             marker = starts.folder / package / "COLCON_IGNORE"
             marker.unlink() if marker.exists() else starts.write(f"{package}/COLCON_IGNORE", "")
+        case 7:
+            program = starts.write(f"{package}/scripts/t", "#!/bin/sh")
+            program.chmod(chosen.choice([0o644, 0o755]))
+        case 8:
+            (starts.folder / package / "scripts/t").unlink(missing_ok=True)
+        case 9:
+            starts.write(f"{package}/CMakeLists.txt", chosen.choice(["", INSTALLED, INSTALLED + INSTALLED_PROGRAM]))
+        case 10:
+            starts.write(f"{package}/from/{name}", chosen.choice(TEXTS).replace("{}", chosen.choice(NAMES)))
         case _:
             starts.write(f"{package}/launch/{name}", chosen.choice(TEXTS).replace("{}", chosen.choice(NAMES)))
