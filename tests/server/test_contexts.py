@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from lsprotocol import types
 from support.editor_harness import Harness
 from support.lsp_client import Editor, editing
 
@@ -164,3 +165,24 @@ async def test_findings_are_those_of_the_root_that_was_selected(harness: Harness
         select["root"] = None
         await ask(editor, "rosPreflight/selectRoot", select)
         await editor.having(fragment, "LCH013")
+
+
+async def test_nothing_is_left_of_a_root_that_is_gone(harness: Harness) -> None:
+    fragment, fast, slow = create_workspace(harness)
+    async with editing(harness) as editor:
+        editor.open(fragment)
+        await editor.until(lambda: editor.rules(fragment) == [])
+        for root in (fast, slow):
+            root.unlink()
+            editor.watched(root, kind=types.FileChangeType.Deleted)
+
+            async def known() -> list[str]:
+                return [
+                    each.uri for each in (await ask(editor, "rosPreflight/roots", {"uri": fragment.as_uri()})).roots
+                ]
+
+            await editor.once(known, lambda uris, root=root: root.as_uri() not in uris)
+        # With the hover all is analysed that was known then.
+        await shown_value(editor, fragment)
+        assert editor.rules(fragment) == ["ARG003"]
+        assert {uri for uri, params in editor.published.items() if params.diagnostics} == {fragment.as_uri()}

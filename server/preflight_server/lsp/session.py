@@ -465,7 +465,8 @@ class Session:
         return self._touched is None or not self._touched.isdisjoint(analysis.tree.inputs)
 
     async def _round(self, workspace: Workspace, root: Root | None) -> _Round | None:
-        analyses = dict(self._analyses)
+        wanted = set(self._wanted())
+        analyses = {root: analysis for root, analysis in self._analyses.items() if root in wanted}
         known, why = (self.runs.known(root), self.runs.why_not_run) if root is not None else ({}, None)
         stale = frozenset(self._dirty) - {root}
         explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)

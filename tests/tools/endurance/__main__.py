@@ -20,6 +20,7 @@ import argparse
 import contextlib
 import gzip
 import json
+import math
 import os
 import sys
 import tempfile
@@ -46,15 +47,22 @@ SITTING = 1_000
 
 
 def edits(
-    packages: Sequence[materials.Package], seed: int, wanted: int, compare_every: int, *, trusted: bool = False
+    packages: Sequence[materials.Package],
+    seed: int,
+    wanted: int,
+    compare_every: int,
+    *,
+    minutes: float = math.inf,
+    trusted: bool = False,
 ) -> Figures | None:
-    """All sittings in one server. None after a failure, which is printed and written down."""
+    """All sittings in one server, none begun after so many minutes. None after a failure, which is printed and written
+    down."""
     seeds = range(seed, seed + 1 + -(-wanted // SITTING))
     with tempfile.TemporaryDirectory(prefix="preflight-endurance-") as scratch:
         runner = Runner(packages, Path(scratch), seeds, trusted=trusted)
         began = time.monotonic()
         for each in seeds[1:]:
-            if (left := wanted - runner.desk.edits) <= 0:
+            if (left := wanted - runner.desk.edits) <= 0 or time.monotonic() - began > 60 * minutes:
                 break
             try:
                 runner.sit(each, min(SITTING, left), compare_every)
@@ -92,7 +100,7 @@ def replay(packages: Sequence[materials.Package], path: Path, seconds: float) ->
     def failure(steps: Sequence[Step]) -> str | None:
         with tempfile.TemporaryDirectory(prefix="preflight-endurance-") as scratch:
             seeds = [written["base"], written["seed"]]
-            trusted = written["trusted"]
+            trusted = written.get("trusted", False)
             runner = Runner(packages, Path(scratch), seeds, trusted=trusted, equal_seconds=REPLAY_SECONDS)
             try:
                 runner.replay(written["seed"], steps)
@@ -121,6 +129,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--edits", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--minutes", type=float, default=math.inf, help="begin nothing new after so many")
     parser.add_argument("--compare", type=int, default=1_000, help="edits between two comparisons")
     parser.add_argument("--source", type=Path, action="append", default=[], help="a folder with packages")
     parser.add_argument("--write", action="store_true", help=f"write {table.PAGE}")
@@ -137,7 +146,7 @@ def main() -> int:
     rows: list[Row] = []
     if args.only != "conditions":
         print(f"{args.edits:,} edits in files of {len(packages)} packages ({where}), seed {args.seed}", flush=True)
-        figures = edits(packages, args.seed, args.edits, args.compare)
+        figures = edits(packages, args.seed, args.edits, args.compare, minutes=args.minutes)
         if figures is None:
             return 1
         grown = table.grown(figures)

@@ -68,6 +68,8 @@ class LspProcess:
         self.unanswered: dict[int, str] = {}
         self.begun = 0
         """How many pieces of work with progress: the index of each folder is the first. Short ones show none."""
+        self.runs = 0
+        """How often it began to run something in the sandbox."""
         self.idle = False
         self.messages = 0
         self.boxes: list[str] = []
@@ -215,6 +217,7 @@ class LspProcess:
                 self.published[params["uri"]] = params
             elif method == "rosPreflight/status":
                 self.idle = params["state"] == "idle"
+                self.runs += params["state"] == "tracing" and params["done"] == 0
             elif method == "window/workDoneProgress/create":
                 self.begun += 1
             elif method in ("window/showMessage", "window/showMessageRequest"):

@@ -53,6 +53,8 @@ class Figures:
     """By the number of edits; 0: indexed."""
     descriptors: list[int] = field(default_factory=list)
     threads: list[int] = field(default_factory=list)
+    runs: int = 0
+    """How often something began to be run in the sandbox."""
     seconds: float = 0.0
 
 
@@ -188,6 +190,7 @@ class Runner:
         if state := self.server.state():
             raise Failure(f"nothing is open, and diagnostics are left: {state}")
         self._take_over()
+        self.figures.runs = self.server.runs
         self.figures.megabytes[self.figures.edits] = self.server.megabytes()
         self.figures.descriptors.append(self.server.descriptors())
         self.figures.threads.append(self.server.threads())

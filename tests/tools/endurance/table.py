@@ -75,8 +75,9 @@ def text(figures: Figures | None, ran: Figures | None, rows: Sequence[Row], wher
         lines.append("")
     if ran is not None:
         lines += [
-            f"Then {ran.edits:,} edits in a server that runs launch files and commands in the sandbox, compared"
-            f" {ran.comparisons:,} times: all equal, no process left, {ran.descriptors[-1]} descriptors.",
+            f"Then {ran.edits:,} edits in a server that runs launch files and commands in the sandbox, which it did"
+            f" {ran.runs:,} times; {ran.comparisons:,} comparisons: all equal, no process left,"
+            f" {ran.descriptors[-1]} descriptors.",
             "",
         ]
     if rows:
