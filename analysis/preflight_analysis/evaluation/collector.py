@@ -9,7 +9,14 @@ from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
-from preflight_analysis.evaluation.problems import Problem, ValueTooLong
+from preflight_analysis.evaluation.problems import (
+    IncludeNotFound,
+    NotTextFile,
+    Problem,
+    UnreadableFile,
+    UnreadableInclude,
+    ValueTooLong,
+)
 from preflight_analysis.evaluation.tree import (
     Arg,
     Command,
@@ -86,6 +93,17 @@ class Collector:
         if key not in self._reported:
             self._reported.add(key)
             self.problems.append(problem)
+
+    def unreadable_root(self, path: str, found: Unreadable) -> None:
+        """Note that there is nothing to evaluate."""
+        kind = NotTextFile if found.kind == "not-text" else UnreadableFile
+        self.problem(kind(path, found.reason), (Location.of_file(path),))
+
+    def unreadable_include(self, path: str, found: Unreadable, origin: Origin) -> None:
+        """Note that an included file cannot be read, and so that what it holds is not known."""
+        kind = IncludeNotFound if found.kind == "missing" else UnreadableInclude
+        self.problem(kind(path, found.reason), origin)
+        self.note_unknown("<include>", f"{path} {found.reason}", origin[-1])
 
     def has_room(self, length: int, origin: Origin) -> bool:
         """Whether a value may be put together that is so long; if not, that is noted."""

@@ -15,17 +15,13 @@ from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.problems import (
     IncludeArgumentWithoutValue,
     IncludeCycle,
-    IncludeNotFound,
     MalformedXml,
     NestedTooDeeply,
     NoLaunchElement,
-    NotTextFile,
     RedeclaredArgument,
     UndefinedMachine,
     UnexpandedEntity,
     UnknownIncludeArgument,
-    UnreadableFile,
-    UnreadableInclude,
 )
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
@@ -74,10 +70,8 @@ def evaluate(
     state = State(files, executables, environment, cwd, commands, memo)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
-    whole = (Location.of_file(path),)
     if isinstance(found, Unreadable):
-        kind = NotTextFile if found.kind == "not-text" else UnreadableFile
-        state.problem(kind(path, found.reason), whole)
+        state.unreadable_root(path, found)
     else:
         ns = args.get("__ns") or environment.variables.get("ROS_NAMESPACE") or "/"
         scope = Scope(path, found.document.lines, (), names.as_namespace(ns))
@@ -279,8 +273,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     file_origin = scope.origin(file_attribute.value.span)
     if real is None:
-        state.problem(IncludeNotFound(path, "does not exist"), file_origin)
-        state.unknown("<include>", f"{path} does not exist", scope, file_attribute.value.span)
+        state.unreadable_include(path, Unreadable(path, "does not exist", "missing"), file_origin)
         return default_machine
     found = _included(state, scope, path, passed, file_origin)
     if found is None:
@@ -414,9 +407,7 @@ def _included(
         return None
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
-        kind = IncludeNotFound if found.kind == "missing" else UnreadableInclude
-        state.problem(kind(path, found.reason), origin)
-        state.unknown("<include>", f"{path} {found.reason}", scope, origin[-1].span)
+        state.unreadable_include(path, found, origin)
         return None
     return found
 

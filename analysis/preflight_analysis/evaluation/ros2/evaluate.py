@@ -12,7 +12,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files
-from preflight_analysis.evaluation.problems import DuplicateNode, NotTextFile, UnreadableFile
+from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.actions.registry import actions, parts, python_classes, tags
@@ -82,11 +82,9 @@ def _check(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
 def _execute(walk: Walk, path: str, args: Mapping[str, str]) -> None:
     """The root file, then what waits for events."""
     state = walk.state
-    whole = (Location.of_file(path),)
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
-        kind = NotTextFile if found.kind == "not-text" else UnreadableFile
-        state.problem(kind(path, found.reason), whole)
+        state.unreadable_root(path, found)
         return
     walk.context.launch_file = path
     found, run = walk.as_run(found, ())

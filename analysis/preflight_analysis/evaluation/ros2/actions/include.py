@@ -11,10 +11,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import (
     IncludeCycle,
-    IncludeNotFound,
-    Problem,
     UnknownIncludeArgument,
-    UnreadableInclude,
 )
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Place
@@ -100,7 +97,7 @@ def _report_unused(walk: Walk, place: Place, path: str, passed: list[tuple[str, 
             value = child.value("name")
             span = value.span if value is not None else child.kind_span
             kind = UnknownIncludeArgument(name, tuple(sorted(names)), path)
-            walk.state.problems.append(Problem(kind, place.origin(span), False))
+            walk.state.problem(kind, place.origin(span), fatal=False)
 
 
 def _passed(walk: Walk, performer: Performer, action: Action) -> list[tuple[str, Action]]:
@@ -126,11 +123,7 @@ def _read(walk: Walk, place: Place, path: str, at: Location) -> LaunchFile | Non
         found = _configured(walk, path) or found
     if not isinstance(found, Unreadable):
         return found
-    if found.kind == "missing":
-        state.problem(IncludeNotFound(path, found.reason), origin)
-    else:
-        state.problem(UnreadableInclude(path, found.reason), origin)
-    state.note_unknown("<include>", f"{path} {found.reason}", at)
+    state.unreadable_include(path, found, origin)
     return None
 
 
