@@ -14,7 +14,7 @@ from typing import Any, Callable
 import aspectlib  # type: ignore[import-untyped]
 
 from . import channel, mock_replies, polling
-from .rospy_weave import caller
+from .rospy_aspects import caller
 from .weaving import in_main_thread
 
 Advised = Callable[..., Any]

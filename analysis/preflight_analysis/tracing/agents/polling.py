@@ -188,14 +188,14 @@ def watch() -> Watch:
     return _watches[-1]
 
 
-told_states: set[str] = set()
+sent_states: set[str] = set()
 iterations: set[Any] = set()
 """Of the main thread's loop: what was told of it, and the places that it has come to."""
 
 
 def forget_iterations() -> None:
     """After an answer the loop that was seen may be over; another one is told of anew."""
-    told_states.clear()
+    sent_states.clear()
     iterations.clear()
 
 
