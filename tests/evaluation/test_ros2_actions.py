@@ -310,3 +310,11 @@ def test_the_names_of_a_remap_are_where_they_are_written(call: str) -> None:
     (action,) = actions_of([record], source, Span(0, 0), registry.python_classes())
     spans = [attribute.value.span for attribute in action.attributes]
     assert [call[span.start : span.end].strip("'") for span in spans] == ["a", "b"]
+
+
+@pytest.mark.parametrize("kind", ["group", "timer", "ros_timer", "for", "for_each", "include", "node", "executable"])
+def test_what_is_left_out_is_noted_where_it_would_start_something(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.launch.xml"
+    path.write_text(_xml(kind).replace(f"<{kind}", f'<{kind} if="false"'))
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "2"}, ()), Sources())
+    assert [left_out.action.kind for left_out in workspace.static(str(path)).tree.not_taken] == [kind]

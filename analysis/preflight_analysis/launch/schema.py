@@ -73,6 +73,8 @@ class Tag:
     """The attributes that name one tag in an outline; the first that is there counts."""
     detail: tuple[str, ...] = ()
     """Those that say what is worth a glance beside the name; the first that is there counts."""
+    starts: bool = False
+    """Whether it starts nodes or processes, itself or by what it holds: worth a word where its condition is false."""
 
     @property
     def required(self) -> tuple[str, ...]:

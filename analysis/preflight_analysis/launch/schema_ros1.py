@@ -37,8 +37,9 @@ def _tag(
     refused: tuple[str, ...] = (),
     named_by: tuple[str, ...] = (),
     detail: tuple[str, ...] = (),
+    starts: bool = False,
 ) -> Tag:
-    return Tag(doc, {a.name: a for a in (*attributes, *_CONDITIONS)}, children, text, refused, named_by, detail)
+    return Tag(doc, {a.name: a for a in (*attributes, *_CONDITIONS)}, children, text, refused, named_by, detail, starts)
 
 
 _SCOPE = ("node", "include", "arg", "param", "rosparam", "remap", "group", "env", "machine", "test")
@@ -73,6 +74,7 @@ TAGS: Mapping[str, Tag] = {
         _flag("clear_params", "Delete all parameters in the group's namespace before the launch; needs `ns`."),
         children=_SCOPE,
         named_by=("ns",),
+        starts=True,
     ),
     "node": _tag(
         "Starts a node.",
@@ -91,6 +93,7 @@ TAGS: Mapping[str, Tag] = {
         _CLEAR,
         children=_NODE,
         named_by=("name", "type"),
+        starts=True,
     ),
     "test": _tag(
         "Runs a test node; only `rostest` does, `roslaunch` leaves it out.",
@@ -110,6 +113,7 @@ TAGS: Mapping[str, Tag] = {
         children=_NODE,
         refused=("respawn", "respawn_delay", "output"),
         named_by=("test-name", "name", "type"),
+        starts=True,
     ),
     "include": _tag(
         "Reads another launch file. It sees only the arguments that are passed to it.",
@@ -119,6 +123,7 @@ TAGS: Mapping[str, Tag] = {
         _flag("pass_all_args", "Pass on all arguments of this file as well."),
         children=("arg", "env"),
         named_by=("file",),
+        starts=True,
     ),
     "arg": _tag(
         "Declares an argument of this file; inside of an `<include>`: passes one on.",

@@ -9,6 +9,7 @@ from typing import Literal
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.evaluation.tree import CommandValue, Include, LaunchNode, LaunchTree, NotTaken, Param
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.launch.model import NODE_KINDS, Action
@@ -247,7 +248,8 @@ def _written(analysis: Analysis, action: Action, file: str, note: str) -> Item:
     """A tag that was not evaluated, in its own words, with what is in it."""
     named = next((a for name in _WRITTEN_NAME if (a := action.attribute(name)) and a.value.text.strip()), None)
     label = " ".join(named.value.text.split()) if named is not None else action.kind
-    inside = (child for child in action.children if child.kind in NODE_KINDS | {"group", "include", "executable"})
+    tags = tags_of(analysis.tree.generation)
+    inside = (child for child in action.children if (tag := tags.get(child.kind)) is not None and tag.starts)
     children: Iterable[Item] = (_written(analysis, child, file, "") for child in inside)
     detail = note.removeprefix("left out: ")
     return Item(

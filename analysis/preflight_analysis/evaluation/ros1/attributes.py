@@ -18,8 +18,6 @@ from preflight_analysis.launch.schema import one_of
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.substitutions import parse_value
 
-_STARTS = ("node", "test", "include", "group")
-"""Tags that start nodes, themselves or by what they hold."""
 T = TypeVar("T")
 
 
@@ -158,7 +156,7 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
             attributes.bad_value(name, found.text, str(error), TAGS[action.kind.lower()].attributes[name].choices)
             return False
         condition = action.attribute(name)
-        if not taken and condition is not None and action.kind in _STARTS:
+        if not taken and condition is not None and TAGS[action.kind.lower()].starts:
             state.note_not_taken(action, condition, found.text, scope.origin(action.head_span))
         return taken
     return True

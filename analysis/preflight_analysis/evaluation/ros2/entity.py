@@ -34,8 +34,6 @@ class Entity:
     """Whether it may have actions inside, which count as if they stood in the file itself."""
     parameter: str | None = None
     """The parameter of another one's Python class that gives it."""
-    starts: bool = False
-    """Whether it starts nodes or processes, itself or by what it holds: worth a word where its condition is false."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,9 +50,10 @@ def action_tag(
     children: tuple[str, ...] = (),
     named_by: tuple[str, ...] = (),
     detail: tuple[str, ...] = (),
+    starts: bool = False,
 ) -> Tag:
     """A tag with conditions. launch stops at what it does not read."""
-    return part_tag(doc, *attributes, *CONDITIONS, children=children, named_by=named_by, detail=detail)
+    return part_tag(doc, *attributes, *CONDITIONS, children=children, named_by=named_by, detail=detail, starts=starts)
 
 
 def part_tag(
@@ -63,9 +62,10 @@ def part_tag(
     children: tuple[str, ...] = (),
     named_by: tuple[str, ...] = (),
     detail: tuple[str, ...] = (),
+    starts: bool = False,
 ) -> Tag:
     """A tag without conditions of its own."""
-    return Tag(doc, {a.name: a for a in attributes}, children, named_by=named_by, detail=detail)
+    return Tag(doc, {a.name: a for a in attributes}, children, named_by=named_by, detail=detail, starts=starts)
 
 
 def flag(name: str, doc: str, default: str = "false", taken: Taken = "") -> Attribute:

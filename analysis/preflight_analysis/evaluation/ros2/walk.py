@@ -195,17 +195,17 @@ class Walk:
         """Whether a condition is what is wanted; it is not where it is not known or none."""
         result = performer.value(attribute.value)
         span = attribute.value.span
-        entity = self.language.actions.get(action.kind) or self.language.parts.get(action.kind)
+        known, tag = self.language.actions.get(action.kind), self.language.tags.get(action.kind)
         if not result.known:
             at = performer.place.location(span)
             performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
-            if isinstance(entity, LaunchAction) and entity.configures:
+            if known is not None and known.configures:
                 performer.context.cannot_follow(at)
             return False
         word = result.text.strip().lower()
         if word in ("true", "1", "false", "0"):
             taken = (word in ("true", "1")) == wanted
-            if not taken and entity is not None and entity.starts:
+            if not taken and tag is not None and tag.starts:
                 origin = performer.place.origin(action.head_span)
                 performer.state.note_not_taken(action, attribute, result.text, origin)
             return taken

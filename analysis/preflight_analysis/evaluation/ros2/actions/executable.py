@@ -29,6 +29,7 @@ ENTITIES = (
             *PROCESS,
             children=("env",),
             named_by=("name", "cmd"),
+            starts=True,
         ),
         python=(
             PythonClass("launch.actions.ExecuteProcess", keywords={"launch-prefix": "prefix"}),
@@ -36,7 +37,6 @@ ENTITIES = (
         ),
         evaluate=evaluate,
         offered=150,
-        starts=True,
         starts_process=True,
     ),
     Part(

@@ -41,12 +41,12 @@ ENTITIES = (
             flag("scoped", "Whether what is set inside ends with the group.", "true"),
             flag("forwarding", "Whether what was set before is known inside.", "true"),
             children=("keep",),
+            starts=True,
         ),
         python=(PythonClass("launch.actions.GroupAction", ("actions",), unrun=()),),
         evaluate=evaluate,
         offered=50,
         holds_actions=True,
-        starts=True,
         configures=True,
     ),
 )

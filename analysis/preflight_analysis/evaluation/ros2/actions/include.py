@@ -153,6 +153,7 @@ ENTITIES = (
             Attribute("file", "The launch file.", "launch-file", required=True),
             children=("arg",),
             named_by=("file",),
+            starts=True,
         ),
         python=(
             PythonClass(
@@ -164,7 +165,6 @@ ENTITIES = (
         ),
         evaluate=evaluate,
         offered=20,
-        starts=True,
         configures=True,
     ),
     LaunchAction(

@@ -41,11 +41,16 @@ def evaluate_lifecycle(walk: Walk, performer: Performer, action: Action) -> None
 ENTITIES = (
     LaunchAction(
         kind="node",
-        tag=action_tag("Starts a node.", *NODE, children=CHILDREN, named_by=("name", "exec")),
+        tag=action_tag(
+            "Starts a node.",
+            *NODE,
+            children=CHILDREN,
+            named_by=("name", "exec"),
+            starts=True,
+        ),
         python=(PythonClass("launch_ros.actions.Node", keywords=KEYWORDS, unrun=UNRUN),),
         evaluate=evaluate,
         offered=10,
-        starts=True,
         starts_process=True,
     ),
     LaunchAction(
@@ -56,11 +61,11 @@ ENTITIES = (
             flag("autostart", "Configure and activate the node once it is there."),
             children=CHILDREN,
             named_by=("name", "exec"),
+            starts=True,
         ),
         python=(PythonClass("launch_ros.actions.LifecycleNode", keywords=KEYWORDS, unrun=(*UNRUN, "autostart")),),
         evaluate=evaluate_lifecycle,
         offered=140,
-        starts=True,
         starts_process=True,
     ),
 )

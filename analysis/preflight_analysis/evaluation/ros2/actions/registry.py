@@ -49,7 +49,8 @@ def tags() -> Mapping[str, Tag]:
     for entity in (*parts().values(), *actions().values()):
         if entity.tag is not None:
             inside = anywhere if entity.holds_actions else ()
-            found[entity.kind] = replace(entity.tag, children=(*entity.tag.children, *inside))
+            starts = entity.tag.starts or entity.holds_actions
+            found[entity.kind] = replace(entity.tag, children=(*entity.tag.children, *inside), starts=starts)
     return found
 
 
