@@ -84,4 +84,4 @@ def test_arithmetic(expression: str, value: float) -> None:
 def test_nothing_but_its_own_errors_comes_out(expression: str) -> None:
     with suppress(EvaluationError, NotAllowedError):
         value = evaluate(expression, no_names, {})
-        assert isinstance(value, (NoneType, bool, int, float, complex, str, list, tuple, dict, set)), value
+        assert isinstance(value, (NoneType, bool, int, float, complex, str, bytes, list, tuple, dict, set)), value
