@@ -45,6 +45,15 @@ class NearMiss:
     """Both types are known and equal."""
     provider_dangles: bool
 
+    def is_that(self, other: NearMiss) -> bool:
+        """Whether both say the same of the very same endpoints."""
+        return (
+            self.consumer is other.consumer
+            and self.provider is other.provider
+            and self.likeness == other.likeness
+            and (self.same_type, self.provider_dangles) == (other.same_type, other.provider_dangles)
+        )
+
     @property
     def site(self) -> Connection:
         """The endpoint at which it is reported: that whose name the launch file sets, else the consumer."""
@@ -190,8 +199,10 @@ def _node(connection: Connection, namesakes: Mapping[int, int]) -> tuple[str, in
 def _near_misses(
     before: Before[_Found] | None, candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool
 ) -> _Found:
-    if before is None or not _are_alike(before[0], candidates, seekers, blind):
+    if before is None:
         return _compared(candidates, seekers, blind)
+    if not _are_alike(before[0], candidates, seekers, blind):
+        return _with_those_of(before[1], _compared(candidates, seekers, blind))
     # The same as before, said of the ends as they are now.
     (old_candidates, old_seekers, _), known = before
     changed = {now.key: now.channel for old, now in zip(old_candidates, candidates, strict=True) if old is not now}
@@ -203,6 +214,16 @@ def _near_misses(
         for was, hit, old, now in zip(known.near, known.hits, old_seekers, seekers, strict=True)
     )
     return _Found(known.hits, near, channels)
+
+
+def _with_those_of(known: _Found, found: _Found) -> _Found:
+    """The near misses of before for those that say the same of the same ends: what was made of them is found again."""
+    old = {id(near.consumer): near for near in known.near if near is not None}
+    near = tuple(
+        was if each is not None and (was := old.get(id(each.consumer))) is not None and was.is_that(each) else each
+        for each in found.near
+    )
+    return _Found(found.hits, near, found.channels)
 
 
 def _are_alike(

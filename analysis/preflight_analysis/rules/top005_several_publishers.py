@@ -27,25 +27,28 @@ _SHARED = ("visualization_msgs/", "diagnostic_msgs/", "actionlib_msgs/", "dynami
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    if context.graph is None:
-        return
-    for channel in context.graph.topics.values():
-        if len(channel.providers) < 2 or is_transform(channel.name):
-            continue
-        connections = list({c.node.name: c for c in channel.providers if not (c.endpoint.builtin or c.action)}.values())
-        latched = [
-            connection
-            for connection in connections
-            if connection.endpoint.qos.get("latch") is True and not _is_shared(connection)
-        ]
-        if channel.name == "/clock" and len(connections) > 1:
-            yield _finding(rule, channel, connections, "warning", "time jumps between them")
-        elif len(latched) > 1:
-            severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
-            consequence = "each latches its last message, and a new subscriber gets both in any order"
-            yield _finding(rule, channel, latched, severity, consequence)
-        elif len(connections) > 1 and (stream := _one_stream(connections)) is not None:
-            yield _finding(rule, channel, connections, stream, "a subscriber gets the messages of both in turn")
+    channels = context.graph.topics.values() if context.graph is not None else ()
+    yield from filter(None, context.kept.each(_of_channel, channels, rule))
+
+
+def _of_channel(channel: Channel, rule: Rule) -> Finding | None:
+    if len(channel.providers) < 2 or is_transform(channel.name):
+        return None
+    connections = list({c.node.name: c for c in channel.providers if not (c.endpoint.builtin or c.action)}.values())
+    latched = [
+        connection
+        for connection in connections
+        if connection.endpoint.qos.get("latch") is True and not _is_shared(connection)
+    ]
+    if channel.name == "/clock" and len(connections) > 1:
+        return _finding(rule, channel, connections, "warning", "time jumps between them")
+    if len(latched) > 1:
+        severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
+        consequence = "each latches its last message, and a new subscriber gets both in any order"
+        return _finding(rule, channel, latched, severity, consequence)
+    if len(connections) > 1 and (stream := _one_stream(connections)) is not None:
+        return _finding(rule, channel, connections, stream, "a subscriber gets the messages of both in turn")
+    return None
 
 
 def _one_stream(connections: list[Connection]) -> Severity | None:

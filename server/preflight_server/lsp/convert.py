@@ -137,10 +137,16 @@ class Converter:
 
     def _moved(self, known: _OfFile) -> frozenset[Location]:
         """Those of the locations which are elsewhere now."""
-        changed = ((path, places) for path, places in known.places.items() if not self._is_unchanged(path))
-        return frozenset(
-            location for _, places in changed for location, place in places.items() if self.location(location) != place
-        )
+        moved: set[Location] = set()
+        for path, places in known.places.items():
+            if not self._is_unchanged(path):
+                uri, positions = self.uri(path), self.positions(path)
+                moved.update(
+                    location
+                    for location, place in places.items()
+                    if place.uri != uri or not positions.is_at(location.span, place.range)
+                )
+        return frozenset(moved)
 
     def _renewed(self, findings: tuple[Finding, ...], known: _OfFile | None, moved: frozenset[Location]) -> _OfFile:
         places: dict[str, dict[Location, types.Location]] = {}

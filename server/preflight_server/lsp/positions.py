@@ -70,6 +70,17 @@ class Positions:
         """The range of `span`."""
         return Range(self.position(span.start), self.position(span.end))
 
+    def is_at(self, span: Span, known: Range) -> bool:
+        """Whether that is the range of `span`."""
+        return self._is_at(span.start, known.start) and self._is_at(span.end, known.end)
+
+    def _is_at(self, offset: int, known: Position) -> bool:
+        # Asked for each finding of a file on each keystroke: where it can be told, nothing is made for it.
+        line, column = self._lines.position(offset)
+        if line != known.line or self._same:
+            return line == known.line and column == known.character
+        return self.position(offset) == known
+
     def _marks_of(self, line: int) -> list[int]:
         """The columns, in the editor's units, of each `_STEP`th code point of a line."""
         marks = self._marks.get(line)

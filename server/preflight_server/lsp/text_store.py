@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from urllib.parse import quote, unquote_to_bytes, urlsplit
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
@@ -27,6 +28,7 @@ def to_path(uri: str) -> str | None:
     return os.path.normpath(os.fsdecode(name)) if name.startswith(b"/") and b"\0" not in name else None
 
 
+@lru_cache(maxsize=4096)
 def to_uri(path: str) -> str:
     """The `file:` URI of an absolute path: its bytes, whatever the locale's encoding. A name that no file can have
     there, as a text may have one, is the URI of no file."""
