@@ -201,7 +201,7 @@ class CommandRunner:
         python = self.environment.interpreter(self.environment.generation)
         if words[0] in ("python3", "python") and python is not None:
             executable = python  # as for `#!/usr/bin/env python3`
-        if self.environment.generation == 2:
+        if self.environment.ros.ament:
             recipe = ros2_recipe.make_command(self.environment, executable, words[1:], self.cwd)
         else:
             modules = source_folders(self._disk, self.environment)

@@ -15,6 +15,6 @@ def make(
 ) -> Recipe:
     """The recipe of a request. `preload` is the library for the executable, if it is a program that one can be loaded
     into. `modules` are the folders of the Python modules of packages of ROS 1 that are not built."""
-    if request.generation == 2:
+    if request.ros.ament:
         return ros2_recipe.make(environment, request, preload)
     return ros1_recipe.make(environment, request, preload, modules)
