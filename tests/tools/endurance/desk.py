@@ -41,6 +41,8 @@ OF_FILE = (
     "codeLens",
 )
 MAX_UNANSWERED = 40
+PAUSE_SECONDS = 0.7
+"""Longer than the server waits after the last keystroke before it runs anything."""
 _LINE_END = re.compile(r"\r\n|\r|\n")
 _LANGUAGES = {".yaml": "yaml", ".yml": "yaml", ".py": "python"}
 
@@ -156,6 +158,11 @@ class Desk:
         """Until all is answered, so that what was typed is analysed."""
         while self._asked:
             self.server.answer(self._asked.pop(0))
+
+    def _pause(self) -> None:
+        """As long as a user has to look at something: until all is run that is to be run."""
+        self._wait()
+        self.server.rest(0, PAUSE_SECONDS, 60.0)
 
     def reopen_in(self, server: LspProcess) -> None:
         """Open the same texts in another server, in the order in which they were last looked at."""

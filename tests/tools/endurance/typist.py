@@ -100,8 +100,11 @@ NO_TEXT = ("fffe3c006c00", "80818283", "00" * 40, "3c6c61756e63683ee9")
 class Typist:
     """Steps for the files of a desk. `names` are those that it opens, `pool` the texts that it takes pieces from."""
 
-    def __init__(self, desk: Desk, chance: random.Random, names: Sequence[str], pool: Sequence[str]) -> None:
+    def __init__(
+        self, desk: Desk, chance: random.Random, names: Sequence[str], pool: Sequence[str], *, pauses: bool = False
+    ) -> None:
         self._desk = desk
+        self._pauses = pauses
         self._chance = chance
         self._names = list(names)
         self._originals = {name: readable(desk.path(name)) or "" for name in names}
@@ -123,7 +126,8 @@ class Typist:
         desk, chance = self._desk, self._chance
         opened = list(desk.texts)
         kinds = ["type", "erase", "paste", "cut", "word", "value", "undo", "revert", "many", "open", "close", "save"]
-        kind = chance.choices([*kinds, "disk", "wait"], [10, 4, 8, 6, 6, 8, 6, 2, 3, 4, 2, 2, 3, 3])[0]
+        weights = [10, 4, 8, 6, 6, 8, 6, 2, 3, 4, 2, 2, 3, 12 if self._pauses else 3]
+        kind = chance.choices([*kinds, "disk", "wait"], weights)[0]
         if kind == "open" or not opened:
             if len(opened) >= MAX_OPEN:
                 yield ["close", chance.choice(opened)]
@@ -132,7 +136,7 @@ class Typist:
             yield from self._disk()
         elif kind == "wait":
             yield self._question(chance.choice(opened), 0, False)
-            yield ["wait"]
+            yield ["pause" if self._pauses else "wait"]
         elif kind in ("close", "save"):
             yield [kind, chance.choice(opened)]
         else:
