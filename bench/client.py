@@ -25,8 +25,9 @@ class Client:
         )
         self._id = 0
         self._titles: dict[str, str] = {}
+        self.begun: dict[str, float] = {}
         self.ended: dict[str, float] = {}
-        """When the progress of a title ended."""
+        """When the progress of a title began, and ended."""
         self.request(
             "initialize",
             {
@@ -74,6 +75,7 @@ class Client:
     def _progress(self, token: str, value: Any) -> None:
         if value["kind"] == "begin":
             self._titles[token] = value["title"]
+            self.begun[value["title"]] = time.perf_counter()
         elif value["kind"] == "end":
             self.ended[self._titles[token]] = time.perf_counter()
 
