@@ -38,8 +38,8 @@ test: setup ## all tests but those in VS Code, side by side; Neovim is among the
 	tests/editors/install.sh neovim
 	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not vscode"
 
-quick: $(READY) ## the tests that need neither ROS nor an editor, in a minute
-	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not ros and not editor"
+quick: $(READY) ## the tests that need neither ROS nor an editor, without the slow ones: in a minute or two
+	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not ros and not editor and not slow"
 
 lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the types of Python and of the pages' scripts, the layers
 	$(BIN)/ruff check .

@@ -19,6 +19,7 @@ SHORT = settings(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
 def test_whatever_it_is_given_the_promises_are_kept(target: Target) -> None:
     seeds = target.seeds()

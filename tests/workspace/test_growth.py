@@ -200,6 +200,7 @@ def cases() -> Iterator[object]:
             yield pytest.param(name, before, piece, after, id=f"{name} {before[-12:]!a} {piece!a}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "before", "piece", "after"), cases())
 def test_time_grows_with_the_length(name: str, before: str, piece: str, after: str, tmp_path: Path) -> None:
     def run(count: int, clock: Clock) -> None:
