@@ -47,6 +47,7 @@ PATHS = (
     "100% #1?",
     "a&b<c>'d\"",
     "x" * 200,
+    os.fsdecode(b"gr\xf6\xdfe"),
 )
 C_LOCALE = {"LC_ALL": "C"}
 Findings = dict[str, list[str]]
@@ -230,7 +231,7 @@ def conditions(seed: int = 0, kills: int = KILLS) -> list[Row]:
             ),
             (
                 "cache and temporary folder on a full disk",
-                "static findings as usual, no exception; that no run was possible is said",
+                "findings as usual, or the static ones where nodes cannot be run, which is said then; no exception",
                 lambda folder: _full(folder, usual),
             ),
             (

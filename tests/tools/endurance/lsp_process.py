@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import queue
 import re
 import subprocess
 import sys
@@ -59,7 +60,8 @@ class LspProcess:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._log, env=dict(variables), cwd=cwd
         )
         self._news = threading.Condition()
-        self._writing = threading.Lock()
+        self._outbox: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        """Whoever reads must not wait for the server to read: it may wait for him."""
         self._number = 0
         self._ended = False
         self.published: dict[str, dict[str, Any]] = {}
@@ -75,6 +77,7 @@ class LspProcess:
         self.boxes: list[str] = []
         """What it showed the user in message boxes."""
         threading.Thread(target=self._read, daemon=True).start()
+        threading.Thread(target=self._write, daemon=True).start()
         self.capabilities = self.request(
             "initialize",
             {
@@ -173,21 +176,25 @@ class LspProcess:
 
     def _let_go(self) -> None:
         self._process.kill()
+        self._outbox.put(None)
         for stream in (self._process.stdin, self._process.stdout, self._log):
             assert stream is not None
             with contextlib.suppress(OSError):
                 stream.close()
 
     def _send(self, message: Mapping[str, Any]) -> None:
-        assert self._process.stdin is not None
+        if self._ended and "method" in message:
+            raise Failure(f"the server is gone{self._tail()}")
         body = json.dumps({"jsonrpc": "2.0", **message}).encode()
-        try:
-            with self._writing:
-                self._process.stdin.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
-                self._process.stdin.flush()
-        except (OSError, ValueError):
-            if "method" in message:
-                raise Failure(f"the server is gone{self._tail()}") from None
+        self._outbox.put(b"Content-Length: %d\r\n\r\n" % len(body) + body)
+
+    def _write(self) -> None:
+        stream = self._process.stdin
+        assert stream is not None
+        with contextlib.suppress(OSError, ValueError):
+            while (message := self._outbox.get()) is not None:
+                stream.write(message)
+                stream.flush()
 
     def _read(self) -> None:
         stream = self._process.stdout
