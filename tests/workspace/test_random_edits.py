@@ -12,6 +12,7 @@ from tools import random_edits
 ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 4, 15, 16, 20, 21])
 def test_random_edits_leave_nothing_behind(seed: int) -> None:
     packages = find_packages([str(ROBOT)]).packages
