@@ -242,7 +242,7 @@ def conditions(seed: int = 0, kills: int = KILLS) -> list[Row]:
             (
                 "HOME that is not there",
                 "findings as usual, no exception",
-                lambda folder: usual.compare(Setting(folder / "ws", folder / "home", {"HOME": "/nowhere/at/all"})),
+                lambda folder: usual.compare(Setting(folder / "ws", folder / "home", {"HOME": "/proc/nowhere"})),
             ),
             (
                 "LC_ALL=C",
