@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from random import Random
 
@@ -69,6 +70,17 @@ def asked(db: Database, name: str) -> tuple[object, ...]:
     return tuple(result)
 
 
+class Counts:
+    """Answers how often something is in a text."""
+
+    def __init__(self, text: str) -> None:
+        self.number = hash(text)
+        self.look = text.count
+
+    def alike(self, number: int, questions: Iterable[object]) -> bool:
+        return number == self.number
+
+
 TEXTS = st.lists(st.sampled_from([*NAMES, "1", "5", "20", "!", "?"]), max_size=5).map(" ".join)
 STEPS = st.lists(
     st.tuples(
@@ -122,7 +134,7 @@ def test_after_any_steps(steps: list[tuple[str, str, str]]) -> None:
     for what, name, text in steps:
         step(db, what, name, text)
         if what == "ask":
-            assert asked.answered(db, text.count, name) == asked.answered(fresh(db), text.count, name)
+            assert asked.answered(db, Counts(text), name) == asked.answered(fresh(db), Counts(text), name)
         if what.startswith("read"):
             again = fresh(db)
             assert report(db) == report(again)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from itertools import count
 from typing import Any
 
 import pytest
 from preflight_analysis.incremental.database import (
     UNUSED_AFTER,
-    Answer,
     Cancelled,
     CycleError,
     Database,
@@ -262,16 +262,39 @@ def translated(db: Database, name: str) -> str:
     return " ".join(str(db.ask(word)) for word in TEXT(db, name).split())
 
 
+class Answering:
+    """Answers by a function; what it is asked is noted."""
+
+    numbers = count()
+
+    def __init__(self, look: Callable[[Any], object], asked: list[Any]) -> None:
+        self.number = next(self.numbers)
+        self._look = look
+        self._asked = asked
+
+    def look(self, question: Any) -> object:
+        self._asked.append(question)
+        return self._look(question)
+
+    def alike(self, number: int, questions: Iterable[Any]) -> bool:
+        return number == self.number
+
+
+def test_who_has_answered_before_is_not_asked_again() -> None:
+    db, asked = Database(), list[Any]()
+    answers = Answering(str, asked)
+    assert translated.answered(db, answers, "a") == translated.answered(db, answers, "a") == "1 2"
+    assert asked == ["1", "2"]
+    assert translated.answered(db, Answering(str, asked), "a") == "1 2"
+    assert asked == ["1", "2"] * 2
+
+
 def test_answers_are_part_of_what_is_remembered() -> None:
     it = Made()
     asked: list[Any] = []
 
-    def answer(words: dict[str, object]) -> Answer:
-        def say(question: Any) -> object:
-            asked.append(question)
-            return words.get(question, "?")
-
-        return say
+    def answer(words: dict[str, object]) -> Answering:
+        return Answering(lambda question: words.get(question, "?"), asked)
 
     one, two = {"1": "one", "2": "two", "3": "no matter"}, {"1": "eins", "2": "zwei"}
     for words, expected in ((one, "one two"), (two, "eins zwei"), (one | {"3": "three"}, "one two")):
@@ -293,13 +316,13 @@ def test_who_does_not_answer_is_not_asked() -> None:
 
     @query
     def answers(db: Database) -> str:
-        return translated.answered(db, str, "a")
+        return translated.answered(db, Answering(str, []), "a")
 
     db = Database()
     with pytest.raises(RuntimeError, match="nobody"):
         translated(db, "a")
     with pytest.raises(RuntimeError, match="nobody"):
-        asks.answered(db, str)
+        asks.answered(db, Answering(str, []))
     with pytest.raises(RuntimeError, match="cannot answer"):
         answers(db)
 
@@ -313,7 +336,7 @@ def test_all_of_a_handle_is_forgotten_at_once() -> None:
 
     db = Database()
     of_handle(db, handle, "a")
-    of_handle.answered(db, str, handle, "b")
+    of_handle.answered(db, Answering(str, []), handle, "b")
     of_handle(db, object(), "a")
     db.forget(handle)
     assert not any(handle in key for _, key in db.cells)

@@ -41,6 +41,7 @@ class SourceHarness:
 
     def again(self, inner: str = "", args: str = "", node: str = "") -> SourceInterface | None:
         """What the files tell of the first node, as they are now."""
+        self.sources.look()
         tree = self.launch(inner, args, node)
         params = LaunchParams({p.name: p.value for p in tree.params.values()})
         return self.analysis.read(tree.nodes[0], params)

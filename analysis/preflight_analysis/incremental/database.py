@@ -21,12 +21,26 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
+from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec, Protocol, TypeVar, cast, overload
 
 P = ParamSpec("P")
 V = TypeVar("V")
 Key = tuple[Hashable, ...]
-Answer = Callable[[Hashable], Any]
+
+
+class Answers(Protocol):
+    """Of one who is asked by queries."""
+
+    @property
+    def number(self) -> int:
+        """Names the answers: who has the same gives the same."""
+
+    def look(self, question: Any, /) -> Any:
+        """What is answered."""
+
+    def alike(self, number: int, questions: Iterable[Any], /) -> bool:
+        """Whether it is known, without asking, that those of that number answer all these questions alike."""
+
 
 UNUSED_AFTER = 64
 """Revisions after which what nobody asked for is forgotten, with all that it was made from."""
@@ -82,11 +96,11 @@ class Query(Generic[P, V]):
         _refuse(none)
         return cast(V, db.read(self, key))
 
-    def answered(self, db: Database, answer: Answer, /, *key: P.args, **none: P.kwargs) -> V:
+    def answered(self, db: Database, answers: Answers, /, *key: P.args, **none: P.kwargs) -> V:
         """The value for one who answers what the function asks (`Database.ask`). It is remembered with the questions
         and their answers, for all who would answer them alike. No query may do so: nobody would know of the answers."""
         _refuse(none)
-        return cast(V, db.read_answered(self, key, answer))
+        return cast(V, db.read_answered(self, key, answers))
 
     def __repr__(self) -> str:
         return f"Query({self.name})"
@@ -105,6 +119,15 @@ def query(function: Callable[..., Any] | None = None, *, limit: int | None = Non
     return Query(function, limit) if function is not None else lambda function: Query(function, limit)
 
 
+def _would_answer(answers: Answers, cell: _Cell) -> bool:
+    """Whether they would answer what was asked for a cell as it was."""
+    known = cell.answered_by is not None and answers.alike(cell.answered_by, cell.answers)
+    if not known and any(not _same(answers.look(question), answer) for question, answer in cell.answers.items()):
+        return False
+    cell.answered_by = answers.number
+    return True
+
+
 def _same(one: object, other: object) -> bool:
     return type(one) is type(other) and one == other
 
@@ -118,6 +141,7 @@ class _Cell:
     """One value: of an input, or of a query with the cells that it read, in the order in which it did."""
 
     __slots__ = (
+        "answered_by",
         "answers",
         "changed_at",
         "claimed",
@@ -149,13 +173,15 @@ class _Cell:
         """The last revision in which somebody asked for it."""
         self.answers: Mapping[Hashable, object] = {}
         """To what the function asked when it was made."""
+        self.answered_by: int | None = None
+        """The number of those who gave them, or would."""
 
 
 class _Asked(NamedTuple):
     """What the function of a cell asks somebody, and was answered."""
 
     cell: _Cell
-    answer: Answer
+    by: Answers
     answers: dict[Hashable, object]
 
 
@@ -341,7 +367,7 @@ class Database:
             self._used(kind, key, kind.limit)
         return cell.value
 
-    def read_answered(self, kind: Query[Any, Any], key: Key, answer: Answer) -> object:
+    def read_answered(self, kind: Query[Any, Any], key: Key, answers: Answers) -> object:
         """As `Query.answered`."""
         thread = self._thread
         if thread.reads:
@@ -349,14 +375,13 @@ class Database:
         if not thread.readings:
             while True:
                 with suppress(Cancelled), self.reading():
-                    return self.read_answered(kind, key, answer)
+                    return self.read_answered(kind, key, answers)
         if self._writers:
             raise Cancelled
         cells = self._answered.setdefault((kind, key), [])
-        known = (cell for cell in reversed(cells) if all(_same(answer(q), a) for q, a in cell.answers.items()))
-        cell = next(known, None) or _Cell(kind, key)
+        cell = next((cell for cell in reversed(cells) if _would_answer(answers, cell)), None) or _Cell(kind, key)
         cell.used_at = self.revision
-        thread.asked = _Asked(cell, answer, {})
+        thread.asked = _Asked(cell, answers, {})
         try:
             if cell.verified_at < self.revision:
                 self._bring_up_to_date(cell)
@@ -377,7 +402,7 @@ class Database:
         if asked is None or not making or making[-1] is not asked.cell:
             raise RuntimeError("there is nobody to answer")
         if question not in asked.answers:
-            asked.answers[question] = asked.answer(question)
+            asked.answers[question] = asked.by.look(question)
         return asked.answers[question]
 
     @property
@@ -478,7 +503,7 @@ class Database:
             thread.reads.pop()
             thread.making.pop()
         if thread.asked is not None and thread.asked.cell is cell:
-            cell.answers = thread.asked.answers
+            cell.answers, cell.answered_by = thread.asked.answers, thread.asked.by.number
         same = cell.value is not _NONE and cell.value == value
         with self._condition:
             if not same:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.model import Package
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
 from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main
-from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
@@ -21,18 +20,16 @@ from preflight_analysis.source.roscpp_calls import RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
 from preflight_analysis.tracing.nodelets import nodelet_of
 
-_MAX_FILES = 256
 _NODELET = "nodelet::Nodelet"
 
 
 class CppAnalysis:
-    """Reads the C++ sources of nodes; what a file declares is remembered by its digest. Thread-safe."""
+    """Reads the C++ sources of nodes."""
 
-    def __init__(self, packages: Mapping[str, Package], has_type: Callable[[str, str, str], bool]) -> None:
+    def __init__(self, packages: Mapping[str, Package], disk: Disk, has_type: Callable[[str, str, str], bool]) -> None:
         self._packages = packages
+        self._disk = disk
         self._has_type = has_type
-        self._lock = threading.Lock()
-        self._files: dict[tuple[str, str], FileText | None] = {}
 
     def read(
         self,
@@ -40,14 +37,11 @@ class CppAnalysis:
         args: Sequence[str],
         remaps: Mapping[str, str],
         params: KnownParams,
-        text: Callable[[str], tuple[str, str] | None],
         config: Config,
     ) -> Collector:
-        """What a node (its name, package and executable) makes. `text` gives the text of a file with its digest."""
+        """What a node (its name, package and executable) makes."""
         name, package, executable = node
-        files = CppFiles(
-            self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text), LIBRARIES
-        )
+        files = CppFiles(self._packages, self._disk, LIBRARIES)
         calls = RoscppCalls(name, remaps, params, self._has_type, config)
         if (nodelet := nodelet_of(package, executable, args)) is not None:
             self._nodelet(files, nodelet.plugin, calls)
@@ -68,17 +62,11 @@ class CppAnalysis:
         node: tuple[str, str, str],
         args: Sequence[str],
         params: KnownParams,
-        text: Callable[[str], tuple[str, str] | None],
         plugin: str | None,
     ) -> Collector:
         """What a node of ROS 2 makes, `plugin` if it is a component that is loaded into a container."""
         name, package, executable = node
-        files = CppFiles(
-            self._packages,
-            lambda path: (text(path) or (None, ""))[0],
-            lambda path: self._file(path, text),
-            RCLCPP_LIBRARIES,
-        )
+        files = CppFiles(self._packages, self._disk, RCLCPP_LIBRARIES)
         calls = RclcppCalls(name, params, self._has_type, partial(files.parameter_library, package))
         cls = plugin or files.build(package).component_programs.get(executable)
         program = files.component(package, cls) if cls is not None else files.executable(package, executable)
@@ -91,11 +79,9 @@ class CppAnalysis:
         calls.finish()
         return calls.collected
 
-    def component(self, package: str, cls: str, text: Callable[[str], tuple[str, str] | None]) -> Place | None:
+    def component(self, package: str, cls: str) -> Place | None:
         """Where the class is defined that a package registers as an rclcpp component."""
-        files = CppFiles(
-            self._packages, lambda path: (text(path) or (None, ""))[0], lambda path: self._file(path, text), LIBRARIES
-        )
+        files = CppFiles(self._packages, self._disk, LIBRARIES)
         program = files.component(package, cls)
         found = program.classes.get(tuple(cls.removeprefix("::").split("::"))) if program is not None else None
         return Place(found.file.path, found.line) if found is not None else None
@@ -106,18 +92,3 @@ class CppAnalysis:
             program, cls = found
             calls.include(program.includes)
             interpret_class(program, cls, "onInit", calls)
-
-    def _file(self, path: str, text: Callable[[str], tuple[str, str] | None]) -> FileText | None:
-        found = text(path)
-        if found is None:
-            return None
-        key = (path, found[1])
-        with self._lock:
-            if key in self._files:
-                return self._files[key]
-        declared = parse(path, found[0])
-        with self._lock:
-            self._files[key] = declared
-            if len(self._files) > _MAX_FILES:
-                del self._files[next(iter(self._files))]
-        return declared

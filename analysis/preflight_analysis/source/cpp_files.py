@@ -7,49 +7,55 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from lxml import etree
 
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build, Target
-from preflight_analysis.environment.cmake import LISTS, read_build
+from preflight_analysis.environment.cmake import LISTS
+from preflight_analysis.environment.installed_paths import cmake_build
 from preflight_analysis.environment.model import Package
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.source.cpp_program import CppProgram
-from preflight_analysis.source.cpp_text import FileText
+from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.parameter_library import ParameterLibrary, read_parameter_library
 
 MAX_FILES = 200
 """How many files of one program are looked at."""
 
+_MAX_TEXTS = 256
 _PLUGIN_FILES = 10
 _REGISTERED = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:::)?([\w:]+)\s*\)")
 _PLUGINS = frozenset({"nodelet", "pluginlib"})
 
 
-class CppFiles:
-    """Puts one program together. `read` gives the text of a file, `parse` what a file declares; both note that the
-    file was looked at. Files of the packages `known` are left out of the programs of others."""
+@query(limit=_MAX_TEXTS)
+def _file_text(db: Database, path: str) -> FileText | None:
+    """What a file declares; None where there is none."""
+    text = _text(Disk(db), path)
+    return parse(path, text) if text is not None else None
 
-    def __init__(
-        self,
-        packages: Mapping[str, Package],
-        read: Callable[[str], str | None],
-        parse: Callable[[str], FileText | None],
-        known: Collection[str] = (),
-    ) -> None:
+
+def _text(disk: Disk, path: str) -> str | None:
+    found = disk.text(path)
+    return found.text if isinstance(found, Document) else None
+
+
+class CppFiles:
+    """Puts one program together. Files of the packages `known` are left out of the programs of others."""
+
+    def __init__(self, packages: Mapping[str, Package], disk: Disk, known: Collection[str] = ()) -> None:
         self._packages = packages
-        self._read = read
-        self._parse = parse
+        self._disk = disk
         self._known = known
-        self._builds: dict[str, Build] = {}
 
     def build(self, package: str) -> Build:
         """What a package builds; nothing for one that is not there in source form."""
-        if package not in self._builds:
-            found = self._packages.get(package)
-            self._builds[package] = read_build(found.share, package, self._read) if found is not None else Build()
-        return self._builds[package]
+        found = self._packages.get(package)
+        return cmake_build(self._disk, found) if found is not None else Build()
 
     def executable(self, package: str, name: str) -> CppProgram | None:
         """The program that an executable of a package is built from."""
@@ -75,14 +81,14 @@ class CppFiles:
                 path = self.build(other).parameter_libraries.get(PurePath(header).stem)
                 paths += [path] if path is not None else []
         for path in dict.fromkeys(paths):
-            text = self._read(path)
+            text = _text(self._disk, path)
             found = read_parameter_library(path, text) if text is not None else None
             if found is not None and found[0] == space:
                 return found[1]
         return None
 
     def _registers(self, target: Target, cls: str) -> bool:
-        texts = (self._read(source) or "" for source in target.sources)
+        texts = (_text(self._disk, source) or "" for source in target.sources)
         return any(found[1] == cls for text in texts for found in _REGISTERED.finditer(text))
 
     def plugin(self, name: str, base: str) -> tuple[CppProgram, str] | None:
@@ -101,7 +107,7 @@ class CppFiles:
             return
         for name, package in self._packages.items():
             needs = not _PLUGINS.isdisjoint(package.dependencies)
-            if needs and os.path.isfile(os.path.join(package.share, LISTS)):
+            if needs and self._disk.is_file(os.path.join(package.share, LISTS)):
                 yield name
 
     def _plugins(self, package: str, base: str) -> Iterator[tuple[str, str, str]]:
@@ -109,7 +115,7 @@ class CppFiles:
         found = self._packages.get(package)
         if found is None:
             return
-        manifest = _xml(self._read(found.manifest))
+        manifest = _xml(_text(self._disk, found.manifest))
         exported = manifest.find(".//export") if manifest is not None else None
         paths = [
             value.replace("${prefix}", found.share)
@@ -118,7 +124,7 @@ class CppFiles:
             if value and isinstance(element.tag, str)
         ]
         for path in paths[:_PLUGIN_FILES]:
-            described = _xml(self._read(os.path.normpath(os.path.join(found.share, path))))
+            described = _xml(_text(self._disk, os.path.normpath(os.path.join(found.share, path))))
             for library in described.iter("library") if described is not None else ():
                 for cls in library.iter("class"):
                     if cls.get("base_class_type") == base and (type_ := cls.get("type")):
@@ -130,7 +136,7 @@ class CppFiles:
         known = set(pending)
         while pending and len(found) < MAX_FILES:
             path = pending.pop(0)
-            text = self._parse(path)
+            text = _file_text(self._disk.db, path)
             if text is None:
                 continue
             found[path] = text
@@ -146,7 +152,8 @@ class CppFiles:
             other = self._package_of(include)
             if other != package:
                 folders += self._folders(other) if other not in self._known else []
-            path = _first(os.path.normpath(os.path.join(folder, include)) for folder in folders)
+            paths = (os.path.normpath(os.path.join(folder, include)) for folder in folders)
+            path = next((path for path in paths if self._disk.is_file(path)), None)
             if path is None:
                 continue
             yield path
@@ -176,10 +183,6 @@ class CppFiles:
         for target in self.build(package).targets.values():
             if target.kind == "library":
                 yield from (source for source in target.sources if PurePath(source).stem == stem)
-
-
-def _first(paths: Iterable[str]) -> str | None:
-    return next((path for path in paths if os.path.isfile(path)), None)
 
 
 def _xml(text: str | None) -> etree._Element | None:

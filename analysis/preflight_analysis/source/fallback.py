@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from operator import is_
 from typing import Any, Literal
@@ -18,27 +17,13 @@ from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Interface, ParamUse
 from preflight_analysis.tracing.similar import SimilarTraces, asked
 
-_MAX_REMEMBERED = 4096
-
-
-@dataclass(frozen=True, slots=True)
-class _Filled:
-    """What was added to a node's interface, and what came of it."""
-
-    interface: Interface
-    found: Interface | SourceInterface
-    whole: Interface
-
 
 class Fallback:
-    """Adds to interfaces what is known from elsewhere. Asked at each keystroke: what did not change is not made anew.
-    Thread-safe."""
+    """Adds to interfaces what is known from elsewhere."""
 
     def __init__(self, sources: SourceAnalysis, similar: SimilarTraces | None = None) -> None:
         self._sources = sources
         self._similar = similar
-        self._lock = threading.Lock()
-        self._filled: dict[tuple[str, str | None], _Filled] = {}
 
     def fill_in(self, tree: LaunchTree, interfaces: Sequence[Interface], kept: Kept) -> tuple[Interface, ...]:
         """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end is added what a run of
@@ -53,7 +38,6 @@ class Fallback:
         params = kept.patched(_launch_params, "", tuple(tree.params.values()), tuple(of_nodes))
         similar = self._similar.looking(params.values) if self._similar is not None else None
         as_asked, keys = kept.each(asked, tree.nodes, tree.generation), kept.each(source_key, tree.nodes)
-        digests: dict[str, str] = {}
         whole = list(interfaces)
         for at, (node, gap) in enumerate(zip(tree.nodes, gaps, strict=True)):
             if gap is None:
@@ -61,40 +45,21 @@ class Fallback:
             found: Interface | SourceInterface | None = None
             if similar is not None and gap == "all":
                 found = similar(as_asked[at])
-            found = found or self._sources.read_as(keys[at], node, params, digests)
+            found = found or self._sources.read_as(keys[at], params)
             if found is not None:
-                whole[at] = self._filled_in(node, interfaces[at], found, gap)
+                whole[at] = kept.get(_whole, (node.name, at), node, interfaces[at], found, gap)
         return tuple(whole)
-
-    def _filled_in(
-        self, node: LaunchNode, interface: Interface, found: Interface | SourceInterface, gap: _Gap
-    ) -> Interface:
-        key = node.name, node.resolved.path
-        known = self._filled.get(key)
-        if (
-            known is None
-            or known.found is not found
-            or (known.interface is not interface and known.interface != interface)
-        ):
-            if gap == "all":
-                more = _with_more(node, interface, found)
-            else:
-                more = _with_places(interface, found) if "places" in gap else interface
-                more = _with_later(node, more, found) if "later" in gap else more
-            known = _Filled(interface, found, more)
-            self._remember(key, known)
-        return known.whole
-
-    def _remember(self, key: tuple[str, str | None], filled: _Filled) -> None:
-        with self._lock:
-            self._filled.pop(key, None)
-            self._filled[key] = filled
-            if len(self._filled) > _MAX_REMEMBERED:
-                del self._filled[next(iter(self._filled))]
 
 
 _Gap = Literal["all", "places", "later", "places, later"]
 """What is not known of a node."""
+
+
+def _whole(node: LaunchNode, interface: Interface, found: Interface | SourceInterface, gap: _Gap) -> Interface:
+    if gap == "all":
+        return _with_more(node, interface, found)
+    more = _with_places(interface, found) if "places" in gap else interface
+    return _with_later(node, more, found) if "later" in gap else more
 
 
 def _gap(node: LaunchNode, interface: Interface, ros: Generation) -> _Gap | None:

@@ -1,9 +1,9 @@
-"""The parameter server of a launch as a source analysis asks it, with a note of what was asked."""
+"""The parameter server of a launch as a source analysis asks it."""
 
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from itertools import count
 from typing import Any
@@ -42,7 +42,7 @@ class LaunchParams:
             new._sorted = self._sorted
         return new
 
-    def answer_alike(self, number: int, asked: Iterable[str]) -> bool:
+    def alike(self, number: int, asked: Iterable[str]) -> bool:
         """Whether it is known that the parameters of that number have the same for all these names."""
         if number == self.number:
             return True
@@ -72,18 +72,13 @@ class LaunchParams:
 
 
 class KnownParams:
-    """`LaunchParams` that notes what was asked and what the answer was. `own` are those that the node's arguments set,
-    by full name."""
+    """What a node may know of the parameter server: `ask` is asked as `LaunchParams.look`; `own` are those that the
+    node's arguments set, by full name."""
 
-    def __init__(self, params: LaunchParams, own: Mapping[str, Any]) -> None:
-        self._params = params
+    def __init__(self, ask: Callable[[str], Any], own: Mapping[str, Any]) -> None:
+        self._ask = ask
         self._own = own
-        self.asked: dict[str, Any] = {}
 
     def look(self, name: str) -> Any:
         """As `LaunchParams.look`, but for what the node sets itself as it starts."""
-        if name in self._own:
-            return self._own[name]
-        if name not in self.asked:
-            self.asked[name] = self._params.look(name)
-        return self.asked[name]
+        return self._own[name] if name in self._own else self._ask(name)

@@ -188,7 +188,7 @@ class Workspace:
 
     def entry_point(self, path: str, function: str) -> Place | None:
         """Where a module defines the function that a console script calls."""
-        tree, _ = self._common.source.tree(path)
+        tree = self._common.source.tree(path)
         defined = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
         body = tree.body if tree is not None else ()
         lines = [each.lineno for each in body if isinstance(each, defined) and each.name == function]
@@ -363,7 +363,7 @@ class Workspace:
         """The interfaces with what is known beside runs."""
         interfaces = from_settings(tree, interfaces, project.nodes)
         view = self._view(tree.file)
-        return view.fallback.fill_in(tree, view.nodl.fill_in(tree, interfaces), kept)
+        return view.fallback.fill_in(tree, view.nodl.fill_in(tree, interfaces, kept), kept)
 
     def _project_settings(self) -> ProjectSettings:
         """The settings file of the workspace as it is now."""
