@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from itertools import count
 from typing import Any
 
@@ -260,6 +261,38 @@ def test_a_query_may_look_at_what_it_gave_before() -> None:
 @query
 def translated(db: Database, name: str) -> str:
     return " ".join(str(db.ask(word)) for word in TEXT(db, name).split())
+
+
+@query
+def lengths(db: Database, name: str) -> tuple[int, ...]:
+    """Of the files that a file names; each is a part of its own."""
+    return tuple(db.part(word, partial(_length, db, word)) for word in TEXT(db, name).split())
+
+
+def _length(db: Database, name: str) -> int:
+    MADE.append(name)
+    return len(numbers(db, name))
+
+
+MADE: list[str] = []
+
+
+def test_parts_are_made_again_where_what_they_read_has_changed() -> None:
+    db = Database()
+    change(db, "list", "a b")
+    assert lengths(db, "list") == (2, 1)
+    MADE.clear()
+    change(db, "list", "b a a c")
+    assert lengths(db, "list") == (1, 2, 2, 0)
+    assert MADE == ["c"]
+    change(db, "a", "1 2 3")
+    assert lengths(db, "list") == (1, 3, 3, 0)
+    assert MADE == ["c", "a"], "and the second time it is there"
+    change(db, "list", "b")
+    change(db, "list", "a b")
+    assert lengths(db, "list") == (3, 1), "what was no part for a while is not asked for in between"
+    change(db, "b", "7 7")
+    assert lengths(db, "list") == (3, 2)
 
 
 class Answering:

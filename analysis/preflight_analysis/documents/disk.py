@@ -11,6 +11,7 @@ import stat
 import time
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
@@ -36,11 +37,20 @@ def _status(path: str) -> Status | None:
     return found.st_mtime_ns, found.st_size, found.st_ino, found.st_mode, seen
 
 
+def _seen(value: Status | str | None) -> object:
+    """Without when it was looked at."""
+    return value[: _MODE + 1] if isinstance(value, tuple) else value
+
+
 def _real_path(path: str) -> str:
     try:
         return os.path.realpath(path)
     except (OSError, ValueError):
         return path
+
+
+def _no_changes() -> int:
+    return 0
 
 
 def _buffer(path: str) -> Text | Unreadable | None:
@@ -70,7 +80,9 @@ BUFFER = Input(_buffer)
 """What an editor has of a file; None where none has it open."""
 LINES = Input(_lines)
 """By which locations stay right, and equal to what they were, where other lines of their file come or go."""
-_OF_DISK = (STATUS, REAL_PATH)
+_OF_DISK: tuple[Input[[str], Any], ...] = (STATUS, REAL_PATH)
+CHANGES = Input(_no_changes)
+"""How often a look at the disk showed something new: for what looks at the disk without being a query."""
 
 
 @query
@@ -176,11 +188,16 @@ class Disk:
         """Notice what has changed of these paths, None: of all that was ever asked for; whether anything has."""
         keys = None if paths is None else [(path,) for path in paths]
         outdated = [(kind, key) for kind in _OF_DISK for key in self.db.outdated(kind, keys)]
+        changed = False
         if outdated:
             with self.db.writing() as write:
                 for kind, key in outdated:
+                    before = write.get(kind, *key)
                     write.reload(kind, *key)
-        return bool(outdated)
+                    changed |= _seen(before) != _seen(write.get(kind, *key))
+                if changed:
+                    write.set(CHANGES, write.get(CHANGES) + 1, durable=True)
+        return changed
 
     def exists(self, path: str) -> bool:
         """Whether there is anything."""

@@ -45,7 +45,16 @@ class Executable:
     """`module:function` of a Python package that is run from its source; `path` is then the module's file."""
 
 
-@dataclass(frozen=True, eq=False)
+class Packages(dict[str, Package]):
+    """Packages by name. Never changed."""
+
+    @cached_property
+    def by_folder(self) -> Mapping[str, Package]:
+        """The same by the folders that they are in."""
+        return {package.share.rstrip("/"): package for package in self.values()}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Environment:
     """What launch files and nodes see. Immutable; a new one is detected when package folders or settings change. It is
     equal to itself alone, and so a key by which is remembered what was found with it.
@@ -92,7 +101,12 @@ class Environment:
         """The one that has rospy or rclpy."""
         return {1: self.python, 2: self.ros2_python}[generation]
 
-    @cached_property
+    def __post_init__(self) -> None:
+        if not isinstance(self.packages, Packages):
+            object.__setattr__(self, "packages", Packages(self.packages))
+
+    @property
     def packages_by_folder(self) -> Mapping[str, Package]:
         """The packages by the folders that they are in."""
-        return {package.share.rstrip("/"): package for package in self.packages.values()}
+        assert isinstance(self.packages, Packages)
+        return self.packages.by_folder

@@ -31,22 +31,26 @@ def of_generation(environment: Environment, generation: int) -> Environment:
     return replace(environment, generation=generation, packages=packages, shadowed=shadowed)
 
 
-def seen_from(environment: Environment, file: str) -> Environment:
-    """The environment for a launch file: itself where no other package is meant than for most.
+def meant_by(environment: Environment, file: str) -> tuple[Package, ...]:
+    """The packages that a launch file means by their names where it means others than most do.
 
     Of packages of one name the one that holds the file is meant, else that of the nearest workspace, else the first.
     """
     if not environment.shadowed:
-        return environment
+        return ()
     sources = tuple(_source_folders(file))
-    meant: dict[str, Package] = {}
+    meant: list[Package] = []
     for name, others in environment.shadowed.items():
         first = environment.packages[name]
         chosen = _nearest([p for p in (first, *others) if p.generation == first.generation], file, sources)
         if chosen is not first:
-            meant[name] = chosen
-    if not meant:
-        return environment
+            meant.append(chosen)
+    return tuple(meant)
+
+
+def meaning(environment: Environment, packages: Iterable[Package]) -> Environment:
+    """The environment of launch files that mean these packages by their names."""
+    meant = {package.name: package for package in packages}
     shares = {name: package.share for name, package in meant.items()}
     return replace(environment, packages={**environment.packages, **meant}, meant=shares)
 

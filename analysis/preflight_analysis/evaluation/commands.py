@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import Literal, Protocol
+
+from preflight_analysis.incremental.database import Database, Input, query
 
 Status = Literal["done", "failed", "missing", "not-run"]
 
@@ -27,6 +30,12 @@ class CommandResult:
 class Commands(Protocol):
     """The results that are known."""
 
+    def __hash__(self) -> int: ...
+
+    @property
+    def edition(self) -> Hashable:
+        """Another one where any of the results may be another one."""
+
     @property
     def placeholder(self) -> str | None:
         """What counts as the result of all commands of ROS 2's `$(command)` where none is run, None for no such."""
@@ -41,6 +50,7 @@ class Commands(Protocol):
 class NoResults:
     """Nothing was run."""
 
+    edition = 0
     placeholder: str | None = None
 
     def result(self, line: str) -> CommandResult | None:
@@ -50,3 +60,44 @@ class NoResults:
     def last_good(self, series: str) -> str | None:
         """None."""
         return None
+
+
+def _edition(commands: Commands) -> Hashable:
+    return commands.edition
+
+
+EDITION = Input(_edition, durable=False)
+
+
+@query
+def _result(db: Database, commands: Commands, line: str) -> CommandResult | None:
+    EDITION(db, commands)
+    return commands.result(line)
+
+
+@query
+def _last_good(db: Database, commands: Commands, series: str) -> str | None:
+    EDITION(db, commands)
+    return commands.last_good(series)
+
+
+class QueriedCommands:
+    """The same results for queries, which depend on those that they ask for. Implements `Commands`."""
+
+    def __init__(self, db: Database, commands: Commands) -> None:
+        self._db = db
+        self._commands = commands
+        self.placeholder = commands.placeholder
+
+    @property
+    def edition(self) -> Hashable:
+        """That of the results."""
+        return EDITION(self._db, self._commands)
+
+    def result(self, line: str) -> CommandResult | None:
+        """The result of a command line."""
+        return _result(self._db, self._commands, line)
+
+    def last_good(self, series: str) -> str | None:
+        """The line of the last run that went well."""
+        return _last_good(self._db, self._commands, series)

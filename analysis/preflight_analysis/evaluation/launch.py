@@ -9,7 +9,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
-from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.ros1.included import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ROS1
 
@@ -22,12 +22,12 @@ def evaluate_launch(
     environment: Environment,
     cwd: str,
     commands: Commands,
-    memo: Memo | None = None,
+    surroundings: Surroundings | None = None,
 ) -> LaunchTree:
     """What launching `path` with `name:=value...` would start; see `evaluate` and `evaluate_ros2`."""
     found = files.launch_file(path)
     if isinstance(found, Unreadable) or found.generation == ROS1.number:
-        return evaluate(path, args, files, executables, environment, cwd, commands, memo)
+        return evaluate(path, args, files, executables, environment, cwd, commands, surroundings)
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 

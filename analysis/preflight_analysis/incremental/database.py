@@ -102,6 +102,12 @@ class Query(Generic[P, V]):
         _refuse(none)
         return cast(V, db.read_answered(self, key, answers))
 
+    def last(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V | None:
+        """The value that was last made, whether it is still right or not; None where there is none."""
+        _refuse(none)
+        cell = db.cells.get((self, key))
+        return None if cell is None or cell.value is _NONE else cast(V, cell.value)
+
     def __repr__(self) -> str:
         return f"Query({self.name})"
 
@@ -150,6 +156,7 @@ class _Cell:
         "is_set",
         "key",
         "kind",
+        "parts",
         "used_at",
         "value",
         "verified_at",
@@ -171,10 +178,31 @@ class _Cell:
         """An input: whether it has another value than it would be loaded with."""
         self.used_at = 0
         """The last revision in which somebody asked for it."""
+        self.parts: dict[Hashable, _Part] = {}
+        """Of the value, as `Database.part` made them the last time."""
         self.answers: Mapping[Hashable, object] = {}
         """To what the function asked when it was made."""
         self.answered_by: int | None = None
         """The number of those who gave them, or would."""
+
+
+class _Part:
+    """What a part came to, and the cells that it was made of."""
+
+    __slots__ = ("depends_on", "value", "verified_at")
+
+    def __init__(self, value: object, depends_on: tuple[_Cell, ...], verified_at: int) -> None:
+        self.value = value
+        self.depends_on = depends_on
+        self.verified_at = verified_at
+
+
+class _Making(NamedTuple):
+    """A query that is being made: its cell, the cells that it has read so far, and the parts of its value so far."""
+
+    cell: _Cell
+    reads: dict[_Cell, None]
+    parts: dict[Hashable, _Part]
 
 
 class _Asked(NamedTuple):
@@ -194,7 +222,7 @@ class _Thread(threading.local):
         self.running: set[_Cell] = set()
         self.reads: list[dict[_Cell, None]] = []
         """Those of the queries that are being made, the innermost last."""
-        self.making: list[_Cell] = []
+        self.making: list[_Making] = []
         """Those queries."""
         self.asked: _Asked | None = None
 
@@ -211,6 +239,11 @@ class Write:
         """Give an input a value other than what `load` would."""
         self._put(kind, key, value, durable)
         self._db.cells[kind, key].is_set = True
+
+    def get(self, kind: Input[Any, V], *key: Hashable) -> V:
+        """The value of an input so far."""
+        cell = self._db.cells.get((kind, key))
+        return cast(V, kind.load(*key) if cell is None or cell.value is _NONE else cell.value)
 
     def reload(self, kind: Input[Any, Any], *key: Hashable) -> None:
         """Take what `load` gives now. Nothing happens where nobody has read it."""
@@ -399,7 +432,7 @@ class Database:
     def ask(self, question: Hashable) -> Any:
         """For the function of a query that is asked for by `answered`: what its asker answers."""
         asked, making = self._thread.asked, self._thread.making
-        if asked is None or not making or making[-1] is not asked.cell:
+        if asked is None or not making or making[-1].cell is not asked.cell:
             raise RuntimeError("there is nobody to answer")
         if question not in asked.answers:
             asked.answers[question] = asked.by.look(question)
@@ -409,8 +442,41 @@ class Database:
     def previous(self) -> Any:
         """For the function of a query: the value that it gave for this key the last time, None if that is not known.
         Parts of it may be taken over; what comes out must not depend on it."""
-        value = self._thread.making[-1].value
+        value = self._thread.making[-1].cell.value
         return None if value is _NONE else value
+
+    @property
+    def is_making(self) -> bool:
+        """Whether this thread is within a query."""
+        return bool(self._thread.making)
+
+    def part(self, key: Hashable, make: Callable[[], V]) -> V:
+        """For the function of a query: a part of its value, which is that of the last time for the same key, if nothing
+        that was read for it has changed. `make` may depend on the key and on what it reads, and on nothing else."""
+        thread = self._thread
+        making = thread.making[-1]
+        known = making.parts.get(key) or making.cell.parts.get(key)
+        if known is None or not all(self._is_unchanged(each, known.verified_at) for each in known.depends_on):
+            reads: dict[_Cell, None] = {}
+            thread.reads.append(reads)
+            try:
+                value = make()
+            finally:
+                thread.reads.pop()
+            known = _Part(value, tuple(reads), self.revision)
+        known.verified_at = self.revision
+        making.parts[key] = known
+        thread.reads[-1].update(dict.fromkeys(known.depends_on))
+        return cast(V, known.value)
+
+    def _is_unchanged(self, cell: _Cell, since: int) -> bool:
+        """Whether a cell has the value of this revision, and had it then."""
+        if cell.verified_at < self.revision:
+            try:
+                self._bring_up_to_date(cell)
+            except Exception:
+                return False  # who asks for it in earnest shall see that
+        return cell.changed_at <= since
 
     def forget(self, handle: Hashable) -> None:
         """Let go of all that has this among its keys."""
@@ -475,12 +541,7 @@ class Database:
             for each in cell.depends_on:
                 # Looked at here, without a lock: most of thousands depend on what seldom changes.
                 is_durable = each.durable and each.verified_at >= self._durable_changed_at
-                if each.verified_at < self.revision and not is_durable:
-                    try:
-                        self._bring_up_to_date(each)
-                    except Exception:
-                        return False  # who asks for it in earnest shall see that
-                if each.changed_at > since:
+                if each.changed_at > since if is_durable else not self._is_unchanged(each, since):
                     return False
             cell.durable = all(each.durable for each in cell.depends_on)
         cell.verified_at = self.revision
@@ -489,8 +550,9 @@ class Database:
     def _execute(self, cell: _Cell, kind: Query[Any, Any]) -> None:
         reads: dict[_Cell, None] = {}
         thread = self._thread
+        parts: dict[Hashable, _Part] = {}
         thread.reads.append(reads)
-        thread.making.append(cell)
+        thread.making.append(_Making(cell, reads, parts))
         if self._on_execute is not None:
             self._on_execute(kind, cell.key)
         try:
@@ -508,7 +570,7 @@ class Database:
         with self._condition:
             if not same:
                 cell.value, cell.changed_at = value, self.revision
-            cell.depends_on, cell.verified_at = tuple(reads), self.revision
+            cell.depends_on, cell.verified_at, cell.parts = tuple(reads), self.revision, parts
             cell.durable = all(each.durable for each in reads)
 
     def _forget_unused(self) -> None:

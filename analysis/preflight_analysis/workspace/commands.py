@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.python_runs import MARK, good_series
@@ -29,6 +29,12 @@ class CommandResults:
         self._why_not_run = why_not_run
         self._results: Mapping[str, CommandResult] = {}
         self._last_good: Mapping[str, str] = {}
+        self._updates = 0
+
+    @property
+    def edition(self) -> Hashable:
+        """Another one where any of the results may be another one."""
+        return self._updates, self._why_not_run()
 
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line, or why it has none."""
@@ -48,12 +54,14 @@ class CommandResults:
         for line in runs[:-MAX_LAUNCH_FILES]:  # each text that was typed is another
             del merged[line]
         self._results = merged
+        self._updates += 1
         good = {series: line for line, found in results.items() if (series := good_series(line, found)) is not None}
         self._last_good = {s: line for s, line in {**self._last_good, **good}.items() if line in merged}
 
     def clear(self) -> None:
         """Forget all results."""
         self._results, self._last_good = {}, {}
+        self._updates += 1
 
 
 def command_lines(tree: LaunchTree) -> tuple[str, ...]:

@@ -3,7 +3,7 @@ made from it is right, in another process too."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
 from preflight_analysis.documents.disk import REAL_PATH, STATUS, data_of, mode_of, names_in, text_of
@@ -191,6 +191,10 @@ class _Commands:
         self.placeholder = commands.placeholder
         self._commands = commands
         self._note = note
+
+    @property
+    def edition(self) -> Hashable:
+        return self._commands.edition
 
     def result(self, line: str) -> CommandResult | None:
         found = self._commands.result(line)

@@ -27,8 +27,9 @@ from functools import lru_cache
 
 import yaml
 
+from preflight_analysis.documents.disk import text_of
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.reading import Text, digest, read_text
+from preflight_analysis.documents.reading import Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.environment.detect import SETTINGS_FILE
@@ -36,6 +37,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Severity
 from preflight_analysis.findings.severities import ALL, CHOICES, Severities
 from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.rules.registry import rule_by_id
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.index import Root
@@ -85,9 +87,19 @@ class ProjectSettings:
 
 
 def read_project_settings(folder: str) -> ProjectSettings:
+    """The settings of a workspace, as its file is on the disk; empty where there is none."""
+    path = os.path.join(folder, SETTINGS_FILE)
+    return _settings(folder, path, read_text(path))
+
+
+@query
+def project_settings_of(db: Database, folder: str) -> ProjectSettings:
     """The settings of a workspace; empty where there is no settings file."""
     path = os.path.join(folder, SETTINGS_FILE)
-    found = read_text(path)
+    return _settings(folder, path, text_of(db, path))
+
+
+def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettings:
     if not isinstance(found, Text):
         unreadable = SettingsProblem(f"the file {found.reason}", 1)
         return ProjectSettings(path, (), () if found.kind == "missing" else (unreadable,))

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import ast
 import os
-import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from preflight_analysis.documents.disk import CHANGES
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
-from preflight_analysis.environment.model import Environment
-from preflight_analysis.environment.view import of_generation, seen_from
-from preflight_analysis.evaluation.commands import Commands, NoResults
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.view import meaning, meant_by, of_generation
+from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.launch import evaluate_launch
-from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.ros1.included import Surroundings
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.taken_over import taken_over
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
@@ -26,6 +26,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.installed import NodlFiles
@@ -46,7 +47,7 @@ from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
     from_settings,
     located_problems,
-    read_project_settings,
+    project_settings_of,
 )
 from preflight_analysis.workspace.resolve_node_names import resolve_node_names
 from preflight_analysis.workspace.sources import Sources
@@ -55,7 +56,7 @@ MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Analysis:
     """Everything known of one root. `documents` has each text that a location in it may point into, by path."""
 
@@ -99,18 +100,6 @@ class Analysis:
         return Root(self.root, self.args)
 
 
-@dataclass(frozen=True, slots=True)
-class _View:
-    """What launch files of one generation see, those that mean the same packages; and what was found by it."""
-
-    environment: Environment
-    executables: ExecutableIndex
-    nodl: NodlFiles
-    source: SourceAnalysis
-    fallback: Fallback
-    memo: Memo
-
-
 class Workspace:
     """The engine behind server and command. Thread-safe.
 
@@ -132,139 +121,71 @@ class Workspace:
         sources.undecided = environment.generation
         self.commands = commands or NoResults()
         self.cwd = cwd or environment.workspace or os.getcwd()
-        self._views: dict[object, _View] = {}
-        self._generations: dict[int, Environment] = {}
         self._similar = similar
-        self._project: tuple[str, ProjectSettings] | None = None
         self._ahead: tuple[Analysis, Analysis] | None = None
-        self._lock = threading.Lock()
-        self._memo_lock = threading.Lock()
-        self._static: dict[tuple[str, tuple[tuple[str, str], ...]], Analysis] = {}
 
     @property
     def executables(self) -> ExecutableIndex:
-        """The executables on the disk; a new index after each `refresh`."""
-        return self._common.executables
+        """Those that most launch files of the environment's generation see."""
+        return ExecutableIndex(self._common, self.sources)
 
     @property
-    def _common(self) -> _View:
-        """What launch files of the environment's generation see, those that mean no other packages than most."""
-        return self._view_of(self._of_generation(self.environment.generation))
+    def _common(self) -> Environment:
+        """What most launch files of the environment's generation see."""
+        return _of_generation(self.sources.db, self.environment, self.environment.generation)
 
     def environment_of(self, path: str) -> Environment:
         """The environment as a launch file sees it."""
-        return self._view(path).environment
-
-    def _view(self, path: str) -> _View:
         found = self.sources.launch_file(path)
         generation = self.environment.generation if isinstance(found, Unreadable) else found.generation
-        return self._view_of(seen_from(self._of_generation(generation), path))
-
-    def _of_generation(self, generation: int) -> Environment:
-        known = self._generations.get(generation)
-        if known is None:
-            known = self._generations[generation] = of_generation(self.environment, generation)
-        return known
-
-    def _view_of(self, environment: Environment) -> _View:
-        key = environment.generation, tuple(environment.meant.items())
-        with self._lock:
-            view = self._views.get(key)
-            if view is None:
-                source = SourceAnalysis(environment, self.sources)
-                view = self._views[key] = _View(
-                    environment,
-                    ExecutableIndex(environment, self.sources),
-                    NodlFiles(environment, self.sources),
-                    source,
-                    Fallback(source, self._similar),
-                    Memo(),
-                )
-        return view
+        db = self.sources.db
+        environment = _of_generation(db, self.environment, generation)
+        meant = meant_by(environment, path)
+        return _meaning(db, environment, meant) if meant else environment
 
     def component(self, package: str, cls: str) -> Place | None:
         """Where the class of a component is defined; None where its source is not there."""
-        return self._common.source.component(package, cls)
+        return SourceAnalysis(self._common, self.sources).component(package, cls)
 
     def entry_point(self, path: str, function: str) -> Place | None:
         """Where a module defines the function that a console script calls."""
-        tree = self._common.source.tree(path)
+        tree = SourceAnalysis(self._common, self.sources).tree(path)
         defined = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
         body = tree.body if tree is not None else ()
         lines = [each.lineno for each in body if isinstance(each, defined) and each.name == function]
         return Place(path, lines[-1]) if lines else None
 
     def static(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
-        """What can be said of `path` launched with `args` without running anything."""
-        path = os.path.normpath(path)
-        args = args or {}
-        key = (path, tuple(sorted(args.items())))
-        with self._lock:
-            known = self._static.get(key)
-        severities = self._project_settings().severities
-        if known is not None and known.severities == severities and self.is_current(known.tree):
-            return known
-        view, tree, documents, launch_files = self.sources.in_one_revision(
-            lambda: self._looked_into(path, args, known),
-            files=lambda found: found[1].inputs,
-            likely=known.tree.inputs if known is not None else (),
-        )
-        context = Context(
-            path,
-            tree,
-            documents,
-            launch_files,
-            view.environment,
-            view.executables,
-            self.sources,
-            kept=Kept(known.context.kept if known is not None else None),
-        )
-        analysis = Analysis(path, key[1], tree, documents, launch_files, view.environment, context, severities)
-        with self._lock:
-            self._static.pop(key, None)
-            self._static[key] = analysis
-            if len(self._static) > MAX_ANALYSES:
-                del self._static[next(iter(self._static))]
-        return analysis
+        """What can be said of `path` launched with `args` without running anything.
 
-    def _looked_into(
-        self, path: str, args: Mapping[str, str], known: Analysis | None
-    ) -> tuple[_View, LaunchTree, dict[str, Document], dict[str, LaunchFile]]:
-        view = self._view(path)
-        tree = self._remembering_tree(path, args, view)
-        if known is not None:
-            tree = taken_over(tree, known.tree)
-        return view, tree, *self._documents(tree)
+        The files that it was made of the last time are looked at; what else there is on the disk is as it was when it
+        was last looked at (`refresh`).
+        """
+        db, path, given = self.sources.db, os.path.normpath(path), tuple(sorted((args or {}).items()))
+        known = _static.last(db, self, path, given)
+        looked_at = known.tree.inputs if known is not None else ()
+        self.sources.look((*looked_at, *self._settings_files))
+        if db.is_outdated(EDITION, self.commands):
+            with db.writing() as write:
+                write.reload(EDITION, self.commands)
+        return _static(db, self, path, given)
 
     def tree(self, path: str, args: Mapping[str, str], notes: Notes | None = None) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered. `notes` are taken of what it is made from."""
-        view = self._view(path)
-        if notes is None:
-            return self._evaluate(path, args, view, None)
-        environment = replace(view.environment, variables=notes.variables(view.environment.variables))
-        commands = notes.commands(self.commands)
-        return evaluate_launch(path, args, self.sources, view.executables, environment, self.cwd, commands)
+        environment, commands = self.environment_of(path), self.commands
+        executables = ExecutableIndex(environment, self.sources)
+        if notes is not None:
+            environment = replace(environment, variables=notes.variables(environment.variables))
+            commands = notes.commands(commands)
+        return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands)
 
-    def _remembering_tree(self, path: str, args: Mapping[str, str], view: _View) -> LaunchTree:
-        # One thread at a time has the memo; another one does without.
-        if not self._memo_lock.acquire(blocking=False):
-            return self._evaluate(path, args, view, None)
-        try:
-            return self._evaluate(path, args, view, view.memo)
-        finally:
-            self._memo_lock.release()
+    def refresh(self) -> bool:
+        """Look at all of the disk that something depends on; whether anything has changed."""
+        return self.sources.look()
 
-    def _evaluate(self, path: str, args: Mapping[str, str], view: _View, memo: Memo | None) -> LaunchTree:
-        return evaluate_launch(
-            path, args, self.sources, view.executables, view.environment, self.cwd, self.commands, memo
-        )
-
-    def refresh(self) -> None:
-        """Look at the disk again: executables may have come or gone."""
-        self.sources.look()
-        with self._lock:
-            self._views.clear()
-            self._static.clear()
+    def close(self) -> None:
+        """Another workspace takes the place of this one: what was remembered for it is forgotten."""
+        self.sources.db.forget(self)
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
@@ -321,7 +242,7 @@ class Workspace:
         tree = resolve_node_names(analysis.tree, interfaces, analysis.documents)
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
-        project = self._project_settings()
+        project = self.settings
         whole = self._filled_in(tree, interfaces, project, kept)
         of_source = resolve_node_names(tree, whole, analysis.documents)
         if of_source is not tree:
@@ -335,7 +256,6 @@ class Workspace:
             analysis.context,
             graph=graph,
             why_not_run=why_not_run,
-            executables=self._view(analysis.root).executables,
             settings_problems=problems,
             kept=kept,
         )
@@ -361,20 +281,21 @@ class Workspace:
         self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings, kept: Kept
     ) -> Sequence[Interface]:
         """The interfaces with what is known beside runs."""
+        environment = self.environment_of(tree.file)
         interfaces = from_settings(tree, interfaces, project.nodes)
-        view = self._view(tree.file)
-        return view.fallback.fill_in(tree, view.nodl.fill_in(tree, interfaces, kept), kept)
+        interfaces = NodlFiles(environment, self.sources).fill_in(tree, interfaces, kept)
+        return Fallback(SourceAnalysis(environment, self.sources), self._similar).fill_in(tree, interfaces, kept)
 
-    def _project_settings(self) -> ProjectSettings:
-        """The settings file of the workspace as it is now."""
+    @property
+    def _settings_files(self) -> tuple[str, ...]:
         folder = self.environment.workspace
-        if folder is None:
-            return ProjectSettings()
-        digest = self.sources.digest(os.path.join(folder, SETTINGS_FILE))
-        known = self._project
-        if known is None or known[0] != digest:
-            known = self._project = digest, read_project_settings(folder)
-        return known[1]
+        return (os.path.join(folder, SETTINGS_FILE),) if folder is not None else ()
+
+    @property
+    def settings(self) -> ProjectSettings:
+        """The settings file of the workspace."""
+        folder = self.environment.workspace
+        return project_settings_of(self.sources.db, folder) if folder is not None else ProjectSettings()
 
     def is_current(self, tree: LaunchTree) -> bool:
         """Whether nothing that it was made of has changed since."""
@@ -382,7 +303,8 @@ class Workspace:
             self.commands.result(command.line) == command.result for command in tree.commands
         )
 
-    def _documents(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
+    def texts_of(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
+        """All that places in a tree may lead to, and what of it are launch files."""
         launch_files: dict[str, LaunchFile] = {}
         documents: dict[str, Document] = {}
         for path in tree.files:
@@ -396,6 +318,38 @@ class Workspace:
                 if not isinstance(text, Unreadable):
                     documents[path] = text
         return documents, launch_files
+
+
+@query
+def _of_generation(db: Database, environment: Environment, generation: int) -> Environment:
+    return of_generation(environment, generation)
+
+
+@query
+def _meaning(db: Database, environment: Environment, packages: tuple[Package, ...]) -> Environment:
+    return meaning(environment, packages)
+
+
+@query
+def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
+    executables, commands = ExecutableIndex(environment, workspace.sources), QueriedCommands(db, workspace.commands)
+    return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands)
+
+
+@query(limit=MAX_ANALYSES)
+def _static(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str, str], ...]) -> Analysis:
+    CHANGES(db)  # rules look at the disk, too
+    known: Analysis | None = db.previous
+    within = _surroundings(db, workspace, workspace.environment_of(path))
+    files, environment, executables = within.files, within.environment, within.executables
+    tree = evaluate_launch(path, dict(args), files, executables, environment, within.cwd, within.commands, within)
+    if known is not None:
+        tree = taken_over(tree, known.tree)
+    documents, launch_files = workspace.texts_of(tree)
+    kept = Kept(known.context.kept if known is not None else None)
+    index = ExecutableIndex(environment, workspace.sources)
+    context = Context(path, tree, documents, launch_files, environment, index, workspace.sources, kept=kept)
+    return Analysis(path, args, tree, documents, launch_files, environment, context, workspace.settings.severities)
 
 
 def _under_names(analysis: Analysis, tree: LaunchTree) -> Analysis:

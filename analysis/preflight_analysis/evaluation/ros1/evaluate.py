@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Hashable, Mapping
+from functools import partial
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
@@ -25,7 +25,14 @@ from preflight_analysis.evaluation.problems import (
 )
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
-from preflight_analysis.evaluation.ros1.memo import Memo, TagRecords, key_of, tags_key_of
+from preflight_analysis.evaluation.ros1.included import (
+    Passed,
+    Record,
+    Surroundings,
+    language_problems,
+    passed_to,
+    tags_key_of,
+)
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
@@ -39,12 +46,14 @@ from preflight_analysis.evaluation.ros1.tags import (
     namespace_of,
 )
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
-from preflight_analysis.launch.check_language import check_language
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
 
 MAX_DEPTH = 150
 """Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
+MAX_REMEMBERED_DEPTH = 24
+"""Of includes within each other; what is deeper is evaluated anew, as Python's stack has an end."""
 MAX_INCLUDES = 2_000
 """Real launches stay below a few hundred; an include that multiplies itself does not."""
 NO_RESULTS = NoResults()
@@ -58,16 +67,16 @@ def evaluate(
     environment: Environment,
     cwd: str,
     commands: Commands = NO_RESULTS,
-    memo: Memo | None = None,
+    surroundings: Surroundings | None = None,
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
     paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing: the values
-    of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With `memo`,
-    includes are not evaluated again that an evaluation with the same executables, environment and `cwd` has met.
+    of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With
+    `surroundings`, of the same things, includes are remembered.
     """
-    state = State(files, executables, environment, cwd, commands, memo)
+    state = State(files, executables, environment, cwd, commands, surroundings)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
@@ -154,14 +163,14 @@ def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
 
 
 def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
-    records: TagRecords | None = None
+    within: Hashable = None
     for action in actions:
         if action.kind in ("node", "test"):
             # Those that follow each other have the same scope.
-            records = records or _tag_records(state, scope, default_machine)
-            _node(state, scope, action, default_machine, records)
+            within = within or tags_key_of(scope, default_machine)
+            _node(state, scope, action, default_machine, within)
             continue
-        records = None
+        within = None
         match action.kind:
             case "arg":
                 evaluate_arg(state, scope, action)
@@ -184,43 +193,33 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
     return default_machine
 
 
-def _tag_records(state: State, scope: Scope, default_machine: str | None) -> TagRecords | None:
-    key = tags_key_of(scope, default_machine) if state.memo is not None else None
-    if state.memo is None or key is None:
-        return None
-    records = state.tag_records.get(key)
-    if records is None:
-        records = state.tag_records[key] = state.memo.tags(key)
-    return records
-
-
-def _node(state: State, scope: Scope, action: Action, default_machine: str | None, records: TagRecords | None) -> None:
-    """As `evaluate_node`: what the tag added in the same scope is added again, where it says and stands the same."""
-    if records is None:
+def _node(state: State, scope: Scope, action: Action, default_machine: str | None, within: Hashable) -> None:
+    """As `evaluate_node`: what the tag added in the same scope is added again, where it says and stands the same.
+    `within` is all of the scope that it depends on; None where nothing can be remembered."""
+    db = state.files.db
+    if within is None or not db.is_making:
         evaluate_node(state, scope, action, default_machine)
         return
     lines, source = scope.lines.lines_of(action.span), scope.lines.text[slice(*action.span)]
-    key = source, action.span.start - lines[0].start, lines
-    record = records.before.get(key)
-    anonymous, made_here = state.anonymous_names, dict(scope.anonymous)
-    if record is None or not state.is_current(record):
-        inner = state.inner()
-        evaluate_node(inner, scope, action, default_machine)
-        record = replace(inner.record(scope, None), inputs=dict(inner.inputs))
-        # What these hold has places of this text.
-        lasting = not (record.problems or record.not_taken or inner.depends_on_outside)
-        state.depends_on_outside |= inner.depends_on_outside
-    else:
-        lasting = True
-    if state.absorb(record):
-        if lasting:
-            records.now[key] = record
+    key = within, source, action.span.start - lines[0].start, lines
+    anonymous = dict(scope.anonymous)
+    record = db.part(key, partial(_node_alone, state, scope, action, default_machine))
+    if record is not None and state.absorb(record, MAX_INCLUDES):
         for node in record.nodes:
             node.tag.action = action
         return
-    # A node's name is taken: then order matters, and it is evaluated in its place.
-    state.anonymous_names, scope.anonymous = anonymous, made_here
+    # A node's name is taken, say: then order matters, and it is evaluated in its place.
+    scope.anonymous = anonymous
     evaluate_node(state, scope, action, default_machine)
+
+
+def _node_alone(state: State, scope: Scope, action: Action, default_machine: str | None) -> Record | None:
+    """What the tag of a node adds, whatever is around it; None where that depends on more than its scope, and where it
+    has places of this text."""
+    inner = state.inner()
+    evaluate_node(inner, scope, action, default_machine)
+    lasting = not (inner.problems or inner.not_taken or inner.depends_on_outside)
+    return inner.record(scope, inner.inputs) if lasting else None
 
 
 def _group(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
@@ -290,34 +289,37 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
 
 
 def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default_machine: str | None) -> str | None:
-    """As `_file`, for an included file: what it adds is taken from the memo, or evaluated by itself and added."""
-    memo, key = state.memo, key_of(inside, default_machine)
-    if memo is None or key is None:
+    """As `_file`, for an included file: what it adds by itself is added, or it is evaluated where it is."""
+    surroundings, passed = state.surroundings, passed_to(inside, default_machine)
+    if surroundings is None or passed is None or len(inside.chain) > MAX_REMEMBERED_DEPTH:
         return _file(state, inside, launch_file, default_machine)
-    record = memo.get(key, state.is_current)
-    anonymous = state.anonymous_names
+    record = _alone(state.files.db, surroundings, passed)
     if record is None:
-        inner = state.inner()
-        below = inside.copy()
-        after = _file(inner, below, launch_file, default_machine)
-        record = inner.record(below, after)
-        if inner.depends_on_outside or inner.exhausted:
-            state.depends_on_outside = True
-        else:
-            memo.put(key, record)
-        # The limit was kept while it was evaluated; to evaluate it again on each level would take minutes.
-        if state.absorb(record):
-            state.exhausted |= inner.exhausted
-            inside.declared = dict(record.declared)
-            return record.default_machine
-    elif state.absorb(record, MAX_INCLUDES):
+        state.depends_on_outside = True
+        return _file(state, inside, launch_file, default_machine)
+    if state.absorb(record, MAX_INCLUDES):
         inside.declared = dict(record.declared)
         return record.default_machine
     # A node's name is taken, say: then order matters, and all of it is evaluated in its place.
-    state.anonymous_names, state.memo = anonymous, None
+    state.surroundings = None
     after = _file(state, inside, launch_file, default_machine)
-    state.memo = memo
+    state.surroundings = surroundings
     return after
+
+
+@query
+def _alone(db: Database, surroundings: Surroundings, passed: Passed) -> Record | None:
+    """What an included file adds, whatever is around it; None where that depends on more than what is passed to it."""
+    files, executables = surroundings.files, surroundings.executables
+    environment, cwd, commands = surroundings.environment, surroundings.cwd, surroundings.commands
+    state = State(files, executables, environment, cwd, commands, surroundings, is_included=True)
+    found = files.launch_file(passed.file, 1)
+    if isinstance(found, Unreadable):
+        return None
+    scope = passed.scope(found.document.lines)
+    after = _file(state, scope, found, passed.default_machine)
+    inputs = {passed.file: state.digest(passed.file), **state.inputs}
+    return None if state.depends_on_outside or state.exhausted else state.record(scope, inputs, after)
 
 
 def _check_language(state: State) -> None:
@@ -325,9 +327,8 @@ def _check_language(state: State) -> None:
     for path in state.visited:
         launch_file = state.files.launch_file(path, 1)
         if not isinstance(launch_file, Unreadable):
-            memo = state.memo
             said = {problem.span for problem in launch_file.document.problems} | set(launch_file.extra_roots)
-            for found in memo.language(launch_file) if memo is not None else check_language(launch_file):
+            for found in language_problems(state.files.db, state.files, path):
                 if found.span not in said:
                     state.problem(found.kind, (launch_file.document.location(found.span),), fatal=False)
 
@@ -402,6 +403,8 @@ def _included(
     above = [location.file for location in scope.chain] + [scope.file]
     if path in above:
         state.depends_on_outside = True
+        if state.is_included:
+            return None  # what is above that it is compared with is not known here: all of this is for nothing
     if path in above and _same_args(scope, path, passed):
         state.problem(IncludeCycle(path, (*above[above.index(path) :], path)), origin)
         return None

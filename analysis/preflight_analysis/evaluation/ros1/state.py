@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
-from preflight_analysis.evaluation.ros1.memo import Memo, Record, TagRecords
+from preflight_analysis.evaluation.ros1.included import Record, Surroundings
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.tree import (
     Machine,
@@ -27,10 +27,15 @@ class State(Collector):
         environment: Environment,
         cwd: str,
         results: Commands,
-        memo: Memo | None = None,
+        surroundings: Surroundings | None = None,
+        *,
+        is_included: bool = False,
     ) -> None:
         super().__init__(1, files, executables, environment, cwd, results)
-        self.memo = memo
+        self.surroundings = surroundings
+        """Those that includes are remembered for; None: they are evaluated where they are."""
+        self.is_included = is_included
+        """Whether it is that of an included file alone, without what is above it."""
         self.node_names: dict[str, Location | None] = {"/rosout": None}
         self.params: dict[str, Param] = {}
         self.clear_params: list[str] = []
@@ -38,41 +43,26 @@ class State(Collector):
         self.exhausted = False
         """Whether something was nested too deeply to be evaluated."""
         self.depends_on_outside = False
-        """Whether the result depends on more than what `memo.key_of` names: anonymous names are counted over the whole
-        launch, machines known to all of it, and includes that include themselves bounded by what is above them."""
-        self.tag_records: dict[Hashable, TagRecords] = {}
-        """By scope, those of this evaluation."""
-        self.includes_before = 0
-        """How many includes the states around this one have met."""
-
-    @property
-    def anonymous_names(self) -> Mapping[str, int]:
-        """How many anonymous names of each identifier were made."""
-        return dict(self._anonymous)
-
-    @anonymous_names.setter
-    def anonymous_names(self, counts: Mapping[str, int]) -> None:
-        self._anonymous.clear()
-        self._anonymous.update(counts)
+        """Whether the result depends on more than what `included.Passed` names: anonymous names are counted over the
+        whole launch, machines known to all of it, and includes that include themselves bounded by what is above
+        them."""
 
     @property
     def include_count(self) -> int:
         """How many includes the launch has so far."""
-        return self.includes_before + len(self.includes)
+        return len(self.includes)
 
     def inner(self) -> State:
-        """A state for an included file alone, to be taken over with `absorb`."""
-        inner = State(self.files, self.executables, self.environment, self.cwd, self.results, self.memo)
-        inner.machines, inner._anonymous, inner._digests = self.machines, self._anonymous, self._digests
-        inner._room, inner.tag_records = self._room, self.tag_records
-        inner.includes_before, inner.exhausted = self.include_count, self.exhausted
+        """A state for one tag alone, to be taken over with `absorb`."""
+        inner = State(self.files, self.executables, self.environment, self.cwd, self.results, self.surroundings)
+        inner._digests, inner._room = self._digests, self._room
         return inner
 
-    def record(self, inside: Scope, default_machine: str | None) -> Record:
-        """All that the file of `inside`, for which this state was made, added."""
+    def record(self, inside: Scope, inputs: Mapping[str, str], default_machine: str | None = None) -> Record:
+        """All that was added in the scope `inside`, for which this state was made, of these inputs."""
         node_names = {name: place for name, place in self.node_names.items() if place is not None}
         return Record(
-            {inside.file: self.digest(inside.file), **self.inputs},
+            inputs,
             tuple(self.visited),
             tuple(self.nodes),
             node_names,
@@ -88,11 +78,11 @@ class State(Collector):
             default_machine,
         )
 
-    def absorb(self, record: Record, most_includes: int | None = None) -> bool:
+    def absorb(self, record: Record, most_includes: int) -> bool:
         """Add what an include added; not if its nodes' names are taken or there would be too many includes."""
         if not self.node_names.keys().isdisjoint(record.node_names):
             return False
-        if most_includes is not None and self.include_count + len(record.includes) > most_includes:
+        if self.include_count + len(record.includes) > most_includes:
             return False
         self.node_names.update(record.node_names)
         self.nodes += record.nodes
@@ -110,12 +100,6 @@ class State(Collector):
         self.visited += [path for path in record.visited if path not in self.visited]
         self.inputs.update(record.inputs)
         return True
-
-    def is_current(self, record: Record) -> bool:
-        """Whether what a record was made from is unchanged."""
-        return all(self.digest(path) == digest for path, digest in record.inputs.items()) and all(
-            self.results.result(command.line) == command.result for command in record.commands
-        )
 
     def set_param(self, param: Param) -> None:
         """Set a parameter as the last one to do so; what it replaces is kept with it."""

@@ -1,4 +1,4 @@
-"""With the memo of includes a tree is what it is without: at first, when nothing changed, and when text has moved."""
+"""With includes remembered a tree is what it is without: at first, when nothing changed, and when text has moved."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.evaluation.commands import NoResults
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
-from preflight_analysis.evaluation.ros1.memo import Memo
+from preflight_analysis.evaluation.ros1.included import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.workspace.sources import Sources
 
@@ -26,19 +27,19 @@ INCLUDED = """\
 
 
 class Twice:
-    """Evaluates a launch file with one memo throughout, and without."""
+    """Evaluates a launch file with includes remembered throughout, and without."""
 
     def __init__(self, folder: Path) -> None:
         self.sources = Sources()
         self._environment = detect(str(folder), package_path=(str(folder),))
         self._executables = ExecutableIndex(self._environment)
-        self._memo = Memo()
         self._cwd = str(folder)
+        self._surroundings = Surroundings(self.sources, self._executables, self._environment, self._cwd, NoResults())
 
     def tree(self, path: Path) -> LaunchTree:
         """The tree, which is the same both ways."""
         common = (str(path), {}, self.sources, self._executables, self._environment, self._cwd)
-        without, remembered = evaluate(*common), evaluate(*common, memo=self._memo)
+        without, remembered = evaluate(*common), evaluate(*common, surroundings=self._surroundings)
         assert remembered == without
         assert [node.action for node in remembered.nodes] == [node.action for node in without.nodes]
         self.remembered = remembered

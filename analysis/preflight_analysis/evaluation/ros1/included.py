@@ -1,0 +1,125 @@
+"""What includes come to, by which an edit evaluates the edited file again and what it changed of others.
+
+What an included file adds to a launch depends on what is passed to it (arguments, namespace, remaps, environment), on
+the files read below it, and on nothing else, but for a few tags (`State.depends_on_outside`); such includes are not
+remembered. Places in the files above are part of the result too, the include chain in each origin; they are the same
+where only text above the tag has changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import LineIndex, Location, Origin
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import Commands
+from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.problems import Problem
+from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
+from preflight_analysis.evaluation.tree import (
+    Command,
+    Include,
+    LaunchNode,
+    NotTaken,
+    Param,
+    Remap,
+    Unknown,
+    Use,
+)
+from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.launch.check_language import check_language
+from preflight_analysis.launch.problems import LanguageProblem, ProblemKind
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """What an include adds. `inputs` has the included file and all that it read, `declared` its `<arg>` tags."""
+
+    inputs: Mapping[str, str]
+    visited: tuple[str, ...]
+    nodes: tuple[LaunchNode, ...]
+    node_names: Mapping[str, Location | None]
+    params: Mapping[str, Param]
+    clear_params: tuple[str, ...]
+    includes: tuple[Include, ...]
+    commands: tuple[Command, ...]
+    uses: tuple[Use, ...]
+    problems: tuple[Problem[ProblemKind], ...]
+    unknowns: tuple[Unknown, ...]
+    not_taken: tuple[NotTaken, ...]
+    declared: Mapping[str, Location]
+    default_machine: str | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surroundings:
+    """What launches are evaluated in. Equal to itself alone: what is remembered of includes is remembered for it."""
+
+    files: Files
+    executables: Executables
+    environment: Environment
+    cwd: str
+    commands: Commands
+
+
+class Passed(NamedTuple):
+    """All that the evaluation of an included file depends on beside its `Surroundings`."""
+
+    file: str
+    ns: str
+    depth: int
+    pass_all_args: bool
+    default_machine: str | None
+    chain: Origin
+    args: tuple[tuple[str, ArgValue], ...]
+    env: tuple[tuple[str, str], ...]
+    remaps: tuple[Remap, ...]
+
+    def scope(self, lines: LineIndex) -> Scope:
+        """The scope in which the file is evaluated; `lines` are its own."""
+        outside = Scope(self.file, lines, self.chain, self.ns, own_remaps=list(self.remaps))
+        return Scope(
+            self.file,
+            lines,
+            self.chain,
+            self.ns,
+            outside,
+            env=list(self.env),
+            args=dict(self.args),
+            pass_all_args=self.pass_all_args,
+            depth=self.depth,
+        )
+
+
+def passed_to(inside: Scope, default_machine: str | None) -> Passed | None:
+    """What is passed to the file of this scope; None where the file shares something with its includer: private
+    parameters, as long as there are any."""
+    if inside.private_params:
+        return None
+    return Passed(
+        inside.file,
+        inside.ns,
+        inside.depth,
+        inside.pass_all_args,
+        default_machine,
+        inside.chain,
+        tuple(inside.args.items()),
+        tuple(inside.env),
+        tuple(inside.remaps()),
+    )
+
+
+def tags_key_of(scope: Scope, default_machine: str | None) -> Hashable | None:
+    """All of a scope that the tags of nodes in it depend on; as for `passed_to`."""
+    passed = passed_to(scope, default_machine)
+    return None if passed is None else (passed, tuple(scope.declared.items()), tuple(scope.anonymous.items()))
+
+
+@query
+def language_problems(db: Database, files: Files, path: str) -> tuple[LanguageProblem, ...]:
+    """As `check_language` of a launch file of ROS 1; nothing where there is none."""
+    found = files.launch_file(path, 1)
+    return () if isinstance(found, Unreadable) else tuple(check_language(found))
