@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.commands import NoResults
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.ros1.included import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.workspace.sources import Sources
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "ros1"
@@ -26,20 +27,27 @@ INCLUDED = """\
 """
 
 
+@query
+def remembering(db: Database, within: Surroundings, path: str) -> LaunchTree:
+    """A launch, of which includes and nodes are remembered."""
+    files, executables, environment = within.files, within.executables, within.environment
+    return evaluate(path, {}, files, executables, environment, within.cwd, within.commands, within)
+
+
 class Twice:
-    """Evaluates a launch file with includes remembered throughout, and without."""
+    """Evaluates a launch file with includes and nodes remembered throughout, and without."""
 
     def __init__(self, folder: Path) -> None:
         self.sources = Sources()
         self._environment = detect(str(folder), package_path=(str(folder),))
-        self._executables = ExecutableIndex(self._environment)
+        self._executables = ExecutableIndex(self._environment, self.sources)
         self._cwd = str(folder)
         self._surroundings = Surroundings(self.sources, self._executables, self._environment, self._cwd, NoResults())
 
     def tree(self, path: Path) -> LaunchTree:
         """The tree, which is the same both ways."""
         common = (str(path), {}, self.sources, self._executables, self._environment, self._cwd)
-        without, remembered = evaluate(*common), evaluate(*common, surroundings=self._surroundings)
+        without, remembered = evaluate(*common), remembering(self.sources.db, self._surroundings, str(path))
         assert remembered == without
         assert [node.action for node in remembered.nodes] == [node.action for node in without.nodes]
         self.remembered = remembered
