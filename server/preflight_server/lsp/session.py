@@ -119,6 +119,8 @@ class Session:
         self._touched: set[str] | None = set()
         """The files that changed since the analysis that is being made began; None: any may have."""
         self._edits = 0
+        self._look_due = False
+        """Whether files changed on the disk."""
         self._remerge = False
         self._quiet_at = 0.0
         """When the user will have stopped typing, in the time of the event loop."""
@@ -187,8 +189,7 @@ class Session:
         """Files changed on disk: launch files, parameter files or sources of nodes. If some came or went, so may have
         executables of any package."""
         self.runs.forget_requests()
-        if self._workspace is not None:
-            self._workspace.refresh()
+        self._look_due = True
         paths = tuple(paths)
         inputs = {path for analysis in self._analyses.values() for path in analysis.tree.inputs}
         # What no launch file is made of may be the source that tells of a node which cannot be run.
@@ -197,6 +198,8 @@ class Session:
 
     def environment_changed(self) -> None:
         """Packages came or went, or settings that say where they are changed."""
+        if self._workspace is not None:
+            self._workspace.close()
         self._workspace = None
         self.runs.forget_requests()
         self._touch(None, None, quiet=0)
@@ -413,6 +416,7 @@ class Session:
 
     async def _refresh(self) -> None:
         """Analyse what is out of date: at once what files are shown in, the rest when the user pauses."""
+        has_looked = False
         try:
             while True:
                 self._news.clear()
@@ -421,11 +425,17 @@ class Session:
                 if root is None and not self._remerge:
                     self._settle()
                     root = next((r for r in self._wanted() if self._is_due(r)), None)
-                    if root is None:
+                    if root is None and has_looked:
                         break
                     if (pause := self._quiet_at - asyncio.get_running_loop().time()) > 0:
                         with contextlib.suppress(asyncio.TimeoutError):
                             await asyncio.wait_for(self._news.wait(), pause)
+                        continue
+                    if root is None:
+                        # Not every client tells of what changes on the disk, and none of all that launches depend on.
+                        has_looked = True
+                        if await self.in_pool(workspace.refresh):
+                            self._touch(None, None, quiet=0)
                         continue
                 await self._turn(workspace, root)
         finally:
@@ -471,8 +481,11 @@ class Session:
         stale = frozenset(self._dirty) - {root}
         explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)
         kept, before = Kept(self._kept), self._converter
+        look_due, self._look_due = self._look_due, False
 
         def work() -> _Round:
+            if look_due:
+                workspace.refresh()
             preliminary = False
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
