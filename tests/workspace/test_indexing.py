@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
 from preflight_analysis.environment.detect import detect
+from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.workspace import indexing
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
@@ -200,3 +201,22 @@ def test_includes_beyond_the_limit_are_not_evaluated(
     assert len(index.roots_of(str(leaf))) == 2
     (said,) = [record.getMessage() for record in caplog.records]
     assert said.endswith("who includes whom is not known of 2 of them")
+
+
+def test_the_order_of_a_folder_on_the_disk_does_not_show(harness: Harness, monkeypatch: pytest.MonkeyPatch) -> None:
+    leaf = harness.write("leaf.launch", LEAF)
+    for name in ("one", "two", "three"):
+        harness.write(f"{name}.launch", including(include(leaf)))
+
+    def names() -> list[str]:
+        return [Path(each.includer).name for each in harness.build().includers(str(leaf))]
+
+    expected = ["one.launch", "three.launch", "two.launch"]
+    for reverse in (False, True):
+
+        def walked(*given: Any, reverse: bool = reverse) -> Iterator[Any]:
+            for place, folders, files, ignored in walk_unignored(*given):
+                yield place, folders, sorted(files, reverse=reverse), ignored
+
+        monkeypatch.setattr(indexing, "walk_unignored", walked)
+        assert names() == expected

@@ -243,7 +243,7 @@ def _launch_files(folder: str, workspace: Workspace) -> list[str]:
                 is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
             if is_one:
                 found.append(path)
-    return found
+    return sorted(found)  # a folder's own order changes with each file that is replaced
 
 
 def _is_shared(workspace: Workspace, path: str) -> bool:
