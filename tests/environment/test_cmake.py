@@ -8,13 +8,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.build import Build, Made
 from preflight_analysis.environment.cmake import read_build
-
-
-def read(path: str) -> str | None:
-    file = Path(path)
-    return file.read_text() if file.is_file() else None
+from support.open_buffers import disk_with
 
 
 class Harness:
@@ -30,7 +27,7 @@ class Harness:
 
     def build(self, text: str) -> Build:
         self.write("CMakeLists.txt", text)
-        return read_build(str(self.folder), "demo", read)
+        return read_build(str(self.folder), "demo", Disk())
 
     def sources(self, build: Build, name: str) -> list[str] | None:
         target = build.executable(name)
@@ -203,7 +200,7 @@ def test_what_is_installed_under_conditions_and_from_included_files(harness: Har
 )
 def test_whether_all_that_is_installed_is_known(harness: Harness, text: str, complete: bool) -> None:
     assert harness.build(f"project(demo)\n{text}ament_package()\n").complete == complete
-    assert not read_build(str(harness.folder / "nothing"), "demo", read).complete
+    assert not read_build(str(harness.folder / "nothing"), "demo", Disk()).complete
 
 
 def test_scripts(harness: Harness) -> None:
@@ -254,4 +251,5 @@ PIECES = [*'()"#[]=${};\\ \nab', "set", "foreach", "endforeach", "macro", "add_e
 @settings(deadline=None)
 @given(st.lists(st.sampled_from(PIECES)).map("".join))
 def test_any_text_is_read(text: str) -> None:
-    assert read_build("/nowhere", "demo", lambda path: text) == read_build("/nowhere", "demo", lambda path: text)
+    texts = {"/nowhere/CMakeLists.txt": text}
+    assert read_build("/nowhere", "demo", disk_with(texts)) == read_build("/nowhere", "demo", disk_with(texts))

@@ -441,7 +441,7 @@ def package_xml(data: bytes) -> None:
 
 def cmake(data: bytes) -> None:
     text = text_of(data)
-    build = read_build("/w/p", "p", {"/w/p/CMakeLists.txt": text, "/w/p/more.cmake": text}.get)
+    build = read_build("/w/p", "p", disk_with({"/w/p/CMakeLists.txt": text, "/w/p/more.cmake": text}))
     for target in build.targets.values():
         build.sources(target)
     for name in ("cpp", "node.py", ""):

@@ -10,9 +10,7 @@ from typing import Any
 import pytest
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.rules import near_miss
 from preflight_analysis.rules.near_miss import NearMiss, near_misses
-from preflight_analysis.rules.nearest_memory import Nearest
 from preflight_analysis.tracing.interface import Endpoint
 
 WORDS = ("camera", "front", "image", "raw", "points", "cmd", "vel", "cmdvel", "odom", "c_am", "came", "scan", "scan1")
@@ -66,21 +64,19 @@ def _told(found: tuple[NearMiss, ...]) -> list[tuple[Any, ...]]:
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_edits_one_by_one(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_edits_one_by_one(seed: int) -> None:
     made = random.Random(seed)
     nodes = [SimpleNamespace(name=_name(made)) for _ in range(made.randint(2, 25))]
     ends = [_end(made, nodes) for _ in range(made.choice((10, 60, 150)))]
-    remembering, kept, known = Nearest(), Kept(), dict[str, Channel]()
+    kept, known = Kept(), dict[str, Channel]()
     found = 0
     for _ in range(20):
         for _ in range(made.choice((0, 1, 1, 2, 8))):
             at = made.randrange(len(ends))
             ends[at : at + made.randint(0, 1)] = [_end(made, nodes)]
         channels = known = {name: _same(known.get(name), channel) for name, channel in _channels(ends).items()}
-        monkeypatch.setattr(near_miss, "_nearest", remembering)
         context = _context(channels, nodes, kept)
         again, kept = near_misses(context, "topics"), context.kept
-        monkeypatch.setattr(near_miss, "_nearest", Nearest())
         assert _told(again) == _told(near_misses(_context(channels, nodes), "topics"))
         found += len(again)
     assert found

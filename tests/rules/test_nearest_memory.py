@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Hashable
 
-from preflight_analysis.rules.nearest_memory import Hit, Nearest
+from preflight_analysis.rules.nearest_memory import Hit, Search, search
 
 POOLS = 4
 
@@ -39,7 +39,7 @@ def _compared(seekers: dict[Hashable, tuple[Hashable, ...]], candidates: set[int
 
 def test_what_is_found_is_what_comparing_all_with_all_finds() -> None:
     made = random.Random(4)
-    nearest = Nearest()
+    last: Search | None = None
     seekers: dict[Hashable, tuple[Hashable, ...]] = {}
     candidates: set[int] = set()
     for _ in range(1500):
@@ -49,7 +49,8 @@ def test_what_is_found_is_what_comparing_all_with_all_finds() -> None:
                 candidates ^= {number}
             elif seekers.pop(number, None) is None:
                 seekers[number] = ("all",) if number % 3 == 0 else (number % POOLS, (number + 1) % POOLS)
-        assert nearest.best(seekers, _pools(candidates), _rate) == _compared(seekers, candidates)
+        last = search(last, seekers, _pools(candidates), _rate)
+        assert last.best == _compared(seekers, candidates)
 
 
 def test_only_what_came_is_compared() -> None:
@@ -59,39 +60,18 @@ def test_only_what_came_is_compared() -> None:
         compared.append((seeker, candidate))
         return _rate(seeker, candidate)
 
-    nearest = Nearest()
     seekers: dict[Hashable, tuple[Hashable, ...]] = dict.fromkeys(range(100), ("all",))
     candidates = set(range(100))
-    nearest.best(seekers, _pools(candidates), rate)
+    last = search(None, seekers, _pools(candidates), rate)
     assert len(compared) == 100 * 100
 
     compared.clear()
-    nearest.best(seekers, _pools(candidates), rate)
+    last = search(last, seekers, _pools(candidates), rate)
     assert not compared
 
-    nearest.best(seekers, _pools(candidates | {100}), rate)
+    last = search(last, seekers, _pools(candidates | {100}), rate)
     assert len(compared) == 100
 
     compared.clear()
-    nearest.best(seekers | {100: ("all",)}, _pools(candidates | {100}), rate)
+    last = search(last, seekers | {100: ("all",)}, _pools(candidates | {100}), rate)
     assert len(compared) == 101
-
-
-def test_two_graphs_in_turn_are_both_remembered() -> None:
-    """As where one file is edited and the roots that include it are analysed each time."""
-    compared: list[Hashable] = []
-
-    def rate(seeker: Hashable, candidate: Hashable) -> Hit | None:
-        compared.append(seeker)
-        return _rate(seeker, candidate)
-
-    nearest = Nearest()
-    first: dict[Hashable, tuple[Hashable, ...]] = dict.fromkeys(range(100), ("all",))
-    second: dict[Hashable, tuple[Hashable, ...]] = dict.fromkeys(range(60, 160), ("all",))
-    for _ in range(2):
-        nearest.best(first, _pools(set(range(100))), rate)
-        nearest.best(second, _pools(set(range(60, 160))), rate)
-    compared.clear()
-    nearest.best(first, _pools(set(range(100))), rate)
-    nearest.best(second, _pools(set(range(60, 160))), rate)
-    assert not compared

@@ -96,7 +96,7 @@ def manifest(folder: Path, text: str, clock: Clock) -> None:
 
 
 def cmake(folder: Path, text: str, clock: Clock) -> None:
-    clock("build", lambda: read_build(str(folder), "p", {str(folder / "CMakeLists.txt"): text}.get))
+    clock("build", lambda: read_build(str(folder), "p", disk_with({folder / "CMakeLists.txt": text})))
 
 
 def python_build(name: str) -> Read:

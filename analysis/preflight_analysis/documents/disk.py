@@ -244,6 +244,11 @@ class Disk:
         """Any text file, not parsed."""
         return document_of(self.db, self._looked_at(os.path.normpath(path)))
 
+    def content(self, path: str) -> str | None:
+        """The text of a file; None where there is none that can be read."""
+        found = self.text(path)
+        return found.text if isinstance(found, Document) else None
+
     def data(self, path: str) -> bytes | Unreadable:
         """The bytes of a regular file of bounded size."""
         return data_of(self.db, self._looked_at(os.path.normpath(path)))

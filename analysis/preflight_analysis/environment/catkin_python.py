@@ -12,7 +12,6 @@ import re
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.cmake import LISTS
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.incremental.database import Database, query
@@ -51,10 +50,11 @@ def workspace_packages(environment: Environment) -> Iterator[Package]:
 
 @query
 def _folders(db: Database, folder: str) -> tuple[str, ...]:
-    setup = _text(db, os.path.join(folder, "setup.py"))
-    if setup is None or not _CALL.search(_text(db, os.path.join(folder, LISTS)) or ""):
+    disk = Disk(db)
+    setup = disk.content(os.path.join(folder, "setup.py"))
+    if setup is None or not _CALL.search(disk.content(os.path.join(folder, LISTS)) or ""):
         return ()
-    given = _package_dir(setup)
+    given = _package_dir(setup[:_MAX_TEXT])
     roots = [given.get("", "")]
     # A package by name: what it is imported from is the folder above, where that is called the same.
     for name, place in given.items():
@@ -86,11 +86,6 @@ def _is_item(target: ast.expr) -> bool:
     """Whether it is `d['package_dir']`."""
     key = target.slice if isinstance(target, ast.Subscript) else None
     return isinstance(key, ast.Constant) and key.value == "package_dir"
-
-
-def _text(db: Database, path: str) -> str | None:
-    found = Disk(db).text(path)
-    return found.text[:_MAX_TEXT] if isinstance(found, Document) else None
 
 
 def _names(folder: str) -> list[str]:

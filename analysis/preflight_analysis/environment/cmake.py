@@ -10,10 +10,11 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.build import Build, Installed, Program, Target
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, commands
 from preflight_analysis.environment.cmake_values import (
@@ -53,13 +54,10 @@ _FOLDERS = {
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
 _PLACES = frozenset("TYPE DESTINATION PERMISSIONS CONFIGURATIONS COMPONENT OPTIONAL RENAME EXCLUDE_FROM_ALL".split())  # noqa: SIM905
 
-Read = Callable[[str], "str | None"]
-"""The text of a file, None if there is none that can be read."""
 
-
-def read_build(folder: str, package: str, read: Read) -> Build:
+def read_build(folder: str, package: str, disk: Disk) -> Build:
     """What the `CMakeLists.txt` of the package in `folder` says. Nothing raises; what is not understood is left out."""
-    lists = _Lists(folder, read)
+    lists = _Lists(folder, disk)
     complete = False
     with contextlib.suppress(_TooLargeError):
         complete = lists.folder(folder, {**_FOLDERS, "PROJECT_NAME": package}, 0)
@@ -82,9 +80,9 @@ class _Making:
 
 
 class _Lists:
-    def __init__(self, top: str, read: Read) -> None:
+    def __init__(self, top: str, disk: Disk) -> None:
         self._top = top
-        self._read = read
+        self._disk = disk
         self._targets: dict[str, _Making] = {}
         self._programs: dict[str, Program] = {}
         self._installed: list[Installed] = []
@@ -111,7 +109,7 @@ class _Lists:
 
     def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> bool:
         """Whether there is something to read in the folder."""
-        text = self._read(os.path.join(folder, LISTS)) if depth < MAX_DEPTH else None
+        text = self._disk.content(os.path.join(folder, LISTS)) if depth < MAX_DEPTH else None
         if text is None:
             return False
         here = {"CMAKE_CURRENT_SOURCE_DIR": folder, "CMAKE_CURRENT_LIST_DIR": folder}
@@ -191,15 +189,15 @@ class _Lists:
             case "list", ["APPEND" | "PREPEND", variable, *values]:
                 variables[variable] = joined([variables.get(variable, ""), *values])
             case "file", ["GLOB" | "GLOB_RECURSE" as how, variable, *patterns]:
-                variables[variable] = joined(globbed(patterns, folder, how == "GLOB_RECURSE"))
+                variables[variable] = joined(globbed(self._disk, patterns, folder, how == "GLOB_RECURSE"))
             case "aux_source_directory", [where, variable, *_]:
                 patterns = [os.path.join(where, f"*{ending}") for ending in SOURCES]
-                found = globbed(patterns, folder, False)
+                found = globbed(self._disk, patterns, folder, False)
                 variables[variable] = joined([variables.get(variable, ""), *found])
             case ("add_executable" | "add_library") as kind, [target, *rest]:
                 self._target(target, "executable" if kind == "add_executable" else "library", rest, folder)
             case "target_sources", [target, *rest] if target in self._targets:
-                self._targets[target].sources += source_files(rest, folder)
+                self._targets[target].sources += source_files(self._disk, rest, folder)
             case "target_link_libraries", [target, *rest] if target in self._targets:
                 self._targets[target].links += [word for word in rest if word not in _LINK_WORDS]
             case "set_target_properties", [*targets, "OUTPUT_NAME", output] if "PROPERTIES" in targets:
@@ -232,7 +230,7 @@ class _Lists:
                     self.complete = False
 
     def _include(self, path: str, variables: dict[str, str], depth: int) -> None:
-        text = self._read(path) if path.startswith(self._top + os.sep) and depth < MAX_DEPTH else None
+        text = self._disk.content(path) if path.startswith(self._top + os.sep) and depth < MAX_DEPTH else None
         if text is None:
             self.complete = False
             return
@@ -260,9 +258,9 @@ class _Lists:
         if "DIRECTORY" in rest:  # of ament_auto_add_library and ament_auto_add_executable: all that is in the folders
             at = rest.index("DIRECTORY")
             patterns = [os.path.join(each, f"*{ending}") for each in rest[at + 1 :] for ending in SOURCES]
-            made.sources += globbed(patterns, folder, False)
+            made.sources += globbed(self._disk, patterns, folder, False)
             rest = rest[:at]
-        made.sources += source_files(rest, folder)
+        made.sources += source_files(self._disk, rest, folder)
 
     def _outputs(self, targets: Sequence[str], output: str) -> None:
         for name in targets:

@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Word
 from preflight_analysis.environment.walk import walk
 
@@ -78,7 +79,7 @@ def joined(values: Sequence[str] | Iterator[str]) -> str:
     return ";".join(value for value in values if value)[:_MAX_TEXT]
 
 
-def source_files(words: Sequence[str], folder: str) -> list[str]:
+def source_files(disk: Disk, words: Sequence[str], folder: str) -> list[str]:
     """The source files among the words, of which those relative to `folder` are made absolute."""
     found: list[str] = []
     for word in words:
@@ -88,11 +89,11 @@ def source_files(words: Sequence[str], folder: str) -> list[str]:
         if word.endswith(SOURCES):
             found.append(path)
         elif not os.path.splitext(word)[1]:  # CMake tries the endings that it knows
-            found += [path + ending for ending in SOURCES if os.path.isfile(path + ending)][:1]
+            found += [path + ending for ending in SOURCES if disk.is_file(path + ending)][:1]
     return found
 
 
-def globbed(patterns: Sequence[str], folder: str, deep: bool) -> list[str]:
+def globbed(disk: Disk, patterns: Sequence[str], folder: str, deep: bool) -> list[str]:
     """The files that match `file(GLOB ...)`, in the folders below too if `deep`."""
     found: list[str] = []
     wanted = [p for p in patterns if p not in ("CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS", "RELATIVE", "LIST_DIRECTORIES")]
@@ -102,6 +103,7 @@ def globbed(patterns: Sequence[str], folder: str, deep: bool) -> list[str]:
             continue
         seen = 0
         for place, folders, files in walk(top):
+            disk.names(place)  # it is made again as something in it comes or goes
             found += sorted(os.path.join(place, file) for file in files if fnmatch.fnmatchcase(file, name))
             seen += len(files)
             if not deep or seen > _MAX_FILES:

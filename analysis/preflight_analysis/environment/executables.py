@@ -14,7 +14,6 @@ import stat
 from collections.abc import Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.disk import Disk, mode_of, names_in
-from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build, Made
 from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Environment, Executable, Package
@@ -121,9 +120,9 @@ def _words_of_lists(db: Database, environment: Environment, package: str) -> fro
     """The words of all the `CMakeLists.txt` of a package."""
     words: set[str] = set()
     for path in _walked(db, environment.packages[package].share).get("CMakeLists.txt", ()):
-        found = Disk(db).text(path)
-        if isinstance(found, Document):
-            plain = re.sub(r"#.*", "", found.text.replace("${PROJECT_NAME}", package))
+        found = Disk(db).content(path)
+        if found is not None:
+            plain = re.sub(r"#.*", "", found.replace("${PROJECT_NAME}", package))
             words.update(re.findall(r"[^\s()\"]+", plain))
     return frozenset(words)
 
@@ -152,9 +151,9 @@ def _names(db: Database, environment: Environment, package: str) -> tuple[str, .
 def _components(db: Database, environment: Environment, package: str) -> tuple[str, ...]:
     found = set(_build(db, environment, package).components)
     for prefix in environment.ament_prefixes:
-        listed = Disk(db).text(os.path.join(prefix, _COMPONENTS, package))
-        if isinstance(listed, Document):
-            found |= {line.partition(";")[0].strip() for line in listed.text.splitlines()}
+        listed = Disk(db).content(os.path.join(prefix, _COMPONENTS, package))
+        if listed is not None:
+            found |= {line.partition(";")[0].strip() for line in listed.splitlines()}
     return tuple(sorted(found - {""}))
 
 

@@ -11,7 +11,6 @@ import os
 from collections.abc import Iterator
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build
 from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment, Package
@@ -126,10 +125,4 @@ def cmake_build(disk: Disk, package: Package) -> Build:
 
 @query
 def _cmake_build(db: Database, share: str, name: str) -> Build:
-    disk = Disk(db)
-
-    def read(path: str) -> str | None:
-        found = disk.text(path)
-        return found.text if isinstance(found, Document) else None
-
-    return read_build(share, name, read)
+    return read_build(share, name, Disk(db))

@@ -11,7 +11,6 @@ import re
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.incremental.database import Database, query
 
@@ -45,7 +44,7 @@ def _exposed(db: Database, environment: Environment) -> Mapping[str, str]:
 
 
 def _is_extension(disk: Disk, share: str) -> bool:
-    return any(_GROUP in _text(disk, os.path.join(share, setup)) for setup in _SETUP)
+    return any(_GROUP in (disk.content(os.path.join(share, setup)) or "") for setup in _SETUP)
 
 
 def _installed(disk: Disk, prefix: str) -> Iterator[tuple[str, str]]:
@@ -54,7 +53,9 @@ def _installed(disk: Disk, prefix: str) -> Iterator[tuple[str, str]]:
         site = os.path.join(prefix, "lib", version, "site-packages")
         for folder in disk.names(site) if version.startswith("python3") else ():
             if folder.endswith((".egg-info", ".dist-info")):
-                _, group, below = _text(disk, os.path.join(site, folder, "entry_points.txt")).partition(f"[{_GROUP}]")
+                _, group, below = (disk.content(os.path.join(site, folder, "entry_points.txt")) or "").partition(
+                    f"[{_GROUP}]"
+                )
                 for line in below.partition("\n[")[0].splitlines() if group else ():
                     module = line.partition("=")[2].strip().partition(":")[0].partition(".")[0]
                     if module.isidentifier():
@@ -71,11 +72,6 @@ def _tags_of(disk: Disk, folder: str) -> Iterator[str]:
         if count > _MAX_FILES:
             return
         for name in programs:
-            yield from _EXPOSED.findall(_text(disk, os.path.join(place, name)))
+            yield from _EXPOSED.findall(disk.content(os.path.join(place, name)) or "")
         inner = (os.path.join(place, name) for name in reversed(names) if not name.endswith(".py"))
         pending += (path for path in inner if disk.is_folder(path) and not disk.is_link(path))
-
-
-def _text(disk: Disk, path: str) -> str:
-    found = disk.text(path)
-    return found.text if isinstance(found, Document) else ""

@@ -19,7 +19,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
 
 _TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"
 
@@ -66,12 +65,12 @@ def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
     scripts: dict[str, EntryPoint] = {}
     data: dict[str, str] = {}
     setup = os.path.join(folder, "setup.py")
-    text = _text(disk, setup)
+    text = disk.content(setup)
     found = _Setup(folder, text, disk) if text is not None else None
     complete = found is not None and found.complete
     file = setup if found is not None else None
     for path, reader in (("setup.cfg", _from_cfg), ("pyproject.toml", _from_toml)):
-        content = _text(disk, os.path.join(folder, path))
+        content = disk.content(os.path.join(folder, path))
         if content is not None:
             for name, target in reader(content).items():
                 scripts[name] = _entry_point(folder, name, target, 0, disk)
@@ -87,11 +86,6 @@ def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
             for source in sources[:_MAX_FILES]:
                 data[os.path.join(below, os.path.basename(source))] = os.path.normpath(os.path.join(folder, source))
     return PythonBuild(scripts, data, complete, file)
-
-
-def _text(disk: Disk, path: str) -> str | None:
-    found = disk.text(path)
-    return found.text if isinstance(found, Document) else None
 
 
 def _entry_point(folder: str, name: str, target: str, line: int, disk: Disk) -> EntryPoint:

@@ -17,7 +17,6 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.annotations import (
-    GROUPS,
     AnnotatedGroup,
     AnnotatedItem,
     annotated_groups,
@@ -28,8 +27,6 @@ from preflight_analysis.graph.annotations import (
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 
 _BLANKS = re.compile(r"[ \t]*")
-
-_MOST_AGREEING = 4096
 
 _Key = tuple[str, str]
 """Role, or `param`, and full name before remapping."""
@@ -49,7 +46,7 @@ class Outdated:
 def compare(seen: Sequence[tuple[LaunchNode, Interface]]) -> Outdated | None:
     """`seen` are the nodes that one tag makes, with what their runs showed. None where there is no annotation, no run
     to compare it with, or no difference."""
-    if any(interface.outcome.status == "not-run" for _, interface in seen) or _known_to_agree(seen):
+    if any(interface.outcome.status == "not-run" for _, interface in seen):
         return None
     annotation, problems = read_annotation(seen[0][0].action)
     if annotation is None or not (groups := annotated_groups(seen[0][0].action)):
@@ -68,32 +65,8 @@ def compare(seen: Sequence[tuple[LaunchNode, Interface]]) -> Outdated | None:
         )
         missing = tuple(_missing(groups, seen))
     if not (conflicts or unmade or missing):
-        _agree(seen)
         return None
     return Outdated(groups, conflicts, unmade, missing)
-
-
-_agreeing: dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[Interface, ...]] = {}
-"""By the names of the nodes and what the comments in their tag say: the last interfaces from which that did not differ.
-All nodes are compared at each keystroke."""
-
-
-def _what(seen: Sequence[tuple[LaunchNode, Interface]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    action = seen[0][0].action
-    return tuple(node.name for node, _ in seen), tuple(content.text for content in action.comments)
-
-
-def _known_to_agree(seen: Sequence[tuple[LaunchNode, Interface]]) -> bool:
-    if any(child.kind in GROUPS for child in seen[0][0].action.children):
-        return False
-    known = _agreeing.get(_what(seen), ())
-    return len(known) == len(seen) and all(a is b for a, (_, b) in zip(known, seen, strict=True))
-
-
-def _agree(seen: Sequence[tuple[LaunchNode, Interface]]) -> None:
-    _agreeing[_what(seen)] = tuple(interface for _, interface in seen)
-    while len(_agreeing) > _MOST_AGREEING:
-        _agreeing.pop(next(iter(_agreeing)), None)
 
 
 def _key(what: Endpoint | ParamUse, node: LaunchNode) -> _Key:

@@ -16,7 +16,7 @@ from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.rules.nearest import has_all_words, likeness, numbers_in, share_words
-from preflight_analysis.rules.nearest_memory import Hit, Nearest
+from preflight_analysis.rules.nearest_memory import Hit, Search, search
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS, may_dangle
@@ -139,6 +139,8 @@ class _Found:
     hits: tuple[Hit | None, ...]
     near: tuple[NearMiss | None, ...]
     channels: Mapping[Hashable, Channel]
+    search: Search
+    """What found them."""
 
 
 def _all_candidates(context: Context) -> Mapping[ChannelKind, tuple[_Candidate, ...]]:
@@ -200,9 +202,9 @@ def _near_misses(
     before: Before[_Found] | None, candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool
 ) -> _Found:
     if before is None:
-        return _compared(candidates, seekers, blind)
+        return _compared(None, candidates, seekers, blind)
     if not _are_alike(before[0], candidates, seekers, blind):
-        return _with_those_of(before[1], _compared(candidates, seekers, blind))
+        return _with_those_of(before[1], _compared(before[1].search, candidates, seekers, blind))
     # The same as before, said of the ends as they are now.
     (old_candidates, old_seekers, _), known = before
     changed = {now.key: now.channel for old, now in zip(old_candidates, candidates, strict=True) if old is not now}
@@ -213,7 +215,7 @@ def _near_misses(
         else _near_miss(now.consumer, hit, channels)
         for was, hit, old, now in zip(known.near, known.hits, old_seekers, seekers, strict=True)
     )
-    return _Found(known.hits, near, channels)
+    return _Found(known.hits, near, channels, known.search)
 
 
 def _with_those_of(known: _Found, found: _Found) -> _Found:
@@ -223,7 +225,7 @@ def _with_those_of(known: _Found, found: _Found) -> _Found:
         was if each is not None and (was := old.get(id(each.consumer))) is not None and was.is_that(each) else each
         for each in found.near
     )
-    return _Found(found.hits, near, found.channels)
+    return _Found(found.hits, near, found.channels, found.search)
 
 
 def _are_alike(
@@ -237,7 +239,9 @@ def _are_alike(
     )
 
 
-def _compared(candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool) -> _Found:
+def _compared(
+    before: Search | None, candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], blind: bool
+) -> _Found:
     channels = {each.key: each.channel for each in candidates if each.key is not None}
     pools: dict[Hashable, list[Hashable]] = {pool: [] for seeker in seekers for pool in seeker.pools}
     for each in candidates:
@@ -250,7 +254,8 @@ def _compared(candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], 
         """How well a channel fits an end."""
         return min(_hits(consumers[seeker], candidate, channels), key=lambda hit: hit.rank, default=None)
 
-    best = _nearest.best({seeker.key: seeker.pools for seeker in seekers}, pools, rate)
+    found_now = search(before, {seeker.key: seeker.pools for seeker in seekers}, pools, rate)
+    best = found_now.best
     hits = tuple(best.get(seeker.key) for seeker in seekers)
     provided = Counter(chain.from_iterable(each.provided for each in candidates))
     lone = Counter(chain.from_iterable(each.lone for each in candidates))
@@ -259,10 +264,7 @@ def _compared(candidates: tuple[_Candidate, ...], seekers: tuple[_Seeker, ...], 
         found = _near_miss(seeker.consumer, hit, channels) if hit is not None else None
         tells = found is not None and (found.strong or not blind) and not _is_ambiguous(found, provided, lone)
         near.append(found if tells else None)
-    return _Found(hits, tuple(near), channels)
-
-
-_nearest = Nearest()
+    return _Found(hits, tuple(near), channels, found_now)
 
 
 def _hits(consumer: Connection, candidate: Hashable, channels: Mapping[Hashable, Channel]) -> Iterator[Hit]:

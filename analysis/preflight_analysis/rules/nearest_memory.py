@@ -7,17 +7,13 @@ is the same as without the memory.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-MOST = 16
-"""How many searches are remembered, the latest: those of the graphs that are being worked on."""
 _KEPT = 8
 """How many candidates of a seeker are remembered: so many may go before it is compared with all again."""
-_SUPERSEDES = 0.9
 
 Pool = frozenset[Hashable]
 """Candidates that several seekers have in common."""
@@ -42,56 +38,40 @@ class _Kept:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Search:
+class Search:
+    """What a search found, and what is needed to search again after a few of all have changed."""
+
     pools: Mapping[Hashable, Pool]
     kept: Mapping[Hashable, _Kept]
-    everything: frozenset[Hashable]
+
+    @property
+    def best(self) -> dict[Hashable, Hit]:
+        """The best hits of the seekers that have any."""
+        return {seeker: found.hits[0] for seeker, found in self.kept.items() if found.hits}
 
 
-class Nearest:
-    """What is remembered of earlier searches. Usable from several threads at once."""
+_NOTHING = Search({}, {})
 
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._searches: list[_Search] = []
 
-    def best(
-        self,
-        seekers: Mapping[Hashable, Sequence[Hashable]],
-        pools: Mapping[Hashable, Collection[Hashable]],
-        rate: Callable[[Hashable, Hashable], Hit | None],
-    ) -> dict[Hashable, Hit]:
-        """The best hits of the seekers that have any; `seekers` are those with the names of their pools.
+def search(
+    before: Search | None,
+    seekers: Mapping[Hashable, Sequence[Hashable]],
+    pools: Mapping[Hashable, Collection[Hashable]],
+    rate: Callable[[Hashable, Hashable], Hit | None],
+) -> Search:
+    """Search for the best hits of `seekers`, which are those with the names of their pools. What is found is the same
+    whatever search was made `before`.
 
-        `rate(seeker, candidate)` may depend on nothing but the two, and a candidate is always in the same pools.
-        """
-        everything = frozenset(seekers).union(*pools.values())
-        before, known = self._nearest_search(everything)
-        same = {name: known.pools.get(name) for name in pools}
-        now = {name: _shared(frozenset(pool), same[name]) for name, pool in pools.items()}
-        changes: dict[tuple[int, int], tuple[Pool, Pool]] = {}
-        kept: dict[Hashable, _Kept] = {}
-        for seeker, names in seekers.items():
-            mine = tuple(now.get(name, _EMPTY) for name in names)
-            kept[seeker] = _renewed(known.kept.get(seeker), mine, changes, partial(rate, seeker))
-        with self._lock:
-            if before is not None and before in self._searches:
-                self._searches.remove(before)
-            self._searches.append(_Search(now, kept, everything))
-            del self._searches[:-MOST]
-        return {seeker: found.hits[0] for seeker, found in kept.items() if found.hits}
-
-    def _nearest_search(self, everything: frozenset[Hashable]) -> tuple[_Search | None, _Search]:
-        """The search that this one takes the place of, and the one to begin with."""
-        with self._lock:
-            searches = tuple(self._searches)
-        best, most = _Search({}, {}, frozenset()), 0
-        for search in reversed(searches):
-            common = len(search.everything & everything)
-            if common > most:
-                best, most = search, common
-        superseded = most >= _SUPERSEDES * max(len(best.everything), len(everything), 1)
-        return best if superseded else None, best
+    `rate(seeker, candidate)` may depend on nothing but the two, and a candidate is always in the same pools.
+    """
+    known = before or _NOTHING
+    now = {name: _shared(frozenset(pool), known.pools.get(name)) for name, pool in pools.items()}
+    changes: dict[tuple[int, int], tuple[Pool, Pool]] = {}
+    kept: dict[Hashable, _Kept] = {}
+    for seeker, names in seekers.items():
+        mine = tuple(now.get(name, _EMPTY) for name in names)
+        kept[seeker] = _renewed(known.kept.get(seeker), mine, changes, partial(rate, seeker))
+    return Search(now, kept)
 
 
 def _shared(pool: Pool, earlier: Pool | None) -> Pool:

@@ -25,9 +25,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if interface.outcome.status != "not-run" and read_annotation(node.action)[0] is not None:
             tags.setdefault((node.location.file, node.action.span), []).append((node, interface))
     for (file, _), seen in tags.items():
+        # What agrees does so wherever it stands; what differs is said with its places.
+        if context.kept.get(_agree, seen[0][0].name, *map(tuple, zip(*seen, strict=True))):
+            continue
         outdated = compare(seen)
         if outdated is not None:
             yield from _findings(rule, context, file, seen[0][0], outdated)
+
+
+def _agree(nodes: tuple[LaunchNode, ...], interfaces: tuple[Interface, ...]) -> bool:
+    return compare(tuple(zip(nodes, interfaces, strict=True))) is None
 
 
 def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdated: Outdated) -> Iterator[Finding]:

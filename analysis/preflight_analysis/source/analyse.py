@@ -12,7 +12,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Place
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.environment.installed_paths import cmake_build
@@ -112,11 +111,11 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
     params = KnownParams(db.ask, _private_params(args, node.name))
     resolved = names.resolve_remaps(node.remaps, node.name)
     having = environment.packages.get(node.package)
-    generation = having.generation if having is not None else 1
+    is_ament = having is not None and having.is_ament
 
     def config(package: str, name: str) -> tuple[ConfigParam, ...]:
         owner = environment.packages.get(package)
-        return config_params(owner.share, name, partial(_text, disk)) if owner is not None else ()
+        return config_params(owner.share, name, disk.content) if owner is not None else ()
 
     script = _installed_script(disk, having, node) if node.path is None and having is not None else None
     program = _Program(disk, environment, script or node.path, node.package)
@@ -124,7 +123,7 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
     found: Collector
     if main is not None:
         file, tree = main
-        if node.entry_point is not None or generation == 2:
+        if node.entry_point is not None or is_ament:
             entry = (node.entry_point or "").partition(":")[2] or None
             rclpy = RclpyCalls(node.name, (file, *args), params)
             interpret(file, tree, program.load, rclpy, entry)
@@ -134,7 +133,7 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
             calls = RospyCalls(node.name, resolved, (file, *args), params, has_type, config)
             interpret(file, tree, program.load, calls)
             found = calls.collected
-    elif generation == 2:
+    elif is_ament:
         cpp, named = _cpp(environment, disk), (node.name, node.package, node.executable)
         found = cpp.read_ros2(named, args, params, node.plugin)
     else:
@@ -146,13 +145,8 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
 
 @query(limit=_MAX_TREES)
 def _python_tree(db: Database, path: str) -> ast.Module | None:
-    text = _text(Disk(db), path)
+    text = Disk(db).content(path)
     return parse(text) if text is not None else None
-
-
-def _text(disk: Disk, path: str) -> str | None:
-    found = disk.text(path)
-    return found.text if isinstance(found, Document) else None
 
 
 def _cpp(environment: Environment, disk: Disk) -> CppAnalysis:
@@ -200,7 +194,7 @@ class _Program:
     def main(self) -> tuple[str, ast.Module] | None:
         """The main file with its tree, None if it is not in Python."""
         path = self._path
-        text = _text(self._disk, path) if path else None
+        text = self._disk.content(path) if path else None
         if text is None:
             return None
         first = text.partition("\n")[0]
@@ -243,4 +237,4 @@ class _Program:
         package = self._environment.packages.get(name)
         if package is None:
             return None
-        return package.share if package.generation == 2 else os.path.join(package.share, "src")
+        return package.share if package.is_ament else os.path.join(package.share, "src")

@@ -13,7 +13,6 @@ from pathlib import PurePath
 from lxml import etree
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build, Target
 from preflight_analysis.environment.cmake import LISTS
 from preflight_analysis.environment.installed_paths import cmake_build
@@ -35,13 +34,8 @@ _PLUGINS = frozenset({"nodelet", "pluginlib"})
 @query(limit=_MAX_TEXTS)
 def _file_text(db: Database, path: str) -> FileText | None:
     """What a file declares; None where there is none."""
-    text = _text(Disk(db), path)
+    text = Disk(db).content(path)
     return parse(path, text) if text is not None else None
-
-
-def _text(disk: Disk, path: str) -> str | None:
-    found = disk.text(path)
-    return found.text if isinstance(found, Document) else None
 
 
 class CppFiles:
@@ -81,14 +75,14 @@ class CppFiles:
                 path = self.build(other).parameter_libraries.get(PurePath(header).stem)
                 paths += [path] if path is not None else []
         for path in dict.fromkeys(paths):
-            text = _text(self._disk, path)
+            text = self._disk.content(path)
             found = read_parameter_library(path, text) if text is not None else None
             if found is not None and found[0] == space:
                 return found[1]
         return None
 
     def _registers(self, target: Target, cls: str) -> bool:
-        texts = (_text(self._disk, source) or "" for source in target.sources)
+        texts = (self._disk.content(source) or "" for source in target.sources)
         return any(found[1] == cls for text in texts for found in _REGISTERED.finditer(text))
 
     def plugin(self, name: str, base: str) -> tuple[CppProgram, str] | None:
@@ -115,7 +109,7 @@ class CppFiles:
         found = self._packages.get(package)
         if found is None:
             return
-        manifest = _xml(_text(self._disk, found.manifest))
+        manifest = _xml(self._disk.content(found.manifest))
         exported = manifest.find(".//export") if manifest is not None else None
         paths = [
             value.replace("${prefix}", found.share)
@@ -124,7 +118,7 @@ class CppFiles:
             if value and isinstance(element.tag, str)
         ]
         for path in paths[:_PLUGIN_FILES]:
-            described = _xml(_text(self._disk, os.path.normpath(os.path.join(found.share, path))))
+            described = _xml(self._disk.content(os.path.normpath(os.path.join(found.share, path))))
             for library in described.iter("library") if described is not None else ():
                 for cls in library.iter("class"):
                     if cls.get("base_class_type") == base and (type_ := cls.get("type")):

@@ -163,7 +163,7 @@ class Workspace:
         """
         db, path, given = self.sources.db, os.path.normpath(path), tuple(sorted((args or {}).items()))
         known = _static.last(db, self, path, given)
-        looked_at = known.tree.inputs if known is not None else ()
+        looked_at = known.tree.inputs if known is not None else (path,)
         self.sources.look((*looked_at, *self._settings_files))
         if db.is_outdated(EDITION, self.commands):
             with db.writing() as write:
