@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Span
+from preflight_analysis.incremental.once import Once
 
 
 class Literal(NamedTuple):
@@ -117,7 +118,7 @@ NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "li
 
 
 @dataclass(frozen=True, slots=True)
-class LaunchFile:
+class LaunchFile(Once):
     """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are
     the tags of further ones, which no launcher accepts. `partial`: it is a program that was not run, and nothing may
     be concluded from what it has not; `named` are the substitutions that are written in it, wherever that is."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
@@ -19,6 +19,7 @@ from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 
@@ -42,7 +43,7 @@ class ExecutableNames(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Context:
+class Context(Once):
     """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
 
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
@@ -62,7 +63,6 @@ class Context:
     settings_problems: tuple[tuple[str, Location], ...] = ()
     kept: Kept = field(default_factory=Kept, repr=False, compare=False)
     """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
-    _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def location(self, path: str, span: Span) -> Location:
         """The location of a span of a document."""
@@ -75,13 +75,6 @@ class Context:
         """What stands at a place; nothing where its file is not known."""
         document = self.documents.get(location.file)
         return document.text[location.span.start : location.span.end] if document is not None else ""
-
-    def once(self, make: Callable[[Context], T]) -> T:
-        """`make(context)`, made by the first rule that asks and the same for those that come later."""
-        if make not in self._made:
-            self._made[make] = make(self)
-        made: T = self._made[make]
-        return made
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 MAX_MODULES = 30
 """How many modules of one program are followed."""
-_MAX_REMEMBERED = 4096
+_MAX_REMEMBERED = 16_384
 _MAX_TREES = 256
 _RELAY = re.compile(r"^python_script = '([^'\n]+)'$", re.MULTILINE)
 """What catkin writes in the place of a script in a devel space."""

@@ -28,6 +28,7 @@ from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.rules.registry import run_rules
@@ -57,7 +58,7 @@ MAX_ANALYSES = 64
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis:
+class Analysis(Once):
     """Everything known of one root. `documents` has each text that a location in it may point into, by path."""
 
     root: str
@@ -122,7 +123,6 @@ class Workspace:
         self.commands = commands or NoResults()
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._similar = similar
-        self._ahead: tuple[Analysis, Analysis] | None = None
 
     @property
     def executables(self) -> ExecutableIndex:
@@ -265,6 +265,9 @@ class Workspace:
     def ahead_of_runs(self, analysis: Analysis) -> Analysis:
         """The analysis with what is known without a run of the nodes whose run has not ended: while a node is being
         written, what its source declares can be proposed before it has run once."""
+        return analysis.once(self._ahead_of_runs)
+
+    def _ahead_of_runs(self, analysis: Analysis) -> Analysis:
         if analysis.graph is None:
             interfaces = [not_run(node) for node in analysis.tree.nodes]
         elif any(interface.pending for interface in analysis.graph.processes):
@@ -272,10 +275,7 @@ class Workspace:
             interfaces = [not_run(node) if each.pending else each for node, each in pairs]
         else:
             return analysis
-        known = self._ahead
-        if known is None or known[0] is not analysis:
-            known = self._ahead = analysis, self.with_interfaces(analysis, interfaces, analysis.why_not_run)
-        return known[1]
+        return self.with_interfaces(analysis, interfaces, analysis.why_not_run)
 
     def _filled_in(
         self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings, kept: Kept
