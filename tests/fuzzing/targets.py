@@ -286,6 +286,7 @@ def place(generation: int) -> Place:
 class _Answers:
     """Every command line, and every run of a Python launch file, gave this."""
 
+    edition = 0
     placeholder = None
 
     def __init__(self, output: str) -> None:

@@ -26,6 +26,7 @@ HELPER = "def made(n):\n    return {}[n]\n"
 class Answers:
     """The answer of all runs."""
 
+    edition = 0
     placeholder: str | None = None
 
     def __init__(self, answer: CommandResult | None) -> None:

@@ -84,6 +84,7 @@ class Fixture:
 class _Results:
     """What the fixture says of its commands."""
 
+    edition = 0
     placeholder: str | None = None
 
     def __init__(self, given: Mapping[str, Any]) -> None:
