@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Generator
 from typing import Any
 
 import pytest
@@ -24,4 +26,25 @@ def test_nothing_is_kept_of_a_notification(method: str, params: Any) -> None:
     protocol = PreflightServer().protocol
     for _ in range(3):
         protocol._handle_notification(method, params)
+    assert not protocol._request_futures
+
+
+def test_requests_that_end_as_the_server_is_shut_down_are_forgotten() -> None:
+    protocol = PreflightServer().protocol
+    ended: list[bool] = []
+
+    async def never() -> None:
+        await asyncio.Event().wait()
+
+    def handler() -> Generator[Any, Any, None]:
+        yield never, (), None
+
+    async def shut_down() -> None:
+        for number in range(3):
+            protocol._execute_handler(number, handler, lambda future: ended.append(future.cancelled()))
+        for _ in protocol.lsp_shutdown():
+            pass
+
+    asyncio.run(shut_down())
+    assert ended == [True] * 3
     assert not protocol._request_futures

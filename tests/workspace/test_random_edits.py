@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.packages import find_packages
-from preflight_analysis.workspace.workspace import Workspace
 from tools import random_edits
 
 ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
@@ -20,6 +20,6 @@ def test_random_edits_leave_nothing_behind(seed: int) -> None:
 
 
 def test_a_workspace_that_does_not_look_again_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Workspace, "is_current", lambda *_: True)
-    with pytest.raises(random_edits.Broken, match="seed 0"):
-        random_edits.run(ROBOT, find_packages([str(ROBOT)]).packages, 0, 300)
+    monkeypatch.setattr(Disk, "look", lambda *_: False)
+    with pytest.raises(random_edits.Broken, match="seed 3"):
+        random_edits.run(ROBOT, find_packages([str(ROBOT)]).packages, 3, 100)

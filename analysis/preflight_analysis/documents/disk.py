@@ -119,7 +119,7 @@ def digest_of(db: Database, path: str) -> str:
     text = text_of(db, path)
     if isinstance(text, Text):
         return text.version
-    return "" if text.kind == "missing" else digest(repr(STATUS(db, path)))
+    return "" if text.kind == "missing" else digest(repr(_seen(STATUS(db, path))))
 
 
 @query

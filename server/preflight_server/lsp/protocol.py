@@ -61,8 +61,19 @@ def pulls_diagnostics(capabilities: types.ClientCapabilities) -> bool:
     return bool(document and document.diagnostic and refresh and refresh.refresh_support)
 
 
+class _Futures(dict[Any, Future[Any]]):
+    """Those of messages that are being handled. pygls goes through them at `shutdown`, while they end one by one."""
+
+    def items(self) -> Any:
+        return tuple(super().items())
+
+
 class PreflightProtocol(LanguageServerProtocol):
     """Hands messages about documents, folders and progress to our own handlers alone."""
+
+    def __init__(self, *args: Any) -> None:
+        super().__init__(*args)
+        self._request_futures = _Futures()
 
     @property
     def was_shut_down(self) -> bool:
