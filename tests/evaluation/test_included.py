@@ -194,3 +194,13 @@ def test_a_node_that_only_moved_is_the_same_and_has_its_new_place(tmp_path: Path
         assert node.action == fresh.action and text[slice(*node.action.span)] == NODE
         nodes.append(node)
     assert all(node is nodes[0] for node in nodes)
+
+
+def test_an_anonymous_name_that_another_node_made(tmp_path: Path) -> None:
+    root, twice = tmp_path / "root.launch", Twice(tmp_path)
+    before = '<group><node pkg="p" type="t" name="$(anon n)"/></group>'
+    others = "".join(f'<node pkg="p" type="t" name="{name}" args="$(anon n)"/>\n' for name in "ab")
+    for first in ('name="$(anon m)"', 'name="$(anon n)"', 'name="x"', 'name="$(anon n)"'):
+        for above in ("", before, ""):
+            twice.sources.open(str(root), f'<launch>{above}\n<node pkg="p" type="t" {first}/>\n{others}</launch>')
+            twice.tree(root)

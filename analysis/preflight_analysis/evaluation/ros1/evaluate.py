@@ -164,10 +164,12 @@ def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
 
 def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
     within: Hashable = None
+    made = 0
     for action in actions:
         if action.kind in ("node", "test"):
-            # Those that follow each other have the same scope.
-            within = within or tags_key_of(scope, default_machine)
+            # Those that follow each other have the same scope, but for the anonymous names that one of them makes.
+            if within is None or len(scope.anonymous) != made:
+                within, made = tags_key_of(scope, default_machine), len(scope.anonymous)
             _node(state, scope, action, default_machine, within)
             continue
         within = None
