@@ -61,13 +61,17 @@ def _visible(scope: Action, offset: int, scopes: frozenset[str]) -> Iterator[Act
 
 def included_file(analysis: Analysis, files: Files, file: str, include: Element) -> LaunchFile | None:
     """The launch file that an `<include>` names; also where it is not taken, as in a group whose `if` is false."""
+    # First what is written: while somebody types, the analysis may be that of another path at the same place.
+    written = include.get("file")
+    path = resolved(analysis, file, written.value.text) if written is not None else None
+    found = _readable(analysis, files, path) if path is not None and os.path.isabs(path) else None
+    if found is not None:
+        return found
     for taken in analysis.tree.includes:
         place = taken.origin[-1]
         if place.file == file and place.span.start == include.span.start and taken.path is not None:
             return _readable(analysis, files, taken.path)
-    written = include.get("file")
-    path = resolved(analysis, file, written.value.text) if written is not None else None
-    return _readable(analysis, files, path) if path is not None and os.path.isabs(path) else None
+    return None
 
 
 def _readable(analysis: Analysis, files: Files, path: str) -> LaunchFile | None:
