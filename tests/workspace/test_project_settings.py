@@ -85,3 +85,14 @@ def test_what_is_wrong_with_a_node_is_told_with_its_line(tmp_path: Path) -> None
         (4, "'topic' does not belong into a node like this"),
         (7, "class 'wrong' is not known"),
     ]
+
+
+def test_settings_count_as_an_editor_has_them(tmp_path: Path) -> None:
+    settings = tmp_path / ".ros-preflight.yaml"
+    settings.write_text("external: {topics: [/joy]}")
+    sources = Sources()
+    environment = Environment(1, "noetic", {}, (), {}, {}, (), (), None, workspace=str(tmp_path))
+    workspace = Workspace(environment, sources)
+    assert workspace.settings.external_topics == ("/joy",)
+    sources.open(str(settings), "external: {topics: [/other]}")
+    assert workspace.settings.external_topics == ("/other",)
