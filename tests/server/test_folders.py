@@ -111,8 +111,11 @@ async def test_symbols_and_roots_are_those_of_all_folders(harness: Harness) -> N
             return {symbol.name for symbol in found or ()}
 
         await editor.once(names, lambda found: {"/apple_node", "/pear_node"} <= found)
-        lenses = await editor.lenses(included)
-        assert [lens.command.title for lens in lenses if lens.command][2] == "launched by a.launch"
+
+        async def titles() -> list[str]:
+            return [lens.command.title for lens in await editor.lenses(included) if lens.command]
+
+        await editor.once(titles, lambda shown: shown[2:3] == ["launched by a.launch"])
         assert await editor.definition(included, editor.at(included, "pear"))
 
 
