@@ -1,0 +1,280 @@
+"""A stand-in for what is not known: it takes any call, has any attribute, and its value is unknown.
+
+Launch files and nodes that import a module that is not installed get one in its place (`missing_modules`), so that all
+that does not depend on it goes on as it is. Made to a text it is a mark that names where it comes from, and stays one
+in every text that is made of it: the host takes such a text for unknown (`MARK`).
+"""
+
+from __future__ import annotations
+
+import builtins
+import dis
+import sys
+import types
+from typing import Any, Iterator
+
+BEGIN, END = "\ufdd0", "\ufdd1"
+"""Around what a text that is not known stands for: noncharacters, which no file has, and YAML and XML allow."""
+MAX_NAME = 100
+MAX_TRUE = 1000
+"""How often one place of a program finds an unknown condition true: `while camera.is_open()` has an end."""
+_EXCEPTIONS = ("Error", "Exception", "Warning", "Interrupt", "Failure", "Timeout")
+_FUNCTIONS = (types.FunctionType, types.MethodType, type)
+
+
+def unknown_text(name: str) -> str:
+    """A text that is not known; `name` says of what."""
+    return f"{BEGIN}{name[:MAX_NAME].replace(BEGIN, '').replace(END, '')}{END}"
+
+
+def is_unknown(text: Any) -> bool:
+    """Whether some of a text is not known."""
+    return isinstance(text, str) and BEGIN in text
+
+
+class Made:
+    """What a class is derived from whose base is a stand-in."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        pass
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__()
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return Anything(f"{type(self).__name__}.{name}")
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return Anything(f"{type(self).__name__}()")
+
+
+class Anything:
+    """One stand-in. `name` is what it stands for as a program has it: `cv2.VideoCapture().read()`."""
+
+    def __init__(self, name: str) -> None:
+        self.__dict__["_preflight_name"] = name[:MAX_NAME]
+        self.__dict__["_preflight_made"] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return member(self._preflight_made, self._preflight_name, name)
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        if len(args) == 1 and not kwargs and isinstance(args[0], _FUNCTIONS):
+            return args[0]  # as a decorator it leaves what it is given as it is
+        return Anything(self._preflight_name if self._preflight_name.endswith(")") else self._preflight_name + "()")
+
+    def __mro_entries__(self, bases: Any) -> tuple[type, ...]:
+        """As the base of a class."""
+        made = self._preflight_made
+        if "" not in made:
+            made[""] = type(self._preflight_name.rpartition(".")[2], (Made,), {})
+        return (made[""],)
+
+    def __instancecheck__(self, instance: Any) -> bool:
+        return False
+
+    def __subclasscheck__(self, subclass: Any) -> bool:
+        return False
+
+    # As a text
+
+    def __str__(self) -> str:
+        return unknown_text(self._preflight_name)
+
+    __repr__ = __fspath__ = __str__
+
+    def __format__(self, spec: str) -> str:
+        return str(self)
+
+    def __bytes__(self) -> bytes:
+        return str(self).encode()
+
+    # As a number
+
+    def __bool__(self) -> bool:
+        frame = sys._getframe(1)
+        place = (frame.f_code, frame.f_lasti)
+        _asked[place] = _asked.get(place, 0) + 1
+        return _asked[place] <= MAX_TRUE
+
+    def __int__(self) -> int:
+        return 1
+
+    __index__ = __trunc__ = __floor__ = __ceil__ = __len__ = __int__
+
+    def __float__(self) -> float:
+        return 1.0
+
+    def __complex__(self) -> complex:
+        return 1 + 0j
+
+    def __round__(self, digits: Any = None) -> Any:
+        return 1 if digits is None else self
+
+    def __lt__(self, other: Any) -> bool:
+        return False
+
+    __le__ = __gt__ = __ge__ = __lt__
+
+    # As a collection
+
+    def __iter__(self) -> Iterator[Any]:
+        """One item, or as many as it is taken apart to."""
+        operation, count = _operation(sys._getframe(1))
+        if operation == "UNPACK_EX":
+            count = (count & 0xFF) + (count >> 8)
+        elif operation != "UNPACK_SEQUENCE":
+            count = 1
+        return iter([self[0] for _ in range(count)])
+
+    def __next__(self) -> Any:
+        return self[0]
+
+    def __getitem__(self, key: Any) -> Any:
+        return Anything(self._preflight_name if self._preflight_name.endswith("]") else self._preflight_name + "[...]")
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        return None
+
+    __delitem__ = __setitem__
+
+    def __contains__(self, item: Any) -> bool:
+        return False
+
+    def keys(self) -> list[str]:
+        """None for the arguments of a call; where a dictionary takes it in, one that stands for those not known."""
+        operation, _ = _operation(sys._getframe(1))
+        return [str(self)] if operation in ("DICT_UPDATE", "BUILD_MAP_UNPACK") else []
+
+    # In `with` and `await`
+
+    def __enter__(self) -> Any:
+        return Anything(self._preflight_name)
+
+    def __exit__(self, *args: Any) -> None:
+        return None
+
+    async def __aenter__(self) -> Any:
+        return Anything(self._preflight_name)
+
+    async def __aexit__(self, *args: Any) -> None:
+        return None
+
+    def __await__(self) -> Any:
+        return self
+        yield
+
+    async def __aiter__(self) -> Any:
+        yield self[0]
+
+    def __deepcopy__(self, memo: Any) -> Any:
+        return self
+
+    def __copy__(self) -> Any:
+        return self
+
+    def __reduce__(self) -> Any:
+        return Anything, (self._preflight_name,)
+
+    # With others
+
+    def __add__(self, other: Any) -> Any:
+        if isinstance(other, str):
+            return str(self) + other
+        return type(other)([self, *other]) if isinstance(other, (list, tuple)) else Anything(self._preflight_name)
+
+    def __radd__(self, other: Any) -> Any:
+        if isinstance(other, str):
+            return other + str(self)
+        return type(other)([*other, self]) if isinstance(other, (list, tuple)) else Anything(self._preflight_name)
+
+
+_asked: dict[Any, int] = {}
+
+
+def _same_kind(self: Any, *args: Any) -> Any:
+    return Anything(self._preflight_name)
+
+
+for _each in ("sub", "mul", "truediv", "floordiv", "mod", "pow", "matmul", "and", "or", "xor", "lshift", "rshift"):
+    setattr(Anything, f"__{_each}__", _same_kind)
+    setattr(Anything, f"__r{_each}__", _same_kind)
+for _each in ("neg", "pos", "invert", "abs"):
+    setattr(Anything, f"__{_each}__", _same_kind)
+for _each in ("divmod", "rdivmod"):
+    setattr(Anything, f"__{_each}__", lambda self, other: (self[0], self[0]))
+
+
+def member(made: dict[str, Any], of: str, name: str) -> Any:
+    """An attribute of a stand-in, the same each time; one that is called like an exception can be raised and caught."""
+    found = made.get(name)
+    if found is None:
+        raised = name[:1].isupper() and name.endswith(_EXCEPTIONS)
+        found = type(name, (Exception,), {"__module__": of}) if raised else Anything(f"{of}.{name}")
+        made[name] = found
+    return found
+
+
+class AnyModule(types.ModuleType):
+    """A module that has whatever is asked of it."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.__path__: list[str] = []
+        self.__version__ = "0.0.0"
+        self.__dict__["_preflight_made"] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "__all__":
+            return wanted_names()
+        if name.startswith("__"):
+            raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'")
+        return member(self._preflight_made, self.__name__, name)
+
+
+def wanted_names() -> list[str]:
+    """What the program that says `from module import *` uses and has from nowhere else."""
+    frame = importer()
+    if frame is None:
+        return []
+    known = set(frame.f_globals) | set(vars(builtins))
+    used: dict[str, None] = {}
+    codes = [frame.f_code]
+    while codes:
+        code = codes.pop()
+        codes += [each for each in code.co_consts if isinstance(each, types.CodeType)]
+        for each in dis.get_instructions(code):
+            if each.opname == "STORE_NAME" and code is frame.f_code:
+                known.add(each.argval)
+            elif each.opname in ("LOAD_NAME", "LOAD_GLOBAL") and isinstance(each.argval, str):
+                used[each.argval] = None
+    return [name for name in used if name not in known]
+
+
+def importer() -> Any:
+    """The frame that imports something, from within the import; None where no program does."""
+    frame: Any = sys._getframe(1)
+    while frame is not None:
+        file = frame.f_code.co_filename
+        if (
+            file != __file__
+            and not file.startswith("<frozen importlib")
+            and frame.f_globals.get("__name__")
+            not in (
+                "importlib",
+                f"{__package__}.missing_modules",
+            )
+        ):
+            return frame
+        frame = frame.f_back
+    return None
+
+
+def _operation(frame: Any) -> tuple[str, int]:
+    """The instruction at which a frame stands, and its argument."""
+    code, at = frame.f_code.co_code, frame.f_lasti
+    return (dis.opname[code[at]], code[at + 1]) if 0 <= at < len(code) - 1 else ("", 0)

@@ -1,0 +1,96 @@
+"""Modules that are not installed: whoever imports one gets a stand-in (`anything`), and the import is noted.
+
+An import that the program itself provides for, by `try` and another way where it fails, fails as it does outside. So
+does what only asks whether a module is there.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib.abc
+import importlib.machinery
+import linecache
+import sys
+from typing import Any, Callable, Optional
+
+from .anything import AnyModule, importer
+
+GENERATED = ("msg", "srv", "action")
+"""Below a package that is only source: what building it makes."""
+_CATCHES = ("ImportError", "ModuleNotFoundError", "Exception", "BaseException")
+_ENDS = ("exit", "_exit", "quit", "abort")
+
+Note = Callable[[str, str, int], None]
+"""Told of a module's name, and of the file and line (0: not known) that imported it first."""
+
+
+class MissingModules(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """The last of `sys.meta_path`. `stands_in` says whether a module may have a stand-in that is missing in a package
+    which is there; where the package is missing as well it has one."""
+
+    def __init__(self, note: Note, stands_in: Callable[[str], bool] = lambda name: False) -> None:
+        self._note, self._stands_in = note, stands_in
+        self.noted: dict[str, None] = {}
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        above, _, name = fullname.rpartition(".")
+        within = isinstance(sys.modules.get(above), AnyModule)
+        if above and not within and name not in GENERATED and not self._stands_in(fullname):
+            return None
+        if not above and fullname in getattr(sys, "stdlib_module_names", ()):
+            return None  # another system's
+        frame = importer()
+        if frame is None or _only_asks() or _provided_for(frame.f_code.co_filename, frame.f_lineno):
+            return None
+        if not within and fullname not in self.noted:
+            self.noted[fullname] = None
+            self._note(fullname, frame.f_code.co_filename, frame.f_lineno)
+        return importlib.machinery.ModuleSpec(fullname, self, is_package=True)
+
+    def create_module(self, spec: Any) -> Any:
+        return AnyModule(spec.name)
+
+    def exec_module(self, module: Any) -> None:
+        return None
+
+
+def _only_asks() -> bool:
+    frame: Any = sys._getframe(2)
+    while frame is not None:
+        if frame.f_globals.get("__name__") == "importlib.util" and frame.f_code.co_name == "find_spec":
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _provided_for(file: str, line: int) -> bool:
+    """Whether an import on a line stands in a `try` that goes on in another way without it."""
+    try:
+        tree = ast.parse("".join(linecache.getlines(file)))
+    except (SyntaxError, ValueError):
+        return False
+    return any(
+        isinstance(node, ast.Try)
+        and node.body[0].lineno <= line <= (node.body[-1].end_lineno or 0)
+        and any(_catches(each.type) and not _ends(each) for each in node.handlers)
+        for node in ast.walk(tree)
+    )
+
+
+def _catches(kind: Optional[ast.expr]) -> bool:
+    if kind is None:
+        return True
+    kinds = kind.elts if isinstance(kind, ast.Tuple) else [kind]
+    return any(isinstance(each, ast.Name) and each.id in _CATCHES for each in kinds)
+
+
+def _ends(handler: ast.ExceptHandler) -> bool:
+    """Whether the program does not go on after it."""
+    for node in ast.walk(handler):
+        if isinstance(node, ast.Raise):
+            return True
+        if isinstance(node, ast.Call):
+            called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            if called in _ENDS:
+                return True
+    return False
