@@ -78,11 +78,11 @@ def test_a_header_is_no_executable(tmp_path: Path) -> None:
     assert "did you mean" not in found.message
 
 
-@pytest.mark.parametrize(("package", "severity"), [("q2", "info"), ("qq", "info"), ("elsewhere", "info")])
-def test_a_near_name_does_not_make_a_package_of_ros_wrong(tmp_path: Path, package: str, severity: str) -> None:
+@pytest.mark.parametrize("package", ["q2", "qq", "elsewhere"])
+def test_a_near_name_does_not_make_a_package_of_ros_wrong(tmp_path: Path, package: str) -> None:
     text = f'<launch><node pkg="{package}" type="t" name="n"/></launch>'
     found = [each for each in launched(tmp_path, text, python=None) if each.rule == "PKG001"]
-    assert [(each.severity, each.fixes) for each in found] == [(severity, ())]
+    assert [(each.severity, each.fixes) for each in found] == [("hint", ())]
 
 
 POSE = """

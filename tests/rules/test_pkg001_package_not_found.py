@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check, findings_of
@@ -66,14 +67,15 @@ def test_a_package_whose_name_is_unknown_is_not_judged() -> None:
     assert [finding.rule for finding in findings] == ["ARG003"]
 
 
-def test_without_ros_a_package_that_is_not_there_is_no_error(launch: Path) -> None:
+def test_a_package_without_a_near_one_is_a_lack_of_the_machine(launch: Path) -> None:
     launch.write_text('<launch><node pkg="tf2_ros" type="x" name="n"/><node pkg="demmo" type="x" name="m"/></launch>')
     share = str(launch.parent)
     packages = {"demo": Package("demo", share, f"{share}/package.xml")}
-    for python, severities in ((None, ["info", "error"]), ("/usr/bin/python3", ["error", "error"])):
+    for python in (None, "/usr/bin/python3"):
         environment = Environment(1, "noetic", {}, (share,), packages, {}, (), (), python)
         findings = Workspace(environment, Sources(), share).static(str(launch)).findings
-        assert [f.severity for f in findings] == severities
+        assert [f.severity for f in findings] == ["hint", "error"]
+        assert [f.lack for f in findings] == [Lack("package", "tf2_ros"), None]
 
 
 def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> None:
@@ -88,7 +90,7 @@ def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> N
     )
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001"]
-    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("info", "package 'nowhere_known'")]
+    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("hint", "package 'nowhere_known'")]
 
 
 @pytest.mark.silent

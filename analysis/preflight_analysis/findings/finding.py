@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.lack import Lack
 
 Severity = Literal["error", "warning", "info", "hint"]
 Confidence = Literal["certain", "likely", "possible"]
@@ -69,3 +70,5 @@ class Finding:
     """Of one that stops the launcher: its place in the order in which the launcher would meet them."""
     endpoints: tuple[EndpointRef, ...] = field(default=(), compare=False)
     """Of one about connections: the ends that it speaks of, for a picture of the graph."""
+    lack: Lack | None = None
+    """What is missing on this machine, where the finding speaks of nothing else."""

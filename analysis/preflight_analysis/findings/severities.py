@@ -31,7 +31,7 @@ class Severities:
 
 def adjusted(findings: Iterable[Finding], wanted: Sequence[Severities]) -> tuple[Finding, ...]:
     """The findings with the severities that are `wanted` where they are, the last that speak of one counting; without
-    those that are off."""
+    those that are off. What is missing on this machine stays the hint that it is."""
     if not wanted:
         return tuple(findings)
     kept = []
@@ -41,6 +41,8 @@ def adjusted(findings: Iterable[Finding], wanted: Sequence[Severities]) -> tuple
             rule = finding.rule if finding.rule in each.rules else ALL
             if rule in each.rules and each.speak_of(finding.location.file):
                 severity = each.rules[rule]
+        if finding.lack is not None and severity is not None:
+            severity = finding.severity
         if severity is not None:
             kept.append(finding if severity == finding.severity else replace(finding, severity=severity))
     return tuple(kept)

@@ -1,5 +1,6 @@
-"""Whether ROS itself is there: where it is not, its packages, programs and modules are missing by nature."""
+"""What is missing on this machine: ROS itself, a package."""
 
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.rule import Context
 
 _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
@@ -11,3 +12,8 @@ def has_ros(context: Context) -> bool:
     if not context.tree.ros.ament:
         return context.environment.python is not None
     return not _CORE.isdisjoint(context.environment.packages)
+
+
+def lack_of_package(name: str) -> Lack:
+    """A package that is neither installed nor in the workspace."""
+    return Lack("package", name)

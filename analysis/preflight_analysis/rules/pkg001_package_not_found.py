@@ -8,7 +8,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.installed import has_ros
+from preflight_analysis.rules.installed import lack_of_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
@@ -46,20 +46,22 @@ def _finding(
     *,
     stops: bool,
 ) -> Finding:
-    packages = context.environment.packages
     renamed, near = meant
     sure = renamed is not None or (near is not None and is_slip(name, near))
-    # Without ROS its own packages are missing by nature: no reason to colour a student's whole file red.
-    expected = not sure and not has_ros(context)
-    near = None if expected else near
-    fixes = rename(context, location, name, near) if near is not None and sure else ()
-    note = "; no ROS is installed here, so the packages of ROS itself are not known" if expected else ""
+    if not sure:
+        return rule.finding(
+            f"package '{name}' is neither installed here nor in the workspace{did_you_mean(near)}",
+            location,
+            confidence="possible",
+            related=related,
+            stops_launch=stops,
+            lack=lack_of_package(name),
+        )
+    fixes = rename(context, location, name, near) if near is not None else ()
     hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     return rule.finding(
-        f"package '{name}' is not among the {len(packages)} packages of this environment{note}{hint}",
+        f"package '{name}' is not among the {len(context.environment.packages)} packages of this environment{hint}",
         location,
-        severity="info" if expected else None,
-        confidence="possible" if expected else "certain",
         related=related,
         fixes=fixes,
         stops_launch=stops,
@@ -81,7 +83,7 @@ RULE = Rule(
     severity="error",
     what="Reports a package, in `$(find ...)` or as a node's `pkg`, that is neither on the package path nor in the "
     "workspace, and names the nearest one, or the one whose folder has that name and whose `package.xml` another. "
-    "Where no ROS is installed this is for information only.",
+    "Without such a name the package may just not be installed on this machine: that is a hint only.",
     why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
     "command `ros-preflight doctor` shows where packages are looked for.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

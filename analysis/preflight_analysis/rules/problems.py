@@ -11,6 +11,7 @@ from typing import TypeVar, cast
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules.rule import Check, Context, Rule
 
@@ -49,6 +50,7 @@ def problem_finding(
     confidence: Confidence = "certain",
     related: Iterable[Related] = (),
     fixes: Iterable[Fix] = (),
+    lack: Lack | None = None,
 ) -> Finding:
     """The finding for a problem, at its place, with the includes that lead there."""
     return rule.finding(
@@ -59,6 +61,7 @@ def problem_finding(
         related=(*related, *include_chain(problem.origin)),
         fixes=fixes,
         stops_launch=problem.fatal,
+        lack=lack,
     )
 
 

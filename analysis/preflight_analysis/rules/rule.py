@@ -15,6 +15,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.finding import Confidence, EndpointRef, Finding, Fix, Related, Severity
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
@@ -111,12 +112,16 @@ class Rule(RuleDescription):
         fixes: Iterable[Fix] = (),
         stops_launch: bool = False,
         endpoints: Iterable[EndpointRef] = (),
+        lack: Lack | None = None,
     ) -> Finding:
-        """A finding of this rule. What the messages say is clipped: names may be as long as a file."""
+        """A finding of this rule. What the messages say is clipped: names may be as long as a file.
+
+        One that stands for a `lack` of this machine is a hint: on the robot it need not hold.
+        """
         return Finding(
             self.id,
             self.name,
-            severity or self.severity,
+            "hint" if lack is not None else severity or self.severity,
             confidence,
             clipped(message),
             location,
@@ -125,6 +130,7 @@ class Rule(RuleDescription):
             (),
             stops_launch,
             endpoints=tuple(endpoints),
+            lack=lack,
         )
 
 
