@@ -342,6 +342,33 @@ def test_answers_are_part_of_what_is_remembered() -> None:
     assert translated.answered(it.db, answer({"2": 1}), "a") == "1 ?"
 
 
+def test_many_are_asked_for_at_once() -> None:
+    it, asked = Made(), list[Any]()
+    answers = Answering(str, asked)
+    assert translated.answered_each(it.db, answers, [("a",), ("b",), ("a",)]) == ["1 2", "3", "1 2"]
+    change(it.db, "b", "4")
+    it.names()
+    assert translated.answered_each(it.db, answers, [("a",), ("b",)]) == ["1 2", "4"]
+    assert it.names() == ["translated"]
+
+
+@query(limit=2)
+def translated_few(db: Database, name: str) -> str:
+    return "".join(db.ask(part) for part in TEXT(db, name))
+
+
+def test_of_answered_values_those_stay_that_were_asked_for_last() -> None:
+    it = Made()
+    answers = Answering(str, [])
+    for name in "abca":
+        translated_few.answered(it.db, answers, name)
+    it.names()
+    translated_few.answered_each(it.db, answers, [("c",), ("a",)])
+    assert it.names() == []
+    translated_few.answered(it.db, answers, "b")
+    assert it.names() == ["translated_few"]
+
+
 def test_who_does_not_answer_is_not_asked() -> None:
     @query
     def asks(db: Database) -> str:

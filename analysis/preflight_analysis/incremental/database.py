@@ -19,7 +19,7 @@ again by itself.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec, Protocol, TypeVar, cast, overload
 
@@ -100,7 +100,11 @@ class Query(Generic[P, V]):
         """The value for one who answers what the function asks (`Database.ask`). It is remembered with the questions
         and their answers, for all who would answer them alike. No query may do so: nobody would know of the answers."""
         _refuse(none)
-        return cast(V, db.read_answered(self, key, answers))
+        return cast(V, db.read_answered(self, (key,), answers)[0])
+
+    def answered_each(self, db: Database, answers: Answers, /, keys: Sequence[Key]) -> list[V]:
+        """As `answered` for each of many keys, all in one revision."""
+        return cast(list[V], db.read_answered(self, keys, answers))
 
     def last(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V | None:
         """The value that was last made, whether it is still right or not; None where there is none."""
@@ -293,10 +297,10 @@ class Database:
         """How much there was after something was forgotten."""
         self._durable_changed_at = 1
         self._condition = threading.Condition()
-        self._answered: dict[tuple[Query[Any, Any], Key], list[_Cell]] = {}
+        self._answered: dict[tuple[object, Key], list[_Cell]] = {}
         """The cells of queries that ask, the one that was asked for last at the end."""
-        self._latest: dict[Query[Any, Any], dict[tuple[Query[Any, Any], Key], None]] = {}
-        """Of queries with a limit those that were asked for last, in that order."""
+        self._latest: dict[object, dict[_Cell, None]] = {}
+        """Of queries with a limit the cells that were asked for last, in that order."""
         self._readers = 0
         self._writers = 0
         """Those that write, or wait until they can."""
@@ -397,36 +401,45 @@ class Database:
         if cell.verified_at < self.revision:
             self._bring_up_to_date(cell)
         if isinstance(kind, Query) and kind.limit is not None:
-            self._used(kind, key, kind.limit)
+            self._used(cell, kind.limit)
         return cell.value
 
-    def read_answered(self, kind: Query[Any, Any], key: Key, answers: Answers) -> object:
-        """As `Query.answered`."""
+    def read_answered(self, kind: Query[Any, Any], keys: Sequence[Key], answers: Answers) -> list[object]:
+        """As `Query.answered_each`."""
         thread = self._thread
         if thread.reads:
             raise RuntimeError("a query cannot answer another one")
         if not thread.readings:
             while True:
                 with suppress(Cancelled), self.reading():
-                    return self.read_answered(kind, key, answers)
+                    return self.read_answered(kind, keys, answers)
+        return [self._answered_value(kind, key, answers) for key in keys]
+
+    def _answered_value(self, kind: Query[Any, Any], key: Key, answers: Answers) -> object:
         if self._writers:
             raise Cancelled
         cells = self._answered.setdefault((kind, key), [])
-        cell = next((cell for cell in reversed(cells) if _would_answer(answers, cell)), None) or _Cell(kind, key)
+        cell = cells[-1] if cells else _Cell(kind, key)
+        if cells and not _would_answer(answers, cell):
+            others = (each for each in cells[-2::-1] if _would_answer(answers, each))
+            cell = next(others, None) or _Cell(kind, key)
         cell.used_at = self.revision
-        thread.asked = _Asked(cell, answers, {})
-        try:
-            if cell.verified_at < self.revision:
+        if not (cell.durable and cell.verified_at >= self._durable_changed_at):
+            self._thread.asked = _Asked(cell, answers, {})
+            try:
                 self._bring_up_to_date(cell)
-        finally:
-            thread.asked = None
-        with self._condition:
-            if cell in cells:
-                cells.remove(cell)
-            cells.append(cell)
-            del cells[:-MOST_ANSWERS]
+            finally:
+                self._thread.asked = None
+        if not cells or cells[-1] is not cell:
+            with self._condition:
+                if cell in cells:
+                    cells.remove(cell)
+                cells.append(cell)
+                for old in cells[:-MOST_ANSWERS]:
+                    self._latest.get(kind, {}).pop(old, None)
+                del cells[:-MOST_ANSWERS]
         if kind.limit is not None:
-            self._used(kind, key, kind.limit)
+            self._used(cell, kind.limit)
         return cell.value
 
     def ask(self, question: Hashable) -> Any:
@@ -484,17 +497,26 @@ class Database:
             self.cells.pop(name, None)
         for asking in [name for name in list(self._answered) if handle in name[1]]:
             self._answered.pop(asking, None)
-
-    def _used(self, kind: Query[Any, Any], key: Key, limit: int) -> None:
         with self._condition:
-            latest = self._latest.setdefault(kind, {})
-            latest.pop((kind, key), None)
-            latest[kind, key] = None
+            for latest in self._latest.values():
+                for cell in [cell for cell in latest if handle in cell.key]:
+                    del latest[cell]
+
+    def _used(self, cell: _Cell, limit: int) -> None:
+        with self._condition:
+            latest = self._latest.setdefault(cell.kind, {})
+            latest.pop(cell, None)
+            latest[cell] = None
             if len(latest) > limit:
                 oldest = next(iter(latest))
                 del latest[oldest]
-                self.cells.pop(oldest, None)
-                self._answered.pop(oldest, None)
+                name = oldest.kind, oldest.key
+                if self.cells.get(name) is oldest:
+                    del self.cells[name]
+                elif oldest in (answered := self._answered.get(name, [])):
+                    answered.remove(oldest)
+                    if not answered:
+                        del self._answered[name]
 
     # How a value comes up to date
 
@@ -579,10 +601,10 @@ class Database:
             return
         cells = list(self.cells.items())
         old = self.revision - UNUSED_AFTER
-        latest = {name for names in self._latest.values() for name in names}
+        latest = {cell for cells in self._latest.values() for cell in cells}
         asking = [cell for cells in self._answered.values() for cell in cells]
-        pending = [cell for name, cell in cells if cell.used_at >= old or cell.is_set or name in latest]
-        pending += (cell for cell in asking if cell.used_at >= old or (cell.kind, cell.key) in latest)
+        pending = [cell for _, cell in cells if cell.used_at >= old or cell.is_set or cell in latest]
+        pending += (cell for cell in asking if cell.used_at >= old or cell in latest)
         used = set(pending)
         while pending:
             for each in pending.pop().depends_on:

@@ -6,7 +6,7 @@ import ast
 import os
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -85,12 +85,12 @@ class SourceAnalysis:
 
     def read(self, node: LaunchNode, params: LaunchParams) -> SourceInterface | None:
         """What the source of the node says, None if there is none that can be read."""
-        return self.read_as(source_key(node), params)
+        return self.read_each([source_key(node)], params)[0]
 
-    def read_as(self, key: SourceKey, params: LaunchParams) -> SourceInterface | None:
-        """As `read`, where the `source_key` of the node is at hand."""
-        found = _read.answered(self._disk.db, params, self._environment, key)
-        return found if found is not _NOTHING else None
+    def read_each(self, keys: Iterable[SourceKey], params: LaunchParams) -> list[SourceInterface | None]:
+        """As `read` for nodes of which the `source_key` is at hand."""
+        found = _read.answered_each(self._disk.db, params, [(self._environment, key) for key in keys])
+        return [each if each is not _NOTHING else None for each in found]
 
     def component(self, package: str, cls: str) -> Place | None:
         """Where the C++ class of a component is defined, None where its source is not there."""

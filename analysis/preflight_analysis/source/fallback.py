@@ -38,24 +38,24 @@ class Fallback:
         params = kept.patched(_launch_params, "", tuple(tree.params.values()), tuple(of_nodes))
         similar = self._similar.looking(params.values) if self._similar is not None else None
         as_asked, keys = kept.each(asked, tree.nodes, tree.generation), kept.each(source_key, tree.nodes)
-        whole = list(interfaces)
-        for at, (node, gap) in enumerate(zip(tree.nodes, gaps, strict=True)):
-            if gap is None:
-                continue
-            found: Interface | SourceInterface | None = None
-            if similar is not None and gap == "all":
-                found = similar(as_asked[at])
-            found = found or self._sources.read_as(keys[at], params)
-            if found is not None:
-                whole[at] = kept.get(_whole, (node.name, at), node, interfaces[at], found, gap)
-        return tuple(whole)
+        found: dict[int, Interface | SourceInterface | None] = {at: None for at, gap in enumerate(gaps) if gap}
+        if similar is not None:
+            found.update((at, similar(as_asked[at])) for at in found if gaps[at] == "all")
+        of_source = [at for at, each in found.items() if each is None]
+        found.update(zip(of_source, self._sources.read_each([keys[at] for at in of_source], params), strict=True))
+        columns = (tree.nodes, interfaces, map(found.get, range(len(gaps))), gaps)
+        return tuple(kept.each_row(_whole, columns))
 
 
 _Gap = Literal["all", "places", "later", "places, later"]
 """What is not known of a node."""
 
 
-def _whole(node: LaunchNode, interface: Interface, found: Interface | SourceInterface, gap: _Gap) -> Interface:
+def _whole(
+    node: LaunchNode, interface: Interface, found: Interface | SourceInterface | None, gap: _Gap | None
+) -> Interface:
+    if found is None or gap is None:
+        return interface
     if gap == "all":
         return _with_more(node, interface, found)
     more = _with_places(interface, found) if "places" in gap else interface
