@@ -1,7 +1,7 @@
 import math
 import time
 from contextlib import suppress
-from types import NoneType
+from types import EllipsisType, NoneType
 
 import pytest
 from hypothesis import given, settings
@@ -79,9 +79,12 @@ def test_arithmetic(expression: str, value: float) -> None:
     assert evaluate_arithmetic(expression) == value
 
 
+_PLAIN = (NoneType, EllipsisType, bool, int, float, complex, str, bytes, list, tuple, dict, set)
+
+
 @given(st.text(alphabet="()[]{}+-*/%<>=!.,'\" abx019_:andortif", max_size=60))
 @settings(max_examples=300, deadline=None)
 def test_nothing_but_its_own_errors_comes_out(expression: str) -> None:
     with suppress(EvaluationError, NotAllowedError):
         value = evaluate(expression, no_names, {})
-        assert isinstance(value, (NoneType, bool, int, float, complex, str, bytes, list, tuple, dict, set)), value
+        assert isinstance(value, _PLAIN), value

@@ -155,7 +155,7 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     root = read_ros1(document).root
     assert root is not None
     node = context.tree.nodes[0]
-    node = node._replace(tag=Tag(root.children[0]))
+    node = node._replace(tag=Tag(root.children[0], document.location(root.children[0].head_span)))
     text = annotation_text(interface_from_json({"publishers": {"a": "x/Y"}}))
     edit = annotation_edit(node, text, document)
     assert edit is not None
@@ -165,7 +165,8 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     assert parse_xml("/main.launch", result).problems == ()
     newlines = {line[-2:] for line in result.splitlines(keepends=True)}
     assert newlines == {"\r\n"} if "\r\n" in before else "\r\n" not in newlines
-    again = node._replace(tag=Tag(node_action(result)))
+    action, of_result = node_action(result), parse_xml("/main.launch", result)
+    again = node._replace(tag=Tag(action, of_result.location(action.head_span)))
     assert annotation_edit(again, text, document) is None
     assert annotation_edit(node, "", document) is None
 
@@ -175,7 +176,7 @@ def test_a_tag_that_is_still_being_typed_is_left_alone() -> None:
     document = parse_xml("/main.launch", '<launch>\n  <node pkg="p" type="t" name="n"')
     root = read_ros1(document).root
     assert root is not None
-    node = context.tree.nodes[0]._replace(tag=Tag(root.children[0]))
+    node = context.tree.nodes[0]._replace(tag=Tag(root.children[0], document.location(root.children[0].head_span)))
     assert annotation_edit(node, annotation_template(), document) is None
 
 

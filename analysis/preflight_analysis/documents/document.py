@@ -38,6 +38,11 @@ class SpannedText(NamedTuple):
         """Where `text[start:end]` stands in the document."""
         return Span(self.to_document(start), self.to_document(end))
 
+    def moved(self, by: int) -> SpannedText:
+        """The same text where what stands in front of it has become longer by so many characters."""
+        offsets = tuple(offset + by for offset in self.offsets) if self.offsets is not None else None
+        return SpannedText(self.text, self.span.moved(by), offsets)
+
 
 class Attribute(NamedTuple):
     """`name="value"`; `span` covers all of it, `value.span` what is between the quotes."""

@@ -27,6 +27,10 @@ class Span(NamedTuple):
         """Whether a cursor at `offset` touches the span; its end counts, as in an editor."""
         return self.start <= offset <= self.end
 
+    def moved(self, by: int) -> Span:
+        """The same range where the text in front of it has become longer by so many characters."""
+        return Span(self.start + by, self.end + by)
+
 
 class Line:
     """A line of a file, whatever stands above it: as others come and go, it stays the same object. `start` is its

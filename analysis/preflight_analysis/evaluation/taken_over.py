@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 def taken_over(tree: LaunchTree, before: LaunchTree) -> LaunchTree:
     """The tree with the nodes, parameters and includes of an earlier one where they are equal: what was kept of those
-    is found again by the objects themselves. The tags of the nodes get the places that they have in this tree."""
+    is found again by the objects themselves."""
     # Most are the same objects anyway: to look at them is quicker than to compare them.
     same = {*map(id, before.nodes), *map(id, before.params.values()), *map(id, before.includes)}
     nodes = {node.name: node for node in before.nodes}
@@ -35,9 +35,6 @@ def taken_over(tree: LaunchTree, before: LaunchTree) -> LaunchTree:
         for include in _others(tree.includes, same)
         if by_place.get(include.origin) == include
     }
-    for node in tree.nodes if kept_nodes else ():
-        if (old := kept_nodes.get(id(node))) is not None:
-            old.tag.action = node.tag.action
     return replace(
         tree,
         nodes=tuple(kept_nodes.get(id(node), node) for node in tree.nodes) if kept_nodes else tree.nodes,

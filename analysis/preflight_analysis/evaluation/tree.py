@@ -110,17 +110,28 @@ class ParamSource(NamedTuple):
 
 
 class Tag:
-    """The tag of a node. As a line does, it lives through edits: two are equal if they say the same, wherever that
-    stands, and the one that is kept gets the `action` of the text as it is now (`taken_over`).
+    """The tag of a node: two are equal if they say the same, wherever that stands. `head` is the place of its head,
+    which follows it through edits; `source` is its text in the file where that says all, None for what is made of
+    values, or of what is written elsewhere."""
 
-    `source` is its text in the file where that says all, None for what is made of values.
-    """
+    __slots__ = ("_action", "_head", "source")
 
-    __slots__ = ("action", "source")
+    def __init__(self, action: Action, head: Location, source: str | None = None) -> None:
+        self._action, self._head, self.source = action, head, source
 
-    def __init__(self, action: Action, source: str | None = None) -> None:
-        self.action = action
-        self.source = source
+    @property
+    def action(self) -> Action:
+        """With its places in the text as it is now."""
+        return self._action.moved(by) if (by := self._moved_by) else self._action
+
+    def span_of(self, attribute: str) -> Span | None:
+        """Where the value of an attribute is in the text as it is now; None where there is none."""
+        value = self._action.value(attribute)
+        return value.span.moved(self._moved_by) if value is not None else None
+
+    @property
+    def _moved_by(self) -> int:
+        return self._head.span.start - self._action.head_span.start
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Tag):
@@ -130,7 +141,7 @@ class Tag:
         return self.source == other.source
 
     def __hash__(self) -> int:
-        return hash(self.action.kind)
+        return hash(self._action.kind)
 
     def __repr__(self) -> str:
         return f"Tag({self.action!r})"

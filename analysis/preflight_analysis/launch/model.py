@@ -22,6 +22,10 @@ class Literal(NamedTuple):
     text: str
     span: Span
 
+    def moved(self, by: int) -> Literal:
+        """The same where the text in front of it has become longer by so many characters."""
+        return Literal(self.text, self.span.moved(by))
+
 
 class Substitution(NamedTuple):
     """`$(command arguments)`. `span` covers all of it, `arguments_span` what follows the command's blank.
@@ -36,6 +40,12 @@ class Substitution(NamedTuple):
     text: str
     span: Span
     words: tuple[tuple[Literal | Substitution, ...], ...] = ()
+
+    def moved(self, by: int) -> Substitution:
+        """The same where the text in front of it has become longer by so many characters."""
+        command, arguments, whole = (each.moved(by) for each in (self.command_span, self.arguments_span, self.span))
+        words = tuple(tuple(part.moved(by) for part in word) for word in self.words)
+        return Substitution(self.command, command, self.arguments, arguments, self.text, whole, words)
 
 
 @exact("value")
@@ -66,6 +76,12 @@ class Value(NamedTuple):
         """Whether the value means what it says."""
         return "$" not in self.text or not any(True for _ in self.substitutions)
 
+    def moved(self, by: int) -> Value:
+        """The same where the text in front of it has become longer by so many characters."""
+        problem_span = self.problem_span.moved(by) if self.problem_span is not None else None
+        parts = tuple(part.moved(by) for part in self.parts)
+        return Value(self.text, self.span.moved(by), parts, self.problem, problem_span, self.typed)
+
 
 class ActionAttribute(NamedTuple):
     """One named value of an action."""
@@ -74,6 +90,10 @@ class ActionAttribute(NamedTuple):
     name_span: Span
     value: Value
     span: Span
+
+    def moved(self, by: int) -> ActionAttribute:
+        """The same where the text in front of it has become longer by so many characters."""
+        return ActionAttribute(self.name, self.name_span.moved(by), self.value.moved(by), self.span.moved(by))
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +131,19 @@ class Action:
         yield self
         for child in self.children:
             yield from child.walk()
+
+    def moved(self, by: int) -> Action:
+        """The same where the text in front of it has become longer by so many characters."""
+        return Action(
+            self.kind,
+            self.kind_span.moved(by),
+            tuple(attribute.moved(by) for attribute in self.attributes),
+            tuple(child.moved(by) for child in self.children),
+            tuple(comment.moved(by) for comment in self.comments),
+            self.body.moved(by),
+            self.head_span.moved(by),
+            self.span.moved(by),
+        )
 
 
 NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "lifecycle_node"})

@@ -33,8 +33,8 @@ class Verbs:
 
 def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:
     """The value of an attribute of the node's tag; the start tag if it has none of that name."""
-    value = node.action.value(name)
-    return context.location(node.location.file, value.span) if value is not None else node.location
+    span = node.tag.span_of(name)
+    return context.location(node.location.file, span) if span is not None else node.location
 
 
 def connection_location(connection: Connection) -> Location:

@@ -207,8 +207,6 @@ def _node(state: State, scope: Scope, action: Action, default_machine: str | Non
     anonymous = dict(scope.anonymous)
     record = db.part(key, partial(_node_alone, state, scope, action, default_machine))
     if record is not None and state.absorb(record, MAX_INCLUDES):
-        for node in record.nodes:
-            node.tag.action = action
         return
     # A node's name is taken, say: then order matters, and it is evaluated in its place.
     scope.anonymous = anonymous

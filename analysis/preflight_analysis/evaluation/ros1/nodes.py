@@ -77,7 +77,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
             remaps=tuple(remaps.remaps()),
             env=tuple(env.env),
             origin=origin,
-            tag=Tag(action, scope.lines.text[slice(*action.span)]),
+            tag=Tag(action, origin[-1], scope.lines.text[slice(*action.span)]),
             resolved=resolved,
             machine=attributes.text("machine") or default_machine,
             respawn=options.respawn,

@@ -6,6 +6,7 @@ parameters are the same ones afterwards if they were there before, so a group ca
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field
@@ -18,6 +19,9 @@ from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.launch.read import PYTHON_SUFFIX, YAML_SUFFIXES
+
+_SAID_ELSEWHERE = re.compile(r"\*[\w-]|!")
+"""In YAML: an alias, or a tag, which a directive may define."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +178,18 @@ class Place:
         return (*self.chain, self.location(span))
 
     def tag(self, action: Action) -> Tag:
-        """The tag of a node. In YAML and Python its text does not say all: there are anchors and variables."""
-        all_said = not self.file.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX))
-        return Tag(action, self.lines.text[slice(*action.span)] if all_said else None)
+        """The tag of a node."""
+        written = self.written(action)
+        source = self.lines.text[slice(*written)] if written is not None else None
+        return Tag(action, self.location(action.head_span), source)
+
+    def written(self, action: Action) -> Span | None:
+        """The text that says all of an action. None where there is no such text: in Python there are variables, in
+        YAML aliases and tags."""
+        if self.file.endswith(PYTHON_SUFFIX):
+            return None
+        if not self.file.endswith(YAML_SUFFIXES):
+            return action.span
+        start = min((action.span.start, *(comment.span.start for comment in action.comments)))
+        is_all = _SAID_ELSEWHERE.search(self.lines.text, start, action.span.end) is None
+        return Span(start, action.span.end) if is_all else None

@@ -21,7 +21,7 @@ from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.required import check_required, report_missing_below
 from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk
-from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import LanguageProblem
@@ -102,15 +102,14 @@ def _execute(walk: Walk, path: str, args: Mapping[str, str]) -> None:
 
 def _report_duplicates(state: Collector) -> None:
     """Two nodes of one name: launch only warns, and both run."""
-    first: dict[str, Location] = {}
+    first: dict[str, LaunchNode] = {}
     for node in state.nodes:
         if not node.named or node.unknowns:
             continue
-        value = node.action.value("name")
-        span = value.span if value is not None else node.action.kind_span
-        place = state.location(node.location.file, span)
-        if node.name in first:
-            origin = (*node.origin[:-1], place)
-            state.problem(DuplicateNode(node.name, first[node.name]), origin, fatal=False)
-        else:
-            first[node.name] = place
+        if (other := first.setdefault(node.name, node)) is not node:
+            origin = (*node.origin[:-1], _place_of_name(state, node))
+            state.problem(DuplicateNode(node.name, _place_of_name(state, other)), origin, fatal=False)
+
+
+def _place_of_name(state: Collector, node: LaunchNode) -> Location:
+    return state.location(node.location.file, node.tag.span_of("name") or node.action.kind_span)
