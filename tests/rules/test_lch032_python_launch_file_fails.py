@@ -10,6 +10,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.python_runs import parse_request
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -92,7 +93,8 @@ def test_the_assert_of_a_helper_is_shown(tmp_path: Path) -> None:
 def test_a_module_that_is_missing_here_need_not_be_missing_there(tmp_path: Path) -> None:
     error = _error(tmp_path, "ModuleNotFoundError", "No module named 'x'", module="x")
     (finding,) = _launched(tmp_path, error).findings
-    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH032", "info", False)
+    assert (finding.rule, finding.severity, finding.stops_launch) == ("LCH032", "hint", False)
+    assert finding.lack == Lack("module", "x")
     assert "no ROS is installed here" in finding.message
 
 
@@ -105,7 +107,7 @@ def test_with_ros_a_missing_module_has_to_be_installed(tmp_path: Path) -> None:
     for module, advice in (("nav2_common", "rosdep install"), ("x", "name that in the package.xml")):
         said = f"No module named '{module}'"
         (finding,) = _launched(folder, _error(folder, "ModuleNotFoundError", said, module=module), tmp_path).findings
-        assert (finding.rule, finding.severity) == ("LCH032", "warning")
+        assert (finding.rule, finding.severity) == ("LCH032", "hint")
         assert advice in finding.message
     said = "cannot import name 'Newer' from 'launch.actions'"
     (finding,) = _launched(folder, _error(folder, "ImportError", said, module="launch.actions"), tmp_path).findings
@@ -114,7 +116,7 @@ def test_with_ros_a_missing_module_has_to_be_installed(tmp_path: Path) -> None:
 
 def test_a_variable_of_the_environment_that_is_not_set(tmp_path: Path) -> None:
     text = "import os\nMODEL = os.environ['MODEL']\nOTHER = {}['MODEL']\n"
-    for line, rule, severity in ((2, "LCH012", "warning"), (3, "LCH032", "error")):
+    for line, rule, severity in ((2, "LCH012", "hint"), (3, "LCH032", "error")):
         frames = [[str(tmp_path / "a.launch.py"), line, "<module>"]]
         error = {"error": {"type": "KeyError", "message": "'MODEL'", "frames": frames}}
         (finding,) = _launched(tmp_path, error, text=text).findings

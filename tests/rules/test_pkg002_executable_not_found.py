@@ -40,7 +40,7 @@ def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
     cmake = launch.parent / "CMakeLists.txt"
     cmake.write_text("add_executable(${PROJECT_NAME}_node src/node.cpp)\n# add_executable(gone src/gone.cpp)\n")
     (finding,) = judge(launch, "demo_node")
-    assert (finding.rule, finding.severity) == ("PKG002", "info")
+    assert (finding.rule, finding.severity) == ("PKG002", "hint")
     assert "is not built yet" in finding.message
     (finding,) = judge(launch, "gone")
     assert finding.severity == "error"
@@ -48,7 +48,7 @@ def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
     below.mkdir(parents=True)
     (below / "CMakeLists.txt").write_text("add_executable(gone gone.cpp)\n")
     (finding,) = judge(launch, "gone")
-    assert finding.severity == "info"
+    assert finding.severity == "hint"
 
 
 def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
@@ -68,7 +68,7 @@ def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
         ("calibrate", "'calibrate' is not installed yet: CMakeLists.txt of package 'demo' installs tools/calibrate.py"),
     ):
         (finding,) = judge(launch, name)
-        assert (finding.severity, finding.stops_launch) == ("info", False)
+        assert (finding.severity, finding.stops_launch) == ("hint", False)
         assert meant in finding.message
     (finding,) = judge(launch, "drivr")
     assert finding.severity == "error"

@@ -13,10 +13,10 @@ from support.unbuilt_packages import SETUP, findings, manifest
 
 def test_what_is_not_installed_and_what_is_not_there(workspace: Path) -> None:
     found = {(f.rule, f.severity): f for f in findings(workspace) if f.rule == "PKG002"}
-    assert set(found) == {("PKG002", "error"), ("PKG002", "info")}
+    assert set(found) == {("PKG002", "error"), ("PKG002", "hint")}
     assert "no executable 'drivr'" in found["PKG002", "error"].message
     assert "did you mean 'driver'?" in found["PKG002", "error"].message
-    assert "'arm_node' is not built yet" in found["PKG002", "info"].message
+    assert "'arm_node' is not built yet" in found["PKG002", "hint"].message
     missing = [f.message for f in findings(workspace) if f.rule == "PKG005"]
     assert missing == [
         "'config/driver.yaml' is in the source of package 'robot', but its setup.py does not install it",

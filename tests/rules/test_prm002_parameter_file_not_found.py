@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.findings.lack import Lack
 from support.check import check, findings_of
 
 
@@ -27,6 +28,17 @@ def test_parameter_files_that_are_not_there() -> None:
           </node_container>
         </launch>
     """)
+
+
+def test_a_file_that_the_robot_may_have_is_a_lack_of_this_machine() -> None:
+    path = "/etc/opt/robot/calibration.yaml"
+    (finding,) = check(f"""
+        <launch>
+          <rosparam file="{path}"/>
+                          {"^" * len(path)} hint[PRM002] does not exist
+        </launch>
+    """)
+    assert finding.lack == Lack("file", path)
 
 
 @pytest.mark.silent

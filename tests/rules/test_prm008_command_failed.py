@@ -1,9 +1,11 @@
 """PRM008: the command of a parameter has no success."""
 
+import json
 from pathlib import Path
 
 import pytest
-from support.check import apply, check
+from preflight_analysis.findings.lack import Lack
+from support.check import apply, check, findings_of
 
 
 @pytest.mark.silent
@@ -85,11 +87,29 @@ def test_a_program_that_is_not_on_the_path() -> None:
     check("""
         <launch>
           <param name="a" command="xacro arm.xacro"/>
-                                   ^^^^^^^^^^^^^^^ error[PRM008] install ros-noetic-xacro
+                                   ^^^^^^^^^^^^^^^ hint[PRM008] install ros-noetic-xacro
         </launch>
         //- commands
         {"xacro arm.xacro": {"status": "missing"}}
     """)
+
+
+def test_a_command_that_lacks_a_package_or_a_module_of_this_machine() -> None:
+    for said, lack in (
+        ("resource not found: arm_description", Lack("package", "arm_description")),
+        ("ModuleNotFoundError: No module named 'lxml'", Lack("module", "lxml")),
+        ("resource not found: q", None),
+    ):
+        commands = {"xacro a": {"status": "failed", "reason": "exit code 2", "stderr_tail": [said]}}
+        (finding,) = findings_of(f"""
+            <launch><param name="a" command="xacro a"/></launch>
+            //- /q/package.xml
+            <package/>
+            //- commands
+            {json.dumps(commands)}
+        """)
+        assert (finding.severity, finding.lack) == ("hint" if lack else "error", lack)
+        assert said in finding.message
 
 
 def test_a_program_that_is_missing_in_its_package_is_found_without_running_anything(tmp_path: Path) -> None:
@@ -130,7 +150,7 @@ def test_a_program_that_is_not_built_yet(tmp_path: Path) -> None:
     check(f"""
         <launch>
           <param name="a" command="$(find maker)/make_urdf"/>
-                                   ^^^^^^^^^^^^^^^^^^^^^^^ info[PRM008] is not built yet
+                                   ^^^^^^^^^^^^^^^^^^^^^^^ hint[PRM008] is not built yet
         </launch>
         //- {package}/package.xml
         <package/>

@@ -1,6 +1,7 @@
 """TRC001: a node crashed when it was run."""
 
 import pytest
+from preflight_analysis.findings.lack import Lack
 from support.check import check, findings_of
 
 
@@ -15,6 +16,28 @@ def test_where_a_node_is_not_known_a_global_parameter_may_be_its() -> None:
         //- interfaces
         {"/n": {"params": {"~rate": 10}}, "/m": {"status": "crashed", "exit_code": 1}}
     """)
+
+
+@pytest.mark.parametrize(
+    ("module", "lack"),
+    [
+        ("torch", Lack("module", "torch")),
+        ("p", Lack("build", "p", "catkin build p")),
+        ("p.msg", Lack("build", "p", "catkin build p")),
+        ("p.utlis", None),
+    ],
+)
+def test_a_crash_for_a_module_that_is_not_here_is_none_of_the_robot(module: str, lack: Lack | None) -> None:
+    severity = "hint" if lack else "warning"
+    (finding,) = check(f"""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TRC001] No module named '{module}'
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["ModuleNotFoundError: No module named '{module}'"]}}}}
+    """)
+    assert finding.lack == lack
 
 
 def test_a_crash_says_why() -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-LackKind = Literal["package", "module", "program", "variable", "build"]
+LackKind = Literal["package", "build", "module", "program", "variable", "file"]
 """`package`: neither installed nor in the workspace; `build`: in the workspace and not built; `module`: of Python;
-`variable`: of the environment."""
+`variable`: of the environment; `file`: outside of the workspace and of all packages."""
 
-LACK_KINDS: tuple[LackKind, ...] = ("package", "build", "module", "program", "variable")
+LACK_KINDS: tuple[LackKind, ...] = ("package", "build", "module", "program", "variable", "file")
 """In the order in which they are shown: what a package brings along comes after it."""
 
 

@@ -12,6 +12,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.rules.installed import lack_of_file
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
@@ -34,7 +35,8 @@ def check_missing_files(kind: type[UnreadablePath], what: str) -> Check:
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node: it is missed, and nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
-            yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)
+            lack = lack_of_file(context, path) if near is None else None
+            yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check
 

@@ -1,10 +1,31 @@
-"""What is missing on this machine: ROS itself, a package."""
+"""What is missing on this machine, by which findings stand for nothing that is wrong with the robot.
+
+This is the one place that decides that: a rule asks here, and gives its finding the `Lack`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
 
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.rule import Context
 
 _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
 """Packages of which each installation of ROS 2 has at least one."""
+_DEBIAN = {"xacro": "xacro", "rosrun": "rosbash", "rospack": "rospack", "rosparam": "rosparam"}
+"""Programs that robot descriptions are made with, and the end of the names of their packages (`ros-noetic-xacro`)."""
+_SET_UP = re.compile(r"ROS_(DISTRO|VERSION|PYTHON_VERSION|ROOT|ETC_DIR|PACKAGE_PATH|MASTER_URI)\Z|AMENT_PREFIX_PATH\Z")
+"""Variables that a distribution's set-up script sets."""
+_OF_MACHINE = re.compile(r"/(?:etc|home|media|mnt|opt|root|usr|var|Users)/")
+"""Where a machine has its own files."""
+_NO_MODULE = re.compile(r"(?:ModuleNotFoundError|ImportError)?:? ?No module named '?([\w.]+)'?")
+_NO_PACKAGE = re.compile(
+    r"ResourceNotFound: ([\w-]+)|resource not found: ([\w-]+)|[Pp]ackage (?:not found: )?['\"]([\w-]+)['\"]"
+    r" not found|[Pp]ackage not found: ['\"]?([\w-]+)"
+)
+"""How rospkg, roslib, xacro and ament_index say that a package is not there."""
 
 
 def has_ros(context: Context) -> bool:
@@ -17,3 +38,66 @@ def has_ros(context: Context) -> bool:
 def lack_of_package(name: str) -> Lack:
     """A package that is neither installed nor in the workspace."""
     return Lack("package", name)
+
+
+def lack_of_build(context: Context, package: str) -> Lack:
+    """A package of the workspace that is not built."""
+    build = "colcon build --packages-select" if context.tree.ros.ament else "catkin build"
+    return Lack("build", package, f"{build} {package}")
+
+
+def lack_of_variable(context: Context, name: str) -> Lack | None:
+    """A variable that is not set; None where its name is a slip of one that is."""
+    near = near_variable(context, name)
+    if near is not None:
+        return None
+    distro = context.environment.distro or context.tree.ros.default_distro
+    return Lack("variable", name, f"source /opt/ros/{distro}/setup.bash" if _SET_UP.match(name) else None)
+
+
+def near_variable(context: Context, name: str) -> str | None:
+    """A variable that is set, of whose name this is a slip."""
+    near = nearest(name, context.environment.variables)
+    return near if near is not None and is_slip(name, near) else None
+
+
+def lack_of_program(context: Context, program: str) -> Lack:
+    """A program that is not on the PATH."""
+    distro = context.environment.distro or context.tree.ros.default_distro
+    package = _DEBIAN.get(program)
+    return Lack("program", program, f"apt install ros-{distro}-{package}" if package else None)
+
+
+def lack_of_file(context: Context, path: str) -> Lack | None:
+    """A file of the system or of somebody's home: the robot may have it. None for one that the workspace or a package
+    should have, or that lies where nothing does."""
+    folders = [package.share for package in context.environment.packages.values()]
+    folders += filter(None, [context.environment.workspace])
+    inside = path.startswith(tuple(folder.rstrip("/") + "/" for folder in folders))
+    home = context.environment.variables.get("HOME")
+    outside = _OF_MACHINE.match(path) or (home is not None and path.startswith(home.rstrip("/") + "/"))
+    return Lack("file", path) if outside and not inside else None
+
+
+def lack_of_module(context: Context, module: str) -> Lack | None:
+    """A module of Python that cannot be imported. None where the workspace should have it: one within a package that is
+    there, or one whose name is a slip of a package's."""
+    top, _, within = module.partition(".")
+    packages = context.environment.packages
+    if top in packages:
+        return None if within and within not in ("msg", "srv", "action") else lack_of_build(context, top)
+    near = nearest(top, packages)
+    return None if near is not None and is_slip(top, near) else Lack("module", top)
+
+
+def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
+    """What a program lacked, by what it printed before it ended."""
+    for line in lines:
+        if found := _NO_MODULE.search(line):
+            return lack_of_module(context, found[1])
+        if found := _NO_PACKAGE.search(line):
+            name = next(filter(None, found.groups()))
+            near = nearest(name, context.environment.packages)
+            wrong = name in context.environment.packages or (near is not None and is_slip(name, near))
+            return None if wrong else lack_of_package(name)
+    return None

@@ -1,18 +1,38 @@
 """LCH012: $(env) of a variable that is not set."""
 
+from collections.abc import Iterator
+
 from preflight_analysis.evaluation.problems import UnsetVariable
-from preflight_analysis.rules.problems import check_problems
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.installed import lack_of_variable, near_variable
+from preflight_analysis.rules.nearest import did_you_mean
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(context, UnsetVariable):
+        name, lack = problem.kind.name, lack_of_variable(context, problem.kind.name)
+        near = near_variable(context, name) if lack is None else None
+        yield problem_finding(
+            rule,
+            problem,
+            f"environment variable '{name}' is not set{did_you_mean(near)}",
+            fixes=rename(context, problem.location, name, near) if near is not None else (),
+            lack=lack,
+        )
+
 
 RULE = Rule(
     id="LCH012",
     name="environment-variable-unset",
     severity="warning",
     what="Reports `$(env NAME)`, and `os.environ['NAME']` in a Python launch file, of a variable that is not set in "
-    "the environment in which the analysis looks.",
-    why="`roslaunch` stops where the variable is not set. It may be set on the robot, hence a warning.",
-    example='<arg name="robot" default="$(env ROBOT)"/>',
-    instead='<arg name="robot" default="$(optenv ROBOT turtle)"/>',
-    check=check_problems(lambda unset: f"environment variable '{unset.name}' is not set", UnsetVariable),
+    "the environment in which the analysis looks, and whose name is a slip of the name of one that is. Any other may "
+    "be set on the robot: that is a hint only, and told with what else is missing on this machine.",
+    why="`roslaunch` stops where the variable is not set.",
+    example='<param name="map" value="$(env HOEM)/maps/office.yaml"/>',
+    instead='<param name="map" value="$(env HOME)/maps/office.yaml"/>',
+    check=_check,
     problems=(UnsetVariable,),
 )

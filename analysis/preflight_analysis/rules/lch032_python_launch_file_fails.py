@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
-from preflight_analysis.rules.installed import has_ros
+from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.installed import has_ros, lack_of_module
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -16,19 +17,30 @@ _LAUNCH = re.compile(r"launch(_\w+)?\Z")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, PythonException, PythonImportFailed):
         severity: Severity | None = None
+        lack: Lack | None = None
         confidence: Confidence = "certain"
         related: tuple[Related, ...] = ()
         match problem.kind:
             case PythonImportFailed() as failed:
                 # Which modules there are is a matter of the environment, which may be another one when it is launched.
                 there = has_ros(context)
+                lack = _lack(context, failed)
                 severity, confidence = ("warning", "likely") if there else ("info", "possible")
                 message = _import(context, failed, problem.location.file, has_ros=there)
             case PythonException(error, said, frames):
                 message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
-        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, related=related)
+        yield problem_finding(
+            rule, problem, message, severity=severity, confidence=confidence, related=related, lack=lack
+        )
+
+
+def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:
+    """What is not there to be imported; None for a name that a module does not have, and for those of launch itself."""
+    if _LAUNCH.match(failed.module.partition(".")[0]) or not failed.message.startswith("No module named"):
+        return None
+    return lack_of_module(context, failed.module)
 
 
 def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros: bool) -> str:

@@ -8,6 +8,7 @@ from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.installed import lack_of_build
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
@@ -34,7 +35,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         if executables.is_build_target(node.package, node.executable):
             message = _unbuilt(node.executable, node.package, made_of, found.package_path)
-            yield rule.finding(message, location, severity="info", confidence="likely", related=chain)
+            lack = lack_of_build(context, node.package)
+            yield rule.finding(message, location, confidence="likely", related=chain, lack=lack)
             continue
         names = executables.names(node.package)
         if context.tree.ros.ament and not names:
@@ -94,7 +96,7 @@ RULE = Rule(
     severity="error",
     what="Reports a node whose `type` (ROS 2: `exec`) is no executable file of its package, and names the nearest one "
     "that is, or the package of the launch that has it; or that is there without the permission to be executed. One "
-    "that a `CMakeLists.txt` of the package names is not built yet: that is for information only.",
+    "that a `CMakeLists.txt` of the package names is not built yet: that is a hint only.",
     why="`roslaunch` prints an error among the output of the other nodes and goes on without this one; `ros2 launch` "
     "stops.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',

@@ -7,14 +7,12 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
-from preflight_analysis.rules.installed import has_ros
+from preflight_analysis.findings.finding import Confidence, Finding
+from preflight_analysis.rules.installed import lack_of_build, lack_of_file, lack_of_program, lack_said
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
 
-_DEBIAN = {"xacro": "xacro", "rosrun": "rosbash", "rospack": "rospack", "rosparam": "rosparam"}
-"""Programs that robot descriptions are made with, and the end of the names of their packages (`ros-noetic-xacro`)."""
 _TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
 _ERROR = re.compile(r"\berror\b", re.IGNORECASE)
 _STDERR_LINES = 3
@@ -28,7 +26,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case MalformedCommand(message):
                 yield problem_finding(rule, problem, f"the command cannot be split into words: {message}")
             case CommandFailed() as failed:
-                yield problem_finding(rule, problem, _message(failed))
+                lack = lack_said(context, reversed(failed.stderr))
+                yield problem_finding(rule, problem, _message(failed), lack=lack)
     # A program that is named with its folder is looked for without running anything.
     for command in context.tree.commands:
         if command.launch_file:
@@ -54,41 +53,34 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
     """The program is not there, or may not be executed."""
     program = shlex.split(line)[0]
     name = os.path.basename(program)
-    severity: Severity | None = None
     confidence: Confidence = "certain"
-    near = None
+    near = lack = None
     if "/" not in program:
+        lack = lack_of_program(context, program)
         message = f"there is no program '{program}' on the PATH of this environment"
-        package = _DEBIAN.get(name)
-        if package:
-            message += f"; install it: apt install ros-{_distribution(context)}-{package}"
-        if not has_ros(context):  # without ROS its programs are missing by nature
-            severity, confidence = "info", "possible"
+        if lack.remedy:
+            message += f"; install it: {lack.remedy}"
     elif context.disk.is_file(program):
         message = f"'{shown(program, context)}' is not executable; chmod +x {program}"
     elif package := _will_build(context, program):
         message = f"'{shown(program, context)}' is not built yet: CMakeLists.txt of package '{package}' names it"
-        severity, confidence = "info", "likely"
+        confidence, lack = "likely", lack_of_build(context, package)
     else:
         near = _near(context, program)
         noetic = context.environment.distro in (None, "noetic")
         removed = "; ROS Noetic has no xacro.py any more" if name == "xacro.py" and noetic else ""
         message = f"there is no program '{shown(program, context)}'{removed}{did_you_mean(near)}"
+        lack = lack_of_file(context, program) if near is None and not removed else None
     location: Location = origin[-1]
     return rule.finding(
         message,
         location,
-        severity=severity,
         confidence=confidence,
         related=include_chain(origin),
         fixes=rename(context, location, name, near) if near else (),
         stops_launch=stops,
+        lack=lack,
     )
-
-
-def _distribution(context: Context) -> str:
-    """Its name as packages have it; of ROS 2 there are many in use."""
-    return context.environment.distro or context.tree.ros.default_distro
 
 
 def _will_build(context: Context, program: str) -> str | None:

@@ -7,6 +7,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.installed import lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -37,6 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity="info" if ours or reported else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
+            lack=lack_said(context, (telling_line(outcome.stderr_tail),)),
         )
 
 
