@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from random import Random
 
 from hypothesis import given, settings
@@ -70,6 +71,55 @@ def asked(db: Database, name: str) -> tuple[object, ...]:
     return tuple(result)
 
 
+class Memory:
+    """What a program that goes on in other files has: a number, and the last file but one. What it does not know by
+    itself yet is asked for, and so is each answer."""
+
+    def __init__(self, outside: Callable[[str], object] | None = None) -> None:
+        self._outside, self.own, self.answers = outside, dict[str, object](), dict[str, object]()
+
+    def look(self, question: str) -> object:
+        if question in self.own or self._outside is None:
+            return self.own.get(question)
+        if question not in self.answers:
+            self.answers[question] = self._outside(question)
+        return self.answers[question]
+
+
+Said = tuple[tuple[object, ...], dict[str, object]]
+
+
+@query
+def program(db: Database, name: str) -> tuple[object, ...]:
+    """What a file says, whose parts are the files that it names: a digit is the number from now on, `!` says it."""
+    return _program(db, name, (name,), Memory())[0]
+
+
+def _program(db: Database, name: str, chain: tuple[str, ...], memory: Memory) -> Said:
+    said: list[object] = []
+    for word in words(db, name):
+        if word == "!":
+            said.append(memory.look("number"))
+        elif word == "?":
+            said.append((name, memory.look("last")))
+        elif word.isdigit():
+            memory.own["number"] = word
+        elif len(chain) < 5:
+            below = (*chain, word)
+            more, changed = db.part_answered(below, partial(_part, db, word, below, memory.look), memory.look)
+            said += more
+            memory.own.update(changed)
+            memory.own["last"] = word
+    return tuple(said), memory.own
+
+
+def _part(
+    db: Database, name: str, chain: tuple[str, ...], look: Callable[[str], object]
+) -> tuple[Said, Mapping[str, object]]:
+    memory = Memory(look)
+    return _program(db, name, chain, memory), memory.answers
+
+
 class Counts:
     """Answers how often something is in a text."""
 
@@ -84,7 +134,9 @@ class Counts:
 TEXTS = st.lists(st.sampled_from([*NAMES, "1", "5", "20", "!", "?"]), max_size=5).map(" ".join)
 STEPS = st.lists(
     st.tuples(
-        st.sampled_from(["open", "open", "close", "disk", "read", "read one", "ask"]), st.sampled_from(NAMES), TEXTS
+        st.sampled_from(["open", "open", "close", "disk", "read", "read one", "ask", "program"]),
+        st.sampled_from(NAMES),
+        TEXTS,
     ),
     max_size=100,
 )
@@ -135,6 +187,8 @@ def test_after_any_steps(steps: list[tuple[str, str, str]]) -> None:
         step(db, what, name, text)
         if what == "ask":
             assert asked.answered(db, Counts(text), name) == asked.answered(fresh(db), Counts(text), name)
+        if what == "program":
+            assert program(db, name) == program(fresh(db), name)
         if what.startswith("read"):
             again = fresh(db)
             assert report(db) == report(again)

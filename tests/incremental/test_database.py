@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from itertools import count
 from typing import Any
@@ -293,6 +293,54 @@ def test_parts_are_made_again_where_what_they_read_has_changed() -> None:
     assert lengths(db, "list") == (3, 1), "what was no part for a while is not asked for in between"
     change(db, "b", "7 7")
     assert lengths(db, "list") == (3, 2)
+
+
+@query
+def sayings(db: Database, name: str) -> tuple[str, ...]:
+    """A word after the other: capitals are what is meant from then on, other words are parts that may ask for it."""
+    meant, said = "", []
+    for word in TEXT(db, name).split():
+        if word.isupper():
+            meant = word
+        else:
+            said.append(db.part_answered(word, partial(_saying, db, word, meant), {"meant": meant}.get))
+    return tuple(said)
+
+
+def _saying(db: Database, name: str, meant: str) -> tuple[str, Mapping[str, str]]:
+    MADE.append(name)
+    text = TEXT(db, name)
+    inside = db.part((name, text), lambda: text.upper())
+    return f"{inside} {meant}".strip(), ({"meant": meant} if "?" in text else {})
+
+
+def test_parts_are_made_again_where_they_would_be_answered_otherwise() -> None:
+    db = Database()
+    change(db, "a", "what is ?")
+    change(db, "b", "nothing")
+    change(db, "list", "X a b")
+    assert sayings(db, "list") == ("WHAT IS ? X", "NOTHING X")
+    MADE.clear()
+    change(db, "list", "Y a b")
+    assert sayings(db, "list") == ("WHAT IS ? Y", "NOTHING X"), "b has not asked"
+    change(db, "list", "X a b Y a b")
+    assert sayings(db, "list") == ("WHAT IS ? X", "NOTHING X", "WHAT IS ? Y", "NOTHING X")
+    assert MADE == ["a"]
+
+
+def test_what_parts_were_made_of_is_not_forgotten() -> None:
+    db = Database()
+    change(db, "list", "X a")
+    change(db, "a", "what is ?")
+    sayings(db, "list")
+    change(db, "list", "Y a")
+    for number in range(3 * UNUSED_AFTER):
+        assert sayings(db, "list") == ("WHAT IS ? Y",)
+        change(db, "other", f"{number}")
+        TEXT(db, f"unused {number}")
+    change(db, "a", "who is ?")
+    change(db, "list", "X a")
+    assert sayings(db, "list") == ("WHO IS ? X",)
 
 
 class Answering:

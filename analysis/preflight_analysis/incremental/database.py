@@ -21,6 +21,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from itertools import chain
 from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec, Protocol, TypeVar, cast, overload
 
 P = ParamSpec("P")
@@ -48,6 +49,8 @@ _NONE: Any = object()
 _MORE = 1.25
 MOST_ANSWERS = 8
 """For how many sets of answers the value of one query and key is remembered, the latest."""
+MOST_ANSWERS_OF_PART = 2
+"""The same for parts of a value: as it is, and as it was before something was tried."""
 _ALWAYS = 1 << 62
 """Later than any revision: an input that was loaded is right until it is written."""
 
@@ -138,6 +141,10 @@ def _would_answer(answers: Answers, cell: _Cell) -> bool:
     return True
 
 
+def _no_answer(question: Hashable) -> object:
+    raise RuntimeError("there is nobody to answer")
+
+
 def _same(one: object, other: object) -> bool:
     return type(one) is type(other) and one == other
 
@@ -182,8 +189,8 @@ class _Cell:
         """An input: whether it has another value than it would be loaded with."""
         self.used_at = 0
         """The last revision in which somebody asked for it."""
-        self.parts: dict[Hashable, _Part] = {}
-        """Of the value, as `Database.part` made them the last time."""
+        self.parts: _Parts = {}
+        """Of the value, as `Database.part` made them the last time, and parts of those."""
         self.answers: Mapping[Hashable, object] = {}
         """To what the function asked when it was made."""
         self.answered_by: int | None = None
@@ -191,22 +198,31 @@ class _Cell:
 
 
 class _Part:
-    """What a part came to, and the cells that it was made of."""
+    """What a part came to, the cells that it was made of, what it was answered and the parts that it has itself."""
 
-    __slots__ = ("depends_on", "value", "verified_at")
+    __slots__ = ("answers", "depends_on", "durable", "parts", "value", "verified_at")
 
-    def __init__(self, value: object, depends_on: tuple[_Cell, ...], verified_at: int) -> None:
+    def __init__(
+        self, value: object, answers: Mapping[Any, object], depends_on: tuple[_Cell, ...], parts: _Parts
+    ) -> None:
         self.value = value
+        self.answers = answers
         self.depends_on = depends_on
-        self.verified_at = verified_at
+        self.parts = parts
+        self.durable = False
+        self.verified_at = 0
+
+
+_Parts = dict[Hashable, tuple[_Part, ...]]
+"""By their keys, for each set of answers one, the one that was asked for last in front."""
 
 
 class _Making(NamedTuple):
-    """A query that is being made: its cell, the cells that it has read so far, and the parts of its value so far."""
+    """A query that is being made: its cell, and the parts so far, of its value and of each part that is being made, the
+    innermost last."""
 
     cell: _Cell
-    reads: dict[_Cell, None]
-    parts: dict[Hashable, _Part]
+    parts: list[_Parts]
 
 
 class _Asked(NamedTuple):
@@ -465,22 +481,48 @@ class Database:
 
     def part(self, key: Hashable, make: Callable[[], V]) -> V:
         """For the function of a query: a part of its value, which is that of the last time for the same key, if nothing
-        that was read for it has changed. `make` may depend on the key and on what it reads, and on nothing else."""
-        thread = self._thread
-        making = thread.making[-1]
-        known = making.parts.get(key) or making.cell.parts.get(key)
-        if known is None or not all(self._is_unchanged(each, known.verified_at) for each in known.depends_on):
-            reads: dict[_Cell, None] = {}
-            thread.reads.append(reads)
-            try:
-                value = make()
-            finally:
-                thread.reads.pop()
-            known = _Part(value, tuple(reads), self.revision)
-        known.verified_at = self.revision
-        making.parts[key] = known
-        thread.reads[-1].update(dict.fromkeys(known.depends_on))
-        return cast(V, known.value)
+        that was read for it has changed. `make` may depend on the key and on what it reads, and on nothing else. Parts
+        may have parts."""
+        return self.part_answered(key, lambda: (make(), {}), _no_answer)
+
+    def part_answered(
+        self, key: Hashable, make: Callable[[], tuple[V, Mapping[Any, object]]], look: Callable[[Any], object]
+    ) -> V:
+        """As `part`, where `make` also depends on the answers to questions, which it gives with the value. `look` tells
+        what they are now."""
+        making = self._thread.making[-1]
+        known = (*making.parts[-1].get(key, ()), *making.cell.parts.get(key, ()))
+        part = next((each for each in known if self._is_right(each, look)), None) or self._made(making, make)
+        part.verified_at = self.revision
+        making.parts[-1].update(part.parts)
+        making.parts[-1][key] = (part, *(each for each in known if each is not part))[:MOST_ANSWERS_OF_PART]
+        self._thread.reads[-1].update(dict.fromkeys(part.depends_on))
+        return cast(V, part.value)
+
+    def _made(self, making: _Making, make: Callable[[], tuple[object, Mapping[Any, object]]]) -> _Part:
+        reads: dict[_Cell, None] = {}
+        parts: _Parts = {}
+        self._thread.reads.append(reads)
+        making.parts.append(parts)
+        try:
+            value, answers = make()
+        finally:
+            self._thread.reads.pop()
+            making.parts.pop()
+        part = _Part(value, answers, tuple(reads), parts)
+        part.durable = all(each.durable for each in reads)
+        return part
+
+    def _is_right(self, part: _Part, look: Callable[[Any], object]) -> bool:
+        """Whether a part would come to the same again."""
+        if not all(_same(look(question), answer) for question, answer in part.answers.items()):
+            return False
+        if part.durable and part.verified_at >= self._durable_changed_at:
+            return True
+        if not all(self._is_unchanged(each, part.verified_at) for each in part.depends_on):
+            return False
+        part.durable = all(each.durable for each in part.depends_on)
+        return True
 
     def _is_unchanged(self, cell: _Cell, since: int) -> bool:
         """Whether a cell has the value of this revision, and had it then."""
@@ -572,9 +614,9 @@ class Database:
     def _execute(self, cell: _Cell, kind: Query[Any, Any]) -> None:
         reads: dict[_Cell, None] = {}
         thread = self._thread
-        parts: dict[Hashable, _Part] = {}
+        parts: _Parts = {}
         thread.reads.append(reads)
-        thread.making.append(_Making(cell, reads, parts))
+        thread.making.append(_Making(cell, [parts]))
         if self._on_execute is not None:
             self._on_execute(kind, cell.key)
         try:
@@ -607,7 +649,9 @@ class Database:
         pending += (cell for cell in asking if cell.used_at >= old or cell in latest)
         used = set(pending)
         while pending:
-            for each in pending.pop().depends_on:
+            cell = pending.pop()
+            parts = (part for known in cell.parts.values() for part in known)
+            for each in chain(cell.depends_on, *(part.depends_on for part in parts)):
                 if each not in used:
                     used.add(each)
                     pending.append(each)
