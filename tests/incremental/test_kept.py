@@ -102,6 +102,28 @@ def test_of_rows_only_those_are_looked_at_in_which_one_is_another_object() -> No
         second.each_row(described, (items, others[1:]))
 
 
+def first(item: list[int]) -> int:
+    return item[0]
+
+
+def larger(one: list[int], other: list[int]) -> list[int]:
+    return max(one, other)
+
+
+@given(st.lists(st.lists(st.integers(0, 7), max_size=9), max_size=6))
+def test_several_functions_of_one_tuple_have_their_own_results(rounds: list[list[int]]) -> None:
+    pool = [[number] for number in range(8)]
+    kept = Kept()
+    for numbers in rounds:
+        kept = Kept(kept)
+        items = tuple(pool[number] for number in numbers)
+        assert kept.each(first, items) == kept.each(first, items) == numbers
+        assert kept.each(described, items) == [f"[{number}]" for number in numbers]
+        backwards = tuple(reversed(items))
+        assert kept.each_row(larger, (items, backwards)) == [*map(max, items, backwards)]
+        kept.end()
+
+
 def parity(item: list[int]) -> int:
     return item[0] % 3
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import compress
-from operator import not_
+from operator import is_not, not_
 from typing import TypeVar
 
-from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 
 T = TypeVar("T")
 
@@ -17,22 +17,21 @@ def taken_over(tree: LaunchTree, before: LaunchTree) -> LaunchTree:
     """The tree with the nodes, parameters and includes of an earlier one where they are equal: what was kept of those
     is found again by the objects themselves."""
     # Most are the same objects anyway: to look at them is quicker than to compare them.
-    same = {*map(id, before.nodes), *map(id, before.params.values()), *map(id, before.includes)}
-    nodes = {node.name: node for node in before.nodes}
-    kept_nodes = {
-        id(node): known
-        for node in _others(tree.nodes, same)
-        if (known := nodes.get(node.name)) is not None and known == node
-    }
+    kept_nodes: dict[int, LaunchNode] = {}
+    if new_nodes := _others(tree.nodes, before.nodes):
+        nodes = {node.name: node for node in before.nodes}
+        kept_nodes = {
+            id(node): known for node in new_nodes if (known := nodes.get(node.name)) is not None and known == node
+        }
     params = {
         param.name: before.params[param.name]
-        for param in _others(tree.params.values(), same)
+        for param in _others(tree.all_params, before.all_params)
         if before.params.get(param.name) == param
     }
     by_place = {include.origin: include for include in before.includes}
     includes = {
         id(include): by_place[include.origin]
-        for include in _others(tree.includes, same)
+        for include in _others(tree.includes, before.includes)
         if by_place.get(include.origin) == include
     }
     return replace(
@@ -43,7 +42,12 @@ def taken_over(tree: LaunchTree, before: LaunchTree) -> LaunchTree:
     )
 
 
-def _others(items: Iterable[T], same: Container[int]) -> Iterable[T]:
-    """Those whose ids are not among these. Of thousands there are few: no line of Python is run for the others."""
-    all_items = [*items]
-    return compress(all_items, map(not_, map(same.__contains__, map(id, all_items))))
+def _others(items: Sequence[T], before: Sequence[T]) -> list[T]:
+    """Those that are not among the objects of before. Of thousands there are few: no line of Python is run for the
+    others."""
+    if len(items) == len(before):
+        items = [*compress(items, map(is_not, items, before))]
+    if not items:
+        return []
+    same = {*map(id, before)}
+    return [*compress(items, map(not_, map(same.__contains__, map(id, items))))]

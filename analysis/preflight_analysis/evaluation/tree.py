@@ -12,6 +12,7 @@ from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.generation import Generation, ros
+from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.problems import ProblemKind
 
@@ -297,7 +298,7 @@ class Edited:
 
 
 @dataclass(frozen=True, slots=True)
-class LaunchTree:
+class LaunchTree(Once):
     """What the launcher would start from `file`. `inputs` maps every file that was read (launch files, YAML, ...)
     to the digest of its content, "" for a file that was looked for and is not there: an unchanged map means an
     unchanged tree."""
@@ -329,6 +330,11 @@ class LaunchTree:
         return ros(self.generation)
 
     @property
+    def all_params(self) -> tuple[Param, ...]:
+        """The parameters of all nodes and namespaces; the same object each time."""
+        return self.once(_all_params)
+
+    @property
     def complete(self) -> bool:
         """Whether all that the launcher would start is here: no error cut something off and nothing is unknown."""
         return not self.unknowns and not any(p.fatal and not self._is_stood_in_for(p) for p in self.problems)
@@ -336,3 +342,7 @@ class LaunchTree:
     def _is_stood_in_for(self, problem: Problem[ProblemKind]) -> bool:
         edited = self.edited.get(problem.location.file)
         return edited is not None and problem.location.span in edited.wrong
+
+
+def _all_params(tree: LaunchTree) -> tuple[Param, ...]:
+    return tuple(tree.params.values())

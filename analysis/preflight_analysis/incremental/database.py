@@ -545,8 +545,10 @@ class Database:
                     del latest[cell]
 
     def _used(self, cell: _Cell, limit: int) -> None:
+        latest = self._latest.setdefault(cell.kind, {})
+        if cell in latest and 2 * len(latest) < limit:
+            return  # who is used after that comes to the end in time
         with self._condition:
-            latest = self._latest.setdefault(cell.kind, {})
             latest.pop(cell, None)
             latest[cell] = None
             if len(latest) > limit:

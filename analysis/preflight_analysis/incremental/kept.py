@@ -24,7 +24,7 @@ class Kept:
     these, which moves as lines come and go above it.
     """
 
-    __slots__ = ("_before", "_each_before", "_each_now", "_groups_before", "_groups_now", "_now")
+    __slots__ = ("_before", "_differences", "_each_before", "_each_now", "_groups_before", "_groups_now", "_now")
 
     def __init__(self, before: Kept | None = None) -> None:
         self._before: dict[Hashable, tuple[tuple[Any, ...], Any]] = before._now if before is not None else {}
@@ -33,6 +33,7 @@ class Kept:
         self._each_now: dict[Hashable, _Round] = {}
         self._groups_before: dict[Hashable, _Groups] = before._groups_now if before is not None else {}
         self._groups_now: dict[Hashable, _Groups] = {}
+        self._differences: _Differences = {}
 
     def each(
         self,
@@ -43,16 +44,17 @@ class Kept:
         **none: P.kwargs,
     ) -> list[V]:
         """`[function(item, *shared) for item in items]`, for many items: those that are the same objects as last time
-        are not looked at, if what they share is equal. Ask once for each function and what is shared."""
+        are not looked at, if what they share is equal. Ask once for each function and what is shared. What is given as
+        the same tuple to several functions is compared with the last time once."""
         _refuse(none)
-        return self._of_rows(function, ([*items],), shared)
+        return self._of_rows(function, (_column(items),), shared)
 
     def each_row(self, function: Callable[..., V], columns: Iterable[Iterable[Any]], /, *shared: object) -> list[V]:
         """As `each`, for rows of items that are looked at together: `function(*row, *shared)`."""
-        lists = tuple([*column] for column in columns)
-        if len({*map(len, lists)}) != 1:
+        fixed = tuple(map(_column, columns))
+        if len({*map(len, fixed)}) != 1:
             raise ValueError("columns of a row have the same length")
-        return self._of_rows(function, lists, shared)
+        return self._of_rows(function, fixed, shared)
 
     def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> dict[K, tuple[T, ...]]:
         """The items by their `key`, in order, the groups in none. A group of the same objects as last time is the same
@@ -65,7 +67,7 @@ class Kept:
             touched = set(keys)
         else:
             row = _Round((), (before.items,), before.keys)
-            keys = _taken_over(row, (now,), lambda columns: map(key, *columns))
+            keys = _taken_over(row, (now,), lambda columns: map(key, *columns), {})
             start, end = _same_ends(before.items, now)
             groups = before.groups.copy()
             touched = {*before.keys[start : len(before.keys) - end], *keys[start : len(keys) - end]}
@@ -81,7 +83,7 @@ class Kept:
         self._groups_now[name] = _Groups(now, keys, groups)
         return groups.copy()
 
-    def _of_rows(self, function: Callable[..., V], columns: tuple[list[Any], ...], shared: tuple[Any, ...]) -> list[V]:
+    def _of_rows(self, function: Callable[..., V], columns: _Columns, shared: tuple[Any, ...]) -> list[V]:
         before = self._each_before.get(function)
 
         def make(some: Sequence[Iterable[Any]]) -> Iterable[V]:
@@ -90,7 +92,7 @@ class Kept:
         if before is None or before.shared != shared:
             results = list(make(columns))
         else:
-            results = _taken_over(before, columns, make)
+            results = _taken_over(before, columns, make, self._differences)
         self._each_now[function] = _Round(shared, columns, results)
         return results.copy()
 
@@ -130,7 +132,7 @@ class Kept:
 
     def end(self) -> None:
         """The whole is made: let go of what was not used for it."""
-        self._before, self._each_before, self._groups_before = {}, {}, {}
+        self._before, self._each_before, self._groups_before, self._differences = {}, {}, {}, {}
 
 
 def _refuse(keywords: Mapping[str, object]) -> None:
@@ -161,12 +163,21 @@ def _are(some: Sequence[object], others: Sequence[object]) -> bool:
     return len(some) == len(others) and all(map(is_, some, others))
 
 
+_Columns = tuple[Sequence[Any], ...]
+_Differences = dict[tuple[int, int], tuple[Sequence[Any], Sequence[Any], list[int]]]
+"""Where two columns have different items, by the ids of both, which it holds."""
+
+
+def _column(items: Iterable[Any]) -> Sequence[Any]:
+    return items if type(items) is tuple else [*items]
+
+
 class _Round(NamedTuple):
     """What was shared, and the items (and the others, if each has another one) with what was made of each. They are
     held, so nothing else can have their ids."""
 
     shared: tuple[Any, ...]
-    columns: tuple[list[Any], ...]
+    columns: _Columns
     results: list[Any]
 
 
@@ -181,13 +192,13 @@ class _Groups(NamedTuple):
 _Make = Callable[[Sequence[Iterable[Any]]], Iterable[V]]
 
 
-def _taken_over(before: _Round, columns: tuple[list[Any], ...], make: _Make[V]) -> list[V]:
+def _taken_over(before: _Round, columns: _Columns, make: _Make[V], differences: _Differences) -> list[V]:
     # Thousands of items, of which a handful is new: what is done for each of them is done without a line of Python.
     # Where none is at its place, all are new, most likely: to look for them would take longer than most functions.
     old, results = before.columns, before.results
     length, now = len(old[0]), len(columns[0])
     if length == now:
-        places = _changed(old, columns)
+        places = sorted(set().union(*(_changed(*pair, differences) for pair in zip(old, columns, strict=True))))
         if not places:
             return results
         if len(places) == length:
@@ -207,10 +218,14 @@ def _taken_over(before: _Round, columns: tuple[list[Any], ...], make: _Make[V]) 
     return [*results[:start], *found, *results[length - end :]]
 
 
-def _changed(old: Sequence[Sequence[object]], columns: Sequence[Sequence[object]]) -> list[int]:
+def _changed(some: Sequence[object], others: Sequence[object], known: _Differences) -> list[int]:
     """The places at which there is another object."""
-    places = (compress(range(len(some)), map(is_not, some, others)) for some, others in zip(old, columns, strict=True))
-    return sorted(set().union(*places))
+    if some is others:
+        return []
+    names = id(some), id(others)
+    if names not in known:
+        known[names] = some, others, [*compress(range(len(some)), map(is_not, some, others))]
+    return known[names][2]
 
 
 def _found(

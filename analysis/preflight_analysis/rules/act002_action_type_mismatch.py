@@ -9,8 +9,7 @@ from preflight_analysis.rules.type_mismatch import mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    if context.graph is not None:
-        yield from mismatches(rule, context.graph, context.graph.actions, Verbs("offers", "sends goals to"))
+    return mismatches(rule, context, "actions", Verbs("offers", "sends goals to"))
 
 
 RULE = Rule(

@@ -37,7 +37,10 @@ class _Reached:
 def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
     """Those of nodes that were run to their event loop. Ask through `context.once`."""
     graph = context.graph
-    return tuple(_idle(graph)) if graph is not None else ()
+    if graph is None:
+        return ()
+    idle = context.kept.each_row(_without_effect, (graph.tree.nodes, graph.interfaces))
+    return tuple(_idle(graph, idle)) if any(idle) else ()
 
 
 def meant_endpoints(context: Context) -> frozenset[int]:
@@ -47,20 +50,25 @@ def meant_endpoints(context: Context) -> frozenset[int]:
     return frozenset(id(connection) for idle in found for connection in (idle.meant, idle.partner))
 
 
-def _idle(graph: Graph) -> Iterator[IdleRemap]:
+def _without_effect(node: LaunchNode, interface: Interface) -> tuple[Remap, ...]:
+    """The remaps that have no effect at this node, as far as is known."""
+    if not node.remaps or not _reports_names(node, interface):
+        return ()
+    used = _used(node, interface)
+    return tuple(remap for remap in node.remaps if _has_no_effect(remap, node, used))
+
+
+def _idle(graph: Graph, idle: Iterable[tuple[Remap, ...]]) -> Iterator[IdleRemap]:
     # A tag reaches several nodes where it stands around them, or in a file that is included more than once: it has to
     # be idle at all of them.
     reached: dict[object, _Reached] = {}
     in_use: set[object] = set()
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
-        if not node.remaps:
-            continue
-        used = _used(node, interface) if _reports_names(node, interface) else None
+    for node, of_node in zip(graph.tree.nodes, idle, strict=True):
         for remap in node.remaps:
             place = remap.origin[-1]
             if place in in_use:
                 continue
-            if used is None or not _has_no_effect(remap, node, used):
+            if not any(remap is each for each in of_node):
                 in_use.add(place)
                 reached.pop(place, None)
             else:

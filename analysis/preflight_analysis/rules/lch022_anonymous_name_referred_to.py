@@ -46,7 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen: set[Location] = set()
     references = chain(
         context.kept.each(_references_of_node, nodes, hit),
-        context.kept.each(_references_of_param, context.tree.params.values(), hit),
+        context.kept.each(_references_of_param, context.tree.all_params, hit),
     )
     for found in chain.from_iterable(filter(None, references)):
         reference = _placed(context, found)

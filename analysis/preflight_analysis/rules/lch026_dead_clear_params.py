@@ -24,7 +24,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if tag is None or tag.action.kind in ("node", "test"):
             # A node's own parameters are loaded before its tag as often as in it: nobody expects them to go.
             continue
-        below = [param for param in tree.params.values() if param.name.startswith(namespace)]
+        below = [param for param in tree.all_params if param.name.startswith(namespace)]
         if not below and not _lives(tree, namespace):
             if tree.complete:
                 yield rule.finding(

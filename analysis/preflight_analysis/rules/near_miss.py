@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
-from typing import Any, Concatenate, Literal, ParamSpec, TypeVar
+from typing import Any, Literal
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
@@ -15,15 +15,12 @@ from preflight_analysis.findings.finding import Confidence, Edit, Fix, Severity
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.channels import channels_of, of_all_kinds
 from preflight_analysis.rules.nearest import has_all_words, likeness, numbers_in, share_words
 from preflight_analysis.rules.nearest_memory import Hit, Search, search
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS, may_dangle
-
-P = ParamSpec("P")
-T = TypeVar("T")
-V = TypeVar("V")
 
 _GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
 """Types that say nothing of what is carried: that two ends have the same one is no evidence."""
@@ -145,13 +142,13 @@ class _Found:
 
 def _all_candidates(context: Context) -> Mapping[ChannelKind, tuple[_Candidate, ...]]:
     """Those of each kind, in the order of the graph."""
-    return _of_all_kinds(context, _candidate, _channels_of(context), context.once(_namesakes))
+    return of_all_kinds(context, _candidate, channels_of(context), context.once(_namesakes))
 
 
 def _all_seekers(context: Context) -> Mapping[ChannelKind, tuple[_Seeker, ...]]:
     lone = context.once(_all_lone_consumers)
     consumers = {kind: tuple(chain.from_iterable(lone[kind])) for kind in lone}
-    return _of_all_kinds(context, _seeker, consumers, context.once(_namesakes))
+    return of_all_kinds(context, _seeker, consumers, context.once(_namesakes))
 
 
 def _namesakes(context: Context) -> Mapping[int, int]:
@@ -318,48 +315,30 @@ def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
 
 def dangling_consumers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
-    return [connection for connections in context.once(_all_lone_consumers)[kind] for connection in connections]
+    return [*chain.from_iterable(context.once(_all_lone_consumers)[kind])]
 
 
 def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     channels = context.graph.channels(kind) if context.graph is not None else {}
-    found = zip(channels, context.once(_all_lone_providers)[kind], strict=True)
-    return [
-        connection
-        for name, connections in found
-        if connections and not _read_otherwise(name, channels)
-        for connection in connections
-    ]
+    lone = context.once(_all_lone_providers)[kind]
+    transported = {name.rpartition("/")[0] for name in channels if name.endswith(IMAGE_TRANSPORTS)}
+    if transported:
+        found = zip(channels, lone, strict=True)
+        lone = tuple(() if name in transported and _read_otherwise(name, channels) else each for name, each in found)
+    return [*chain.from_iterable(lone)]
 
 
 _Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
 """The ends of each channel of a kind, in the order of the graph."""
-_KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
 
 
 def _all_lone_consumers(context: Context) -> _Lone:
-    return _of_all_kinds(context, _lone_consumers, _channels_of(context))
+    return of_all_kinds(context, _lone_consumers, channels_of(context))
 
 
 def _all_lone_providers(context: Context) -> _Lone:
-    return _of_all_kinds(context, _lone_providers, _channels_of(context))
-
-
-def _channels_of(context: Context) -> Mapping[ChannelKind, Collection[Channel]]:
-    graph = context.graph
-    return {kind: graph.channels(kind).values() if graph is not None else () for kind in _KINDS}
-
-
-def _of_all_kinds(
-    context: Context,
-    function: Callable[Concatenate[T, P], V],
-    items: Mapping[ChannelKind, Collection[T]],
-    *shared: P.args,
-    **none: P.kwargs,
-) -> Mapping[ChannelKind, tuple[V, ...]]:
-    found = iter(context.kept.each(function, chain.from_iterable(items.values()), *shared, **none))
-    return {kind: tuple(islice(found, len(some))) for kind, some in items.items()}
+    return of_all_kinds(context, _lone_providers, channels_of(context))
 
 
 def dangling_topic_providers(context: Context) -> list[Connection]:

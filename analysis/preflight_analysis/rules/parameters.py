@@ -15,7 +15,7 @@ from preflight_analysis.tracing.interface import ParamUse
 def by_namespace(context: Context) -> Mapping[str, list[Param]]:
     """All of them, `/a/b/c` under `/a/b` and `/c` under the empty text. Ask through `context.once`."""
     groups: dict[str, list[Param]] = {}
-    for param, namespace in zip(context.tree.params.values(), context.once(_each_namespace), strict=True):
+    for param, namespace in zip(context.tree.all_params, context.once(_each_namespace), strict=True):
         groups.setdefault(namespace, []).append(param)
     return groups
 
@@ -26,7 +26,7 @@ def namespaces(context: Context) -> frozenset[str]:
 
 
 def _each_namespace(context: Context) -> list[str]:
-    return context.kept.each(namespace_of, context.tree.params.values())
+    return context.kept.each(namespace_of, context.tree.all_params)
 
 
 def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:

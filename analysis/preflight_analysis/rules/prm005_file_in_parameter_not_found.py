@@ -83,7 +83,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _in_params(context: Context) -> Iterator[_Named]:
-    params = context.tree.params.values()
+    params = context.tree.all_params
     texts_of_each = context.kept.each(_texts_of_param, params)
     for param, texts in compress(zip(params, texts_of_each, strict=True), texts_of_each):
         command = isinstance(param.value, CommandValue)

@@ -57,7 +57,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield from _of_ros2_nodes(rule, context)
         return
     tags = Tags(context.launch_files)
-    for param, lost in filter(None, context.kept.each(_with_lost, context.tree.params.values())):
+    for param, lost in filter(None, context.kept.each(_with_lost, context.tree.all_params)):
         winner = _setting(tags, param)
         if winner is None:
             continue

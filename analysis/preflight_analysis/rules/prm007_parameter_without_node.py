@@ -25,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
     if not tree.nodes:
         return
-    outside = [*filter(None, context.kept.each(_outside, tree.params.values()))]
+    outside = [*filter(None, context.kept.each(_outside, tree.all_params))]
     if not outside:
         return
     homes = context.kept.get(_homes, "", tuple([node.name for node in tree.nodes]))
@@ -125,7 +125,7 @@ def _is_alone(context: Context, prefix: str, params: list[Param]) -> bool:
         return False
     if any(leaf in node.args or node.name.startswith(f"{prefix}_ANON") for node in tree.nodes):
         return False
-    return not any(leaf in param.value for param in tree.params.values() if isinstance(param.value, (str, list)))
+    return not any(leaf in param.value for param in tree.all_params if isinstance(param.value, (str, list)))
 
 
 def _written(context: Context, param: Param) -> str:

@@ -9,8 +9,7 @@ from preflight_analysis.rules.type_mismatch import mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    if context.graph is not None:
-        yield from mismatches(rule, context.graph, context.graph.services, Verbs("offers", "calls"))
+    return mismatches(rule, context, "services", Verbs("offers", "calls"))
 
 
 RULE = Rule(

@@ -3,49 +3,65 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import chain
 
 from preflight_analysis.findings.finding import Confidence, Finding
-from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
+from preflight_analysis.rules.channels import channels_of, of_all_kinds
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.rules.rule import Context, Rule
 
 
-def mismatches(rule: Rule, graph: Graph, channels: Mapping[str, Channel], verbs: Verbs) -> Iterator[Finding]:
+def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) -> Iterator[Finding]:
     """A finding for each consumer and each type that does not fit it."""
-    for channel in channels.values():
-        # Of those that are alike the first one is told; a topic that all nodes share has many.
-        providers: dict[tuple[str | None, str | None, bool], Connection] = {}
-        for connection in channel.providers:
-            providers.setdefault(
-                (connection.endpoint.type, connection.endpoint.md5, connection.action is None), connection
-            )
-        for consumer in channel.consumers:
-            reported: set[tuple[str | None, str]] = set()
-            for provider in providers.values():
-                if consumer.action is not None and provider.action is not None:
-                    continue  # said once of the action, not of each of its topics
-                difference = _difference(consumer, provider)
-                if difference is None or (provider.endpoint.type, difference) in reported:
-                    continue
+    graph = context.graph
+    if graph is None:
+        return
+    for consumer, provider, difference in chain.from_iterable(context.once(_all_misfits)[kind]):
+        site, other = (consumer, provider)
+        if consumer.remap is None and provider.remap is not None:
+            site, other = provider, consumer
+        yield rule.finding(
+            f"types of '{consumer.name}' differ: {provider.node.name} {verbs.provides} it as "
+            f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} it as "
+            f"{consumer.endpoint.type or 'an unknown type'}"
+            f"{difference}",
+            connection_location(site),
+            severity="info" if consumer.endpoint.assumed or provider.endpoint.assumed else None,
+            confidence=_confidence(graph, consumer, provider),
+            related=(
+                related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
+                *include_chain(site.node.origin),
+            ),
+            endpoints=endpoints_of(consumer, provider),
+        )
+
+
+_Misfit = tuple[Connection, Connection, str]
+"""A consumer, a provider that does not fit it, and what to add to the message."""
+
+
+def _all_misfits(context: Context) -> Mapping[ChannelKind, tuple[tuple[_Misfit, ...], ...]]:
+    return of_all_kinds(context, _misfits, channels_of(context))
+
+
+def _misfits(channel: Channel) -> tuple[_Misfit, ...]:
+    # Of those that are alike the first one is told; a topic that all nodes share has many.
+    providers: dict[tuple[str | None, str | None, bool], Connection] = {}
+    for connection in channel.providers:
+        providers.setdefault((connection.endpoint.type, connection.endpoint.md5, connection.action is None), connection)
+    found: list[_Misfit] = []
+    for consumer in channel.consumers:
+        reported: set[tuple[str | None, str]] = set()
+        for provider in providers.values():
+            if consumer.action is not None and provider.action is not None:
+                continue  # said once of the action, not of each of its topics
+            difference = _difference(consumer, provider)
+            if difference is not None and (provider.endpoint.type, difference) not in reported:
                 reported.add((provider.endpoint.type, difference))
-                site, other = (consumer, provider)
-                if consumer.remap is None and provider.remap is not None:
-                    site, other = provider, consumer
-                yield rule.finding(
-                    f"types of '{channel.name}' differ: {provider.node.name} {verbs.provides} it as "
-                    f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} it as "
-                    f"{consumer.endpoint.type or 'an unknown type'}"
-                    f"{difference}",
-                    connection_location(site),
-                    severity="info" if consumer.endpoint.assumed or provider.endpoint.assumed else None,
-                    confidence=_confidence(graph, consumer, provider),
-                    related=(
-                        related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
-                        *include_chain(site.node.origin),
-                    ),
-                    endpoints=endpoints_of(consumer, provider),
-                )
+                found.append((consumer, provider, difference))
+    return tuple(found)
 
 
 def _difference(consumer: Connection, provider: Connection) -> str | None:

@@ -35,7 +35,7 @@ class Fallback:
         if not any(gaps):
             return tuple(interfaces)
         of_nodes = kept.each(_values_of_node, tree.nodes)
-        params = kept.patched(_launch_params, "", tuple(tree.params.values()), tuple(of_nodes))
+        params = kept.patched(_launch_params, "", tree.all_params, tuple(of_nodes))
         similar = self._similar.looking(params.values) if self._similar is not None else None
         as_asked, keys = kept.each(asked, tree.nodes, tree.generation), kept.each(source_key, tree.nodes)
         found: dict[int, Interface | SourceInterface | None] = {at: None for at, gap in enumerate(gaps) if gap}

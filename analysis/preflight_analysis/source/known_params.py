@@ -32,10 +32,11 @@ class LaunchParams:
             values.pop(name, None)
         values.update(come)
         differing = {
-            "/".join(parts[:end])
+            "/".join(parts[:end]) + slash
             for name in gone | come.keys()
             if (parts := name.split("/"))
             for end in range(len(parts) + 1)
+            for slash in ("", "/")
         }
         new = LaunchParams(values, self.number, frozenset(differing))
         if "_sorted" in self.__dict__ and values.keys() == self.values.keys():
@@ -46,7 +47,7 @@ class LaunchParams:
         """Whether it is known that the parameters of that number have the same for all these names."""
         if number == self.number:
             return True
-        return number == self._follows and self._differing.isdisjoint(name.rstrip("/") for name in asked)
+        return number == self._follows and self._differing.isdisjoint(asked)
 
     @cached_property
     def _sorted(self) -> list[str]:
@@ -81,4 +82,6 @@ class KnownParams:
 
     def look(self, name: str) -> Any:
         """As `LaunchParams.look`, but for what the node sets itself as it starts."""
-        return self._own[name] if name in self._own else self._ask(name)
+        if name in self._own:
+            return self._own[name]
+        return self._ask(f"{name.rstrip('/')}/" if name.endswith("//") else name)

@@ -133,8 +133,10 @@ class TraceCache(Store):
 
     def state_of(self, generation: int, package: str, executable: str, plugin: str | None) -> object:
         """What changes with what `traces_of` gives."""
+        # For each executable of a launch after each edit: no `Path` is made.
+        digest = _executable_digest(generation, package, executable, plugin)
         try:
-            return os.stat(self._executable_folder(generation, package, executable, plugin)).st_mtime_ns
+            return os.stat(os.path.join(self.folder, digest[:2], digest)).st_mtime_ns
         except OSError:
             return None
 

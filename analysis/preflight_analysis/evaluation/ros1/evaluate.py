@@ -325,10 +325,11 @@ def _alone(db: Database, surroundings: Surroundings, passed: Passed) -> Record |
 def _check_language(state: State) -> None:
     """What roslaunch would skip or complain of in each file, whatever its context."""
     for path in state.visited:
-        launch_file = state.files.launch_file(path, 1)
-        if not isinstance(launch_file, Unreadable):
+        problems = language_problems(state.files.db, state.files, path)
+        launch_file = state.files.launch_file(path, 1) if problems else None
+        if launch_file is not None and not isinstance(launch_file, Unreadable):
             said = {problem.span for problem in launch_file.document.problems} | set(launch_file.extra_roots)
-            for found in language_problems(state.files.db, state.files, path):
+            for found in problems:
                 if found.span not in said:
                     state.problem(found.kind, (launch_file.document.location(found.span),), fatal=False)
 
