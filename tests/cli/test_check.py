@@ -29,14 +29,17 @@ def test_the_demo_in_text(harness: Harness, preflight: Run) -> None:
     assert "launch/talker_listener.launch:7:31: warning (likely) TOP001 subscribed-not-published: " in done.out
     assert '  7 |     <remap from="chatter" to="chater"/>\n    |                               ^^^^^^\n' in done.out
     assert "fix: Replace 'chater' by 'chatter'" in done.out
-    assert "2 nodes, 2 of them traced" in done.out
+    assert "2 nodes: 2 run" in done.out
     assert "\x1b" not in done.out, "no colours in a pipe"
     assert done.err == ""
 
 
 def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     data = preflight("check", "launch/talker_listener.launch", "--format", "json").json
-    assert set(data) == {"schema", "findings", "files", "nodes", "traced"}
+    assert set(data) == {
+        *("schema", "findings", "rules", "environment"),
+        *("files", "evaluated", "nodes", "traced", "known"),
+    }
     assert (data["schema"], data["files"], data["nodes"], data["traced"]) == ("ros-preflight/check/1", 1, 2, 2)
     (finding,) = data["findings"]
     assert set(finding) == {
@@ -53,7 +56,7 @@ def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
 
 def test_the_mended_demo_is_clean(harness: Harness, preflight: Run) -> None:
     done = preflight("check", harness.launch_file.with_name("fixed.launch"), "--fail-on", "hint")
-    assert (done.code, done.out) == (0, "no findings in 1 file, 2 nodes, 2 of them traced\n")
+    assert (done.code, done.out) == (0, "no findings; 1 of 1 launch file evaluated, 2 nodes: 2 run\n")
 
 
 def test_no_run_executes_nothing(harness: Harness, preflight: Run) -> None:
@@ -94,6 +97,28 @@ def test_an_error_is_exit_code_1(harness: Harness, preflight: Run) -> None:
     assert preflight("check", harness.launch_file, "--no-run", "--fail-on", "never").code == 0
 
 
+def test_what_is_missing_here_counts_where_that_is_asked_for(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text("<launch><node pkg='not_there' type='t' name='n'/></launch>")
+    check = ("check", harness.launch_file, "--no-run", "--fail-on", "warning")
+    done = preflight(*check)
+    assert done.code == 0
+    assert "missing on this machine:\n  1 package: not_there\n" in done.out
+    assert done.out.count("not_there") == 1
+    assert preflight(*check, "--require-complete").code == 1
+    harness.launch_file.write_text("<launch/>")
+    assert preflight(*check, "--require-complete").code == 0
+
+
+def test_what_is_less_severe_can_be_hidden(harness: Harness, preflight: Run) -> None:
+    harness.launch_file.write_text(TWO_WARNINGS)
+    check = ("check", harness.launch_file, "--no-run", "--fail-on", "info")
+    done = preflight(*check, "--severity", "warning")
+    assert " info " not in done.out
+    assert "2 warnings (1 less severe not shown); " in done.out
+    done = preflight(*check, "--severity", "error", "--format", "json")
+    assert (done.code, done.json["findings"]) == (1, []), "what is hidden still counts"
+
+
 def test_launch_arguments_may_stand_anywhere(harness: Harness, preflight: Run) -> None:
     harness.launch_file.write_text("<launch><arg name='x'/><param name='p' value='$(arg x)'/><arg name='y'/></launch>")
     assert preflight("check", harness.launch_file, "--no-run", "--fail-on", "info").code == 1
@@ -103,7 +128,10 @@ def test_launch_arguments_may_stand_anywhere(harness: Harness, preflight: Run) -
 def test_package_path_means_there_and_nowhere_else(harness: Harness, preflight: Run, tmp_path: Path) -> None:
     options = ("--no-run", "--format", "json")
     done = preflight("check", harness.launch_file, "--package-path", tmp_path / "nothing", *options)
-    assert {"PKG001"} <= {f["rule"] for f in done.json["findings"]}
+    assert [(each["kind"], each["name"]) for each in done.json["environment"]["missing"]] == [
+        ("package", "preflight_demo")
+    ]
+    assert [f["rule"] for f in done.json["findings"]] == ["TRC004"]
     done = preflight(
         "check", harness.launch_file, "--package-path", f"{tmp_path / 'nothing'}:{harness.workspace}", *options
     )

@@ -130,7 +130,7 @@ def test_known_findings_do_not_count(workspace: Path, preflight: Run) -> None:
     inner = workspace / "inner.launch"
     inner.write_text("<!-- moved -->\n\n" + INNER)
     done = preflight(*check, "--baseline", "known.json", cwd=workspace)
-    assert (done.code, done.out) == (0, "no findings in 3 files, 0 nodes, 0 of them traced\n")
+    assert (done.code, done.out) == (0, "no findings; 3 of 3 launch files evaluated, 0 nodes\n")
     assert done.err == "ros-preflight: 1 of 1 findings are in known.json\n"
     inner.write_text(INNER.replace("<nod/>", "<nod/>\n  <nod/>"))
     done = preflight(*check, "--baseline", "known.json", "--format", "json", cwd=workspace)
@@ -220,7 +220,7 @@ def test_the_cache_folder_can_be_one_that_a_ci_keeps(harness: Harness, preflight
     option = ("--cache-dir", "ci cache") if way == "option" else ()
     variable = {"ROS_PREFLIGHT_CACHE_DIR": "ci cache"} if way == "variable" else {}
     done = preflight("check", harness.launch_file, *option, environment=variable)
-    assert "2 nodes, 2 of them traced" in done.out
+    assert "2 nodes: 2 run" in done.out
     kept = harness.workspace / "ci cache"
     assert list(kept.iterdir())
     assert not list((harness.home / ".cache").iterdir())

@@ -67,7 +67,7 @@ def test_the_sandbox_is_not_tried_where_every_trace_is_known(
     arguments = ["check", str(DEMO / "launch/talker_listener.launch"), "--package-path", str(DEMO)]
     known = {"/talker", "/listener"}
     main(arguments)
-    assert (asked, "2 of them traced" in capsys.readouterr().out) == ([], True)
+    assert (asked, "2 nodes: 2 run" in capsys.readouterr().out) == ([], True)
     known = {"/talker"}
     main(arguments)
-    assert (asked, "1 of them traced" in capsys.readouterr().out) == (["probe"], True)
+    assert (asked, "2 nodes: 1 run, 1 " in capsys.readouterr().out) == (["probe"], True)

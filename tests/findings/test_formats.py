@@ -49,7 +49,7 @@ def report(base: str = "/ws", main: str = MAIN) -> Report:
         Finding("LCH021", "hard-coded-path", "hint", "possible", "of several lines", location(file, 0, 12)),
         Finding("PRM003", "parameter-file-unreadable", "error", "certain", "no text", location("/x.yaml", 3, 9)),
     ]
-    return Report(findings, documents, 2, 2, 1)
+    return Report(findings, documents)
 
 
 def sarif(of: Report, base: str = "/ws") -> Any:
@@ -91,14 +91,14 @@ def test_sarif_has_the_place_the_other_places_and_the_fixes() -> None:
 
 
 def test_sarif_of_nothing() -> None:
-    (run,) = sarif(Report([], {}, 1, 2, 2), "/")["runs"]
+    (run,) = sarif(Report([], {}), "/")["runs"]
     assert (run["results"], run["originalUriBaseIds"]["SRCROOT"]["uri"]) == ([], "file:///")
 
 
 def test_a_file_whose_name_is_no_utf_8() -> None:
     file = os.fsdecode(b"/ws/\xff.launch")
     finding = Finding("LCH013", "include-not-found", "error", "certain", "gone", location(file, 0, 1))
-    of = Report([finding], {}, 1, 0, 0)
+    of = Report([finding], {})
     place = sarif(of)["runs"][0]["results"][0]["locations"][0]["physicalLocation"]
     assert place["artifactLocation"]["uri"] == "%FF.launch"
     assert ET.fromstring(to_junit(of, [finding], [file], "/ws")) is not None
@@ -107,7 +107,7 @@ def test_a_file_whose_name_is_no_utf_8() -> None:
 
 def test_every_rule_can_be_described() -> None:
     findings = [Finding(r.id, r.name, r.severity, "certain", "m", location("/a", 0, 0)) for r in all_rules()]
-    assert len(sarif(Report(findings, {}, 1, 0, 0))["runs"][0]["tool"]["driver"]["rules"]) == len(all_rules())
+    assert len(sarif(Report(findings, {}))["runs"][0]["tool"]["driver"]["rules"]) == len(all_rules())
 
 
 def test_fingerprints_hold_when_lines_move_and_the_folder_does() -> None:

@@ -3,7 +3,9 @@
 import json
 
 from preflight_analysis.documents.xml import parse_xml
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.findings.coverage import Coverage
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.findings.report import Report, to_json, to_text
 from preflight_analysis.rules.registry import run_rules
 from support.check import analyse, read_fixture
@@ -24,7 +26,8 @@ TALKERS = """
 
 def report_of(text: str) -> Report:
     context = analyse(read_fixture(text))
-    return Report(run_rules(context), context.documents, len(context.tree.files), len(context.tree.nodes), 2)
+    nodes = {"trace": len(context.tree.nodes)}
+    return Report.of(run_rules(context), context.documents, Coverage(len(context.tree.files), 1, nodes))
 
 
 def test_text() -> None:
@@ -37,7 +40,7 @@ def test_text() -> None:
         "  /main.launch:2:3: /talker publishes /chatter\n"
         "  fix: Replace 'chater' by 'chatter'\n"
         "\n"
-        "1 warning in 1 file, 2 nodes, 2 of them traced\n"
+        "1 warning; 1 of 1 launch file evaluated, 2 nodes: 2 run\n"
     )
 
 
@@ -45,7 +48,12 @@ def test_json() -> None:
     data = to_json(report_of(TALKERS))
     json.dumps(data, sort_keys=True)
     (finding,) = data.pop("findings")
-    assert data == {"schema": "ros-preflight/check/1", "files": 1, "nodes": 2, "traced": 2}
+    assert data == {
+        "schema": "ros-preflight/check/1",
+        "rules": {"TOP001": {"warning": 1}},
+        "environment": {"complete": True, "missing": [], "commands": [], "problems": []},
+        **{"files": 1, "evaluated": 1, "nodes": 2, "traced": 2, "known": {"trace": 2}},
+    }
     message = finding.pop("message")
     assert "'/chater'" in message
     assert finding == {
@@ -70,7 +78,7 @@ def test_json() -> None:
 def one(text: str, start: int, end: int, message: str = "m") -> Report:
     document = parse_xml("/a.launch", text)
     finding = Finding("LCH001", "n", "error", "certain", message, location("/a.launch", start, end))
-    return Report([finding], {"/a.launch": document}, 1, 0, 0)
+    return Report([finding], {"/a.launch": document}, Coverage(1, 1))
 
 
 def test_columns_count_code_points_and_carets_stand_below_wide_characters() -> None:
@@ -98,14 +106,80 @@ def test_a_place_in_a_file_without_text_still_has_a_place() -> None:
     finding = Finding(
         "PRM001", "n", "hint", "possible", "m", there, (Related("r", there),), (Fix("f", (Edit(there, ""),)),)
     )
-    report = Report([finding], {}, 0, 0, 0)
+    report = Report([finding], {})
     assert to_text(report).startswith("/gone.yaml:1:1: hint (possible) PRM001 n: m\n  /gone.yaml:1:1: r\n  fix: f\n")
     assert to_json(report)["findings"][0]["range"]["end"] == {"line": 1, "column": 1}
 
 
-def test_colour_and_hints_are_a_choice() -> None:
+def test_colour_and_severities_are_a_choice() -> None:
     report = one("<a/>", 0, 4)
     assert "\x1b[31merror" in to_text(report, colour=True)
     hint = Finding("TOP002", "n", "hint", "likely", "m", location("/a.launch", 0, 1))
-    quiet = Report([hint], report.documents, 1, 0, 0)
-    assert to_text(quiet, show_hints=False) == "1 hint in 1 file, 0 nodes, 0 of them traced\n"
+    quiet = Report([hint], report.documents, Coverage(1, 1)).at_least("info")
+    assert to_text(quiet) == "no findings (1 less severe not shown); 1 of 1 launch file evaluated, 0 nodes\n"
+    assert Report([hint], {}).at_least("hint").findings == [hint]
+
+
+def finding(
+    severity: Severity, file: str, start: int, message: str = "m", rule: str = "ABC001", lack: Lack | None = None
+) -> Finding:
+    return Finding(rule, "n", severity, "certain", message, location(file, start, start + 1), lack=lack)
+
+
+def test_the_most_severe_come_first_then_files_and_places() -> None:
+    given = [
+        finding("hint", "/a", 1),
+        finding("error", "/b", 5),
+        finding("warning", "/a", 3),
+        finding("error", "/b", 2),
+    ]
+    report = Report.of(given, {}, Coverage())
+    assert [(f.severity, f.location.file, f.location.span.start) for f in report.findings] == [
+        *(("error", "/b", 2), ("error", "/b", 5), ("warning", "/a", 3), ("hint", "/a", 1))
+    ]
+
+
+def test_what_is_missing_here_is_said_once_and_is_no_finding() -> None:
+    nav, amcl = Lack("package", "nav", "apt install nav"), Lack("package", "amcl", "apt install amcl")
+    given = [
+        finding("hint", "/a", 1, lack=amcl),
+        finding("hint", "/a", 2, lack=nav),
+        finding("hint", "/b", 3, lack=nav),
+        finding("hint", "/b", 3, lack=Lack("variable", "ROBOT")),
+        finding("error", "/b", 4, "wrong"),
+    ]
+    report = Report.of(given, {}, Coverage(2, 1, {"none": 2, "trace": 1}), ["There is no rospy."])
+    assert to_text(report) == (
+        "/b:1:1: error ABC001 n: wrong\n\n"
+        "missing on this machine:\n"
+        "  2 packages: nav (2), amcl\n"
+        "  1 environment variable: ROBOT\n"
+        "  There is no rospy.\n"
+        "    apt install amcl nav\n\n"
+        "1 error; 1 of 2 launch files evaluated, 3 nodes: 1 run, 2 unknown\n"
+    )
+    data = to_json(report)
+    assert [f["message"] for f in data["findings"]] == ["wrong"]
+    environment = data["environment"]
+    assert (environment["complete"], environment["commands"]) == (False, ["apt install amcl nav"])
+    assert environment["problems"] == ["There is no rospy."]
+    assert [(each["kind"], each["name"], each["count"]) for each in environment["missing"]] == [
+        *(("package", "nav", 2), ("package", "amcl", 1), ("variable", "ROBOT", 1))
+    ]
+    assert environment["missing"][0]["first"]["file"] == "/a"
+
+
+def test_one_cause_in_several_places_is_shown_once() -> None:
+    text = to_text(Report.of([finding("error", f"/{n}.launch", 1) for n in range(8)], {}, Coverage()))
+    assert text.count("error ABC001") == 1
+    assert text.count("the same here") == 5
+    assert "  and in 2 more places\n" in text
+    assert text.endswith("8 errors; 0 of 0 launch files evaluated, 0 nodes\n")
+
+
+def test_many_findings_are_counted_by_rule() -> None:
+    given = [finding("error", "/a", n, f"m{n}") for n in range(10)]
+    given.append(finding("warning", "/a", 20, rule="ABC002"))
+    text = to_text(Report.of(given, {}, Coverage()))
+    assert "\n\nABC001 n: 10 errors\nABC002 n: 1 warning\n\n" in text
+    assert "ABC001 n: 1" not in to_text(Report.of(given[:10], {}, Coverage()))

@@ -321,7 +321,7 @@ def look(generation: int, texts: Mapping[str, str], root: str, answers: str | No
             for edit in fix.edits:
                 check_location(edit.location, documents)
     base = str(there.folder)
-    check_report(Report(analysis.findings, documents, 1, len(analysis.tree.nodes), 0), base)
+    check_report(Report(analysis.findings, documents), base)
     check_json(tree_json(analysis.tree, documents, analysis.findings))
     if analysis.graph is not None:
         check_json(graph_json(analysis.graph))
@@ -512,7 +512,7 @@ def trace_events(data: bytes) -> None:
     workspace = Workspace(there.environment, Sources(), str(there.folder))
     root = str(Path(there.environment.packages["p"].share) / "launch" / "other.launch")
     analysis = workspace.with_interfaces(workspace.static(root), [found.interface], None)
-    check_report(Report(analysis.findings, analysis.documents, 1, 1, 1), str(there.folder))
+    check_report(Report(analysis.findings, analysis.documents), str(there.folder))
     hover([analysis], root, analysis.documents[root].text.index("node.py"), 0)
 
 

@@ -75,6 +75,12 @@ _RULE = _object(
     defaultConfiguration=_object("level", level=_LEVEL),
 )
 _DRIVER = _object("name", name=_STRING, version=_STRING, rules=_list(_RULE, uniqueItems=True))
+_NOTIFICATION = _object("message", level=_LEVEL, message=_TEXT)
+_INVOCATION = _object(
+    "executionSuccessful",
+    executionSuccessful={"type": "boolean"},
+    toolConfigurationNotifications=_list(_NOTIFICATION),
+)
 _RUN = _object(
     "tool results",
     tool=_object("driver", driver=_DRIVER),
@@ -83,6 +89,7 @@ _RUN = _object(
         "type": "object",
         "additionalProperties": _object("uri", uri={"type": "string", "pattern": "^file:///(.*/)?$"}),
     },
+    invocations=_list(_INVOCATION),
     results=_list(_RESULT),
 )
 SARIF_SCHEMA = {

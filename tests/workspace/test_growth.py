@@ -60,7 +60,7 @@ def launch_file(name: str, generation: int) -> Read:
         interfaces = [not_run(node) for node in static.tree.nodes]
         analysis = clock("graph", lambda: workspace.with_interfaces(static, interfaces, "it was not asked for"))
         findings = clock("rules", lambda: analysis.findings)
-        report = Report(findings, analysis.documents, 1, 0, 0)
+        report = Report(findings, analysis.documents)
         clock("text", lambda: to_text(report))
         clock("json", lambda: to_json(report))
         clock("folds", lambda: folds(found))
@@ -85,7 +85,7 @@ def parameter_file(name: str, launch: str, generation: int) -> Read:
         workspace = Workspace(environment(folder, generation), sources, str(folder))
         analysis = clock("evaluation", lambda: workspace.static(str(folder / name)))
         findings = clock("rules", lambda: analysis.findings)
-        clock("text", lambda: to_text(Report(findings, analysis.documents, 1, 0, 0)))
+        clock("text", lambda: to_text(Report(findings, analysis.documents)))
 
     return read
 

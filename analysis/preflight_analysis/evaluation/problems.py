@@ -73,30 +73,35 @@ class UnreadableFile(UnreadablePath):
     """The root file cannot be read: it is missing, a folder, or not permitted to be."""
 
     __slots__ = ()
+    leaves_out = True
 
 
 class NotTextFile(UnreadablePath):
     """The root file is binary, not in UTF-8, or larger than the limit."""
 
     __slots__ = ()
+    leaves_out = True
 
 
 class MalformedXml(_Message):
     """The text is not well-formed XML, at the place of the cause."""
 
     __slots__ = ()
+    leaves_out = True
 
 
 class MalformedYaml(_Message):
     """The text is not YAML, at the place where it stops to be."""
 
     __slots__ = ()
+    leaves_out = True
 
 
 class MalformedPython(_Message):
     """The text is not Python, at the place where it stops to be."""
 
     __slots__ = ()
+    leaves_out = True
 
 
 class UnexpandedEntity(OfName):
@@ -110,6 +115,8 @@ class UnexpandedEntity(OfName):
 class NoLaunchElement(ProblemKind):
     """The document element is not `<launch>` but `tag`, None in an empty file; `launch` is a second one."""
 
+    leaves_out = True
+
     tag: str | None
 
 
@@ -117,6 +124,8 @@ class NoLaunchElement(ProblemKind):
 class PythonException(ProblemKind):
     """A Python launch file raised `error` (the name of the class), or its run failed where that is empty. `frames` go
     from the outermost inwards."""
+
+    leaves_out = True
 
     error: str
     message: str
@@ -127,6 +136,7 @@ class PythonException(ProblemKind):
 class PythonImportFailed(ProblemKind):
     """A Python launch file imports what is not there."""
 
+    leaves_out = True
     usually_fatal = False
 
     module: str
@@ -137,6 +147,7 @@ class PythonImportFailed(ProblemKind):
 class LaunchFileNotRun(OfName):
     """A Python launch file, or a function or substitution of it, was not run."""
 
+    leaves_out = True
     usually_fatal = False
 
     reason: str
@@ -272,6 +283,7 @@ class NestedTooDeeply(_Limit):
     """Groups and includes are not evaluated any further, as they go so deep or are so many."""
 
     __slots__ = ()
+    leaves_out = True
     usually_fatal = False
 
 

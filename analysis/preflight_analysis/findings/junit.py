@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection, Sequence
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.findings.report import Report, finding_lines, printable, relative, summary
+from preflight_analysis.findings.report import Report, closing, finding_lines, printable, relative
 
 
 def to_junit(report: Report, failing: Collection[Finding], checked: Sequence[str], base: str) -> str:
@@ -36,7 +36,7 @@ def to_junit(report: Report, failing: Collection[Finding], checked: Sequence[str
             ET.SubElement(case, "system-out").text = text
     counts = {"tests": str(len(suite)), "failures": str(failures), "errors": "0", "skipped": "0"}
     suite.attrib.update(counts)
-    ET.SubElement(suite, "system-out").text = summary(report)
+    ET.SubElement(suite, "system-out").text = "\n\n".join(closing(report))
     suites = ET.Element("testsuites", {"name": "ros-preflight", **counts})
     suites.append(suite)
     ET.indent(suites)

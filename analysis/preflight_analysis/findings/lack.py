@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
+
+from preflight_analysis.documents.span import Location
 
 LackKind = Literal["package", "build", "module", "program", "variable", "file"]
 """`package`: neither installed nor in the workspace; `build`: in the workspace and not built; `module`: of Python;
@@ -11,6 +14,15 @@ LackKind = Literal["package", "build", "module", "program", "variable", "file"]
 
 LACK_KINDS: tuple[LackKind, ...] = ("package", "build", "module", "program", "variable", "file")
 """In the order in which they are shown: what a package brings along comes after it."""
+_WORDS: Mapping[LackKind, tuple[str, str]] = {
+    "package": ("package", "packages"),
+    "build": ("package that is not built", "packages that are not built"),
+    "module": ("Python module", "Python modules"),
+    "program": ("program", "programs"),
+    "variable": ("environment variable", "environment variables"),
+    "file": ("file of the system", "files of the system"),
+}
+"""One of them and several, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,3 +34,45 @@ class Lack:
     name: str
     remedy: str | None = None
     """The command that provides it, where one is known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """A lack with the places that show it, in order: `count` of them."""
+
+    lack: Lack
+    places: tuple[Location, ...]
+
+    @property
+    def count(self) -> int:
+        """How many places show it."""
+        return len(self.places)
+
+
+def missing(lacks: Iterable[tuple[Lack, Location]]) -> tuple[Missing, ...]:
+    """Each lack once, by kind, those that show in most places first."""
+    places: dict[Lack, dict[Location, None]] = {}
+    for lack, place in lacks:
+        places.setdefault(lack, {})[place] = None
+    found = [Missing(lack, tuple(at)) for lack, at in places.items()]
+    return tuple(sorted(found, key=lambda each: (LACK_KINDS.index(each.lack.kind), -each.count, each.lack.name)))
+
+
+def commands(found: Iterable[Missing]) -> tuple[str, ...]:
+    """What to enter so that it is there, as far as that is known: each command once, with all that it is for."""
+    words: dict[str, dict[str, None]] = {}
+    for each in found:
+        if each.lack.remedy:
+            command, _, what = each.lack.remedy.rpartition(" ")
+            words.setdefault(command, {})[what] = None
+    return tuple(" ".join((command, *sorted(what))) for command, what in words.items())
+
+
+def in_words(found: Sequence[Missing], most: int = 20) -> Iterator[str]:
+    """A line for each kind: `3 packages: amcl (12), map_server (2), gmapping`; at most so many names."""
+    for kind in LACK_KINDS:
+        here = [each for each in found if each.lack.kind == kind]
+        if here:
+            names = [f"{each.lack.name} ({each.count})" if each.count > 1 else each.lack.name for each in here]
+            more = f" and {len(names) - most} more" if len(names) > most else ""
+            yield f"{len(here)} {_WORDS[kind][len(here) != 1]}: {', '.join(names[:most])}{more}"

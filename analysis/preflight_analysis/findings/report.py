@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Severity
+from preflight_analysis.findings.lack import Missing, commands, in_words, missing
 
 CHECK_SCHEMA = "ros-preflight/check/1"
 _COLOURS: Mapping[Severity, str] = {"error": "31", "warning": "33", "info": "34", "hint": "36"}
@@ -19,37 +22,140 @@ _SHOWN_BEHIND = 400
 """How many characters of a line are shown before the place of a finding, and from there on."""
 
 
+_MOST_ALIKE = 5
+"""Further places of the same cause that are shown in a text."""
+_FEW = 10
+"""So many findings are seen at a glance: more are counted by rule."""
+
+
 @dataclass(frozen=True, slots=True)
 class Report:
     """What a check found. `documents` has the text of each file that a finding points into; one that is missing costs
-    its source line and the right line number. `files`, `nodes` and `traced` count what was looked at."""
+    its source line and the right line number. `findings` are those of the robot, `missing` is what this machine lacks,
+    with `problems`, sentences about its ROS. `hidden` findings are not among them, as they are not severe enough."""
 
     findings: Sequence[Finding]
     documents: Mapping[str, Document] = field(repr=False)
-    files: int
-    nodes: int
-    traced: int
+    coverage: Coverage = field(default_factory=Coverage)
+    missing: tuple[Missing, ...] = ()
+    problems: tuple[str, ...] = ()
+    hidden: int = 0
+
+    @classmethod
+    def of(
+        cls,
+        findings: Iterable[Finding],
+        documents: Mapping[str, Document],
+        coverage: Coverage,
+        problems: Iterable[str] = (),
+    ) -> Report:
+        """The findings in order, and apart from them what is missing on this machine."""
+        found = list(findings)
+        lacks = missing((each.lack, each.location) for each in found if each.lack is not None)
+        of_robot = sorted((each for each in found if each.lack is None), key=_rank)
+        return cls(of_robot, documents, coverage, lacks, tuple(problems))
+
+    def at_least(self, severity: Severity) -> Report:
+        """The report with the findings of this severity and worse."""
+        least = SEVERITIES.index(severity)
+        shown = [each for each in self.findings if SEVERITIES.index(each.severity) >= least]
+        return replace(self, findings=shown, hidden=self.hidden + len(self.findings) - len(shown))
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is missing on this machine."""
+        return not self.missing and not self.problems
+
+
+def _rank(finding: Finding) -> tuple[int, str, Span]:
+    """The most severe first, then by file and place."""
+    return -SEVERITIES.index(finding.severity), finding.location.file, finding.location.span
 
 
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
-    points; `files`, `nodes` and `traced` are the counts."""
+    points. `files`, `evaluated`, `nodes`, `traced` and `known` are the counts, `environment` is what is missing."""
+    coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
         "findings": [_finding_json(finding, report.documents) for finding in report.findings],
-        "files": report.files,
-        "nodes": report.nodes,
-        "traced": report.traced,
+        "rules": {rule: dict(Counter(severities)) for rule, severities in _by_rule(report).items()},
+        "environment": {
+            "complete": report.complete,
+            "missing": [_missing_json(each, report.documents) for each in report.missing],
+            "commands": list(commands(report.missing)),
+            "problems": list(report.problems),
+        },
+        "files": coverage.files,
+        "evaluated": coverage.evaluated,
+        "nodes": coverage.total_nodes,
+        "traced": coverage.nodes.get("trace", 0),
+        "known": dict(coverage.nodes),
     }
 
 
-def to_text(report: Report, *, base: str | None = None, colour: bool = False, show_hints: bool = True) -> str:
+def to_text(report: Report, *, base: str | None = None, colour: bool = False) -> str:
     """For reading: place, severity, rule and message, the source line with the place underlined, other places, fixes;
-    at the end how many findings there are and what was looked at. Ends with a newline. Files below the folder `base`
-    are shown relative to it."""
-    shown = [f for f in report.findings if show_hints or f.severity != "hint"]
-    blocks = ["\n".join(finding_lines(finding, report.documents, base, colour=colour)) for finding in shown]
-    return "\n\n".join([*blocks, summary(report)]) + "\n"
+    at the end what is missing here, how many findings there are and what was looked at. Ends with a newline. Files
+    below the folder `base` are shown relative to it. What is found of one cause in several places is shown once."""
+    blocks = []
+    for alike in _by_cause(report.findings):
+        lines = [*finding_lines(alike[0], report.documents, base, colour=colour)]
+        lines += [f"  {place(f.location, report.documents, base)}: the same here" for f in alike[1 : 1 + _MOST_ALIKE]]
+        if len(alike) > 1 + _MOST_ALIKE:
+            lines.append(f"  and in {len(alike) - 1 - _MOST_ALIKE} more places")
+        blocks.append("\n".join(lines))
+    return "\n\n".join([*blocks, "\n\n".join(closing(report))]) + "\n"
+
+
+def closing(report: Report) -> Iterator[str]:
+    """What follows the findings, in blocks: their number by rule, where there are many, what is missing on this
+    machine, and the summary."""
+    if len(report.findings) > _FEW:
+        yield "\n".join(_rule_lines(report))
+    if not report.complete:
+        yield "\n".join(environment_lines(report))
+    yield summary(report)
+
+
+def environment_lines(report: Report) -> Iterator[str]:
+    """What is missing on this machine, and the commands that install it."""
+    yield "missing on this machine:"
+    yield from (f"  {printable(line)}" for line in (*in_words(report.missing), *report.problems))
+    yield from (f"    {printable(command)}" for command in commands(report.missing))
+
+
+def _rule_lines(report: Report) -> Iterator[str]:
+    names = {finding.rule: finding.name for finding in report.findings}
+    for rule, severities in sorted(_by_rule(report).items(), key=lambda each: (-len(each[1]), each[0])):
+        counts = Counter(severities)
+        said = ", ".join(_plural(counts[each], each) for each in reversed(SEVERITIES) if counts[each])
+        yield f"{rule} {names[rule]}: {said}"
+
+
+def _by_rule(report: Report) -> dict[str, list[Severity]]:
+    found: dict[str, list[Severity]] = {}
+    for finding in report.findings:
+        found.setdefault(finding.rule, []).append(finding.severity)
+    return found
+
+
+def _by_cause(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
+    """Findings that say the same of several places, together."""
+    found: dict[tuple[str, Severity, str], list[Finding]] = {}
+    for finding in findings:
+        found.setdefault((finding.rule, finding.severity, finding.message), []).append(finding)
+    return found.values()
+
+
+def _missing_json(each: Missing, documents: Mapping[str, Document]) -> dict[str, Any]:
+    return {
+        "kind": each.lack.kind,
+        "name": each.lack.name,
+        "remedy": each.lack.remedy,
+        "count": each.count,
+        "first": {"file": each.places[0].file, "range": _range_json(each.places[0], documents)},
+    }
 
 
 def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[str, Any]:
@@ -165,8 +271,8 @@ def summary(report: Report) -> str:
     """How many findings there are, and what was looked at."""
     counts = [(severity, sum(f.severity == severity for f in report.findings)) for severity in reversed(SEVERITIES)]
     found = ", ".join(_plural(count, severity) for severity, count in counts if count) or "no findings"
-    looked_at = f"{_plural(report.files, 'file')}, {_plural(report.nodes, 'node')}, {report.traced} of them traced"
-    return f"{found} in {looked_at}"
+    hidden = f" ({report.hidden} less severe not shown)" if report.hidden else ""
+    return f"{found}{hidden}; {report.coverage}"
 
 
 def _plural(count: int, word: str) -> str:

@@ -13,7 +13,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.fingerprint import fingerprints
-from preflight_analysis.findings.report import Report, positions, relative
+from preflight_analysis.findings.report import Report, environment_lines, positions, relative
 from preflight_analysis.findings.rule_description import RuleDescription
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -38,9 +38,16 @@ def to_sarif(report: Report, rules: Sequence[RuleDescription], base: str) -> dic
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
         "originalUriBaseIds": {_BASE_ID: {"uri": PurePosixPath(base, "_").as_uri()[:-1]}},
+        "invocations": [{"executionSuccessful": True, "toolConfigurationNotifications": _notes(report)}],
         "results": results,
     }
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+
+
+def _notes(report: Report) -> list[dict[str, Any]]:
+    """What is missing on this machine, and how much was looked at: no results, as they are nobody's mistakes."""
+    missing = () if report.complete else ("\n".join(environment_lines(report)),)
+    return [{"level": "note", "message": {"text": text}} for text in (*missing, str(report.coverage))]
 
 
 def _rule(rule: RuleDescription) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,12 +14,14 @@ from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
 from preflight_analysis.findings.contexts import RootFindings, by_file, roots
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.coverage import Coverage
+from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.github import to_github
 from preflight_analysis.findings.junit import to_junit
 from preflight_analysis.findings.report import Report, printable, relative, to_json, to_text
 from preflight_analysis.findings.sarif import to_sarif
 from preflight_analysis.rules.registry import all_rules
+from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -50,21 +53,24 @@ class _Launched:
     inputs: tuple[str, ...]
     findings: tuple[Finding, ...]
     documents: Mapping[str, Document]
-    nodes: int
-    traced: int
+    nodes: tuple[str, ...]
+    """How it is known what each node does."""
+    left_out: frozenset[str]
+    """Those of the files that are not evaluated as a whole."""
 
     @classmethod
     def of(cls, root: Root, analysis: Analysis) -> _Launched:
         """That of an analysis with its graph."""
-        interfaces = analysis.graph.processes if analysis.graph else ()
+        tree = analysis.tree
+        interfaces = analysis.graph.processes if analysis.graph else (NOT_RUN,) * len(tree.nodes)
         return cls(
             root,
             analysis.tree.files,
             tuple(analysis.tree.inputs),
             analysis.findings,
             analysis.documents,
-            nodes=len(analysis.tree.nodes),
-            traced=sum(interface.source == "trace" for interface in interfaces),
+            nodes=tuple(interface.source for interface in interfaces),
+            left_out=frozenset(problem.location.file for problem in tree.problems if problem.kind.leaves_out),
         )
 
 
@@ -76,6 +82,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         nargs="*",
         help="launch files, with name:=value for their arguments, or folders (default: the current one)",
+    )
+    parser.add_argument(
+        "--severity",
+        choices=tuple(reversed(SEVERITIES)),
+        default="hint",
+        help="show the findings of this severity or worse (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--require-complete", action="store_true", help="exit with 1 if something is missing on this machine, too"
     )
     parser.add_argument("--baseline", metavar="FILE", help="leave out the findings that this list knows")
     parser.add_argument("--write-baseline", metavar="FILE", help="write a list of all findings, and exit with 0")
@@ -98,8 +113,8 @@ def run(args: argparse.Namespace) -> int:
         report = without_known(report, known, _folder(args.baseline))
         say(f"ros-preflight: {total - len(report.findings)} of {total} findings are in {args.baseline}")
     failing = options.failing(report.findings, args.fail_on)
-    _print(report, failing, checked, args.format)
-    return int(bool(failing))
+    _print(report.at_least(args.severity), failing, checked, args.format)
+    return int(bool(failing) or (args.require_complete and not report.complete))
 
 
 def _check(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report, tuple[str, ...]]:
@@ -124,8 +139,13 @@ def _check(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report
     kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))
     files = tuple(dict.fromkeys(file for each in kept for file in each.files))
     documents = {path: document for each in kept for path, document in each.documents.items()}
-    nodes, traced = sum(each.nodes for each in kept), sum(each.traced for each in kept)
-    return Report(_merged(kept), documents, files=len(files), nodes=nodes, traced=traced), files
+    left_out = frozenset[str]().union(*(each.left_out for each in kept))
+    nodes = Counter(source for each in kept for source in each.nodes)
+    coverage = Coverage(len(files), len(files) - len(left_out.intersection(files)), nodes)
+    problems = dict.fromkeys(
+        problem for launch in chosen for problem in launch.workspace.workspace.environment.problems
+    )
+    return Report.of(_merged(kept), documents, coverage, problems), files
 
 
 def _not_included(found: Sequence[_Launched], asked: Collection[Root]) -> list[_Launched]:

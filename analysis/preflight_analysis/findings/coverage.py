@@ -1,0 +1,43 @@
+"""How much was looked at: which launch files were evaluated, and how it is known what nodes do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+WAYS: Mapping[str, str] = {
+    "trace": "run",
+    "similar": "by another run",
+    "annotation": "annotated",
+    "settings": "by settings",
+    "nodl": "by NoDL",
+    "source": "by source",
+    "catalogue": "by catalogue",
+    "none": "unknown",
+}
+"""The sources of interfaces, in words, from the surest to none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """`files` launch files were looked at, of which `evaluated` were evaluated as a whole. `nodes` counts nodes by the
+    source of their interface (`WAYS`)."""
+
+    files: int = 0
+    evaluated: int = 0
+    nodes: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def total_nodes(self) -> int:
+        """All nodes."""
+        return sum(self.nodes.values())
+
+    def __str__(self) -> str:
+        """`40 of 41 launch files evaluated, 31 nodes: 12 run, 15 by source, 2 by catalogue, 2 unknown`."""
+        ordered = sorted(self.nodes, key=lambda source: (source == "none", [*WAYS, source].index(source)))
+        known = ", ".join(
+            f"{self.nodes[source]} {WAYS.get(source, source)}" for source in ordered if self.nodes[source]
+        )
+        files = f"{self.evaluated} of {self.files} launch file{'' if self.files == 1 else 's'} evaluated"
+        nodes = f"{self.total_nodes} node{'' if self.total_nodes == 1 else 's'}"
+        return f"{files}, {nodes}" + (f": {known}" if known else "")
