@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import threading
 import time
 from dataclasses import replace
@@ -262,6 +263,21 @@ def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(harness: Harness) ->
     similar = SimilarTraces(harness.cache, harness.environment)
     assert similar.looking({})(asked(node, 1)) is not None
     assert similar.looking({})(asked(node, 2)) is None
+
+
+def test_what_is_remembered_of_runs_is_as_the_cache_has_it(harness: Harness) -> None:
+    (node,) = harness.analyse("works.launch", WORKS).tree.nodes
+    similar = SimilarTraces(harness.cache, harness.environment, Sources())
+    first = similar.looking({})(asked(node, 1))
+    assert first is not None
+    assert similar.looking({})(asked(node, 1)) is first
+    shutil.rmtree(harness.cache.folder)
+    assert similar.looking({})(asked(node, 1)) is None
+    harness.tracer = Tracer(harness.environment, harness.cache)
+    harness.analyse("works.launch", WORKS)
+    again = similar.looking({})(asked(node, 1))
+    assert again is not None
+    assert told(again) == told(first)
 
 
 @pytest.mark.parametrize("built", [True, False])

@@ -10,13 +10,14 @@ parameters and that this node is not given are left out: nobody knows what it ha
 from __future__ import annotations
 
 import os
-import threading
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+from preflight_analysis.documents.disk import STATUS, Disk
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.incremental.database import Database, Input, query
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.cache import Kept, TraceCache, bare, part, texts
 from preflight_analysis.tracing.interface import Elsewhere, Interface
@@ -29,26 +30,14 @@ _Key = tuple[int, str, str, "str | None"]
 
 
 @dataclass(frozen=True, slots=True)
-class _Memo:
-    """What was told of one node, and all that it rests on."""
-
-    traces: tuple[Kept, ...]
-    build: str
-    given: frozenset[str]
-    """Texts that the names of the run came with."""
-    strange: frozenset[str]
-    """Those of them that this node is not given."""
-    found: Interface | None
-
-
-@dataclass(frozen=True, slots=True)
 class Asked:
-    """A node as it is looked for. `path` is that of its executable, "" where there is none; `args` are its arguments as
-    written, `traces` names those of its executable."""
+    """A node as it is looked for: by its full name, with its arguments as written. `path` is that of its executable, ""
+    where there is none, `traces` names those of its executable."""
 
     path: str
+    name: str
     args: str
-    request: TraceRequest
+    request: TraceRequest = field(compare=False)
     traces: _Key
 
 
@@ -59,19 +48,29 @@ def asked(node: LaunchNode, generation: int) -> Asked:
     request = nodelets.standalone(
         TraceRequest(node.name, node.package, executable, args, generation=generation, entry_point=entry_point)
     )
-    return Asked(path, node.args, request, (generation, node.package, os.path.basename(executable), part(request)))
+    return Asked(
+        path, node.name, node.args, request, (generation, node.package, os.path.basename(executable), part(request))
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Best:
+    """The most similar run of a node."""
+
+    kept: Kept
+    given: frozenset[str]
+    """Texts that its names came with, which are not among the node's own arguments."""
+    of_another_build: bool
 
 
 class SimilarTraces:
-    """Looks for them in a cache, for one environment; what was read is remembered until the cache changes.
-    Thread-safe; runs nothing."""
+    """Looks for them in a cache, for one environment. Thread-safe; runs nothing. What it found is remembered by the
+    database of `disk`."""
 
-    def __init__(self, cache: TraceCache, environment: Environment) -> None:
-        self._cache = cache
-        self._folders = frozenset((*environment.workspace_folders, *environment.named_folders))
-        self._lock = threading.Lock()
-        self._remembered: dict[_Key, tuple[object, tuple[Kept, ...]]] = {}
-        self._memos: dict[tuple[int, str, str, str, str], _Memo] = {}
+    def __init__(self, cache: TraceCache, environment: Environment, disk: Disk | None = None) -> None:
+        self.cache = cache
+        self.folders = frozenset((*environment.workspace_folders, *environment.named_folders))
+        self._disk = disk or Disk()
 
     def looking(self, params: Mapping[str, Any]) -> Callable[[Asked], Interface | None]:
         """What the executable of a node did in the most similar run; None where none is known. `params` is the
@@ -79,66 +78,81 @@ class SimilarTraces:
 
         For the nodes of one launch, each as `asked` has it: the disk is asked once for each executable.
         """
+        db = self._disk.db
         said: list[frozenset[str]] = []
-        known: dict[_Key, tuple[Kept, ...]] = {}
-        builds: dict[str, str] = {}
+        looked_at = set[tuple[str, _Key]]()
 
         def of(node: Asked) -> Interface | None:
-            traces = known.get(node.traces)
-            if traces is None:
-                traces = known[node.traces] = self._traces(node.traces)
-            if not traces:
+            if (where := (node.path, node.traces)) not in looked_at:
+                looked_at.add(where)
+                self._look(*where)
+            best = _best(db, self, node)
+            if best is None:
                 return None
-            if node.path not in builds:
-                builds[node.path] = fingerprint(node.path)
-            if not said and any(kept.given for kept in traces):
+            if best.given and not said:
                 said.append(frozenset(map(bare, texts(params))))
-            return self._of(node, traces, builds[node.path], said[0] if said else frozenset())
+            return _similar(db, self, node, best.given - said[0] if best.given else best.given)
 
         return of
 
-    def _of(self, node: Asked, traces: tuple[Kept, ...], build: str, said: frozenset[str]) -> Interface | None:
-        path, request = node.path, node.request
-        key = (
-            request.generation,
-            request.node,
-            request.package,
-            f"{request.executable}:{request.entry_point}",
-            node.args,
-        )
-        memo = self._memos.get(key)
-        if memo is not None and memo.traces is traces and memo.build == build and memo.strange == memo.given - said:
-            return memo.found
-        candidates = [
-            kept
-            for kept in traces
-            if _reports(kept.interface)
-            and self._folders.issuperset(kept.workspaces)
-            and (not path or kept.executable == path or kept.build == build)
-        ]
-        given: frozenset[str] = frozenset()
-        found = None
-        if candidates:
-            best = max(candidates, key=lambda kept: _likeness(kept, request, build))
-            given = best.given - frozenset(map(bare, request.args))
-            elsewhere = Elsewhere(best.node, best.launch, best.build != build)
-            as_of = replace(_as_of(best, request, given - said), elsewhere=elsewhere)
-            found = as_of if as_of.endpoints or as_of.params else None
-        with self._lock:
-            self._memos[key] = _Memo(traces, build, given, given - said, found)
-            if len(self._memos) > _MAX_REMEMBERED:
-                del self._memos[next(iter(self._memos))]
-        return found
+    def _look(self, path: str, traces: _Key) -> None:
+        """Notice another build, and what runs have told since."""
+        db = self._disk.db
+        if not db.is_reading:
+            self._disk.look([path])
+            if db.is_outdated(_STATE, self.cache, traces):
+                with db.writing() as write:
+                    write.reload(_STATE, self.cache, traces)
 
-    def _traces(self, key: _Key) -> tuple[Kept, ...]:
-        known = self._remembered.get(key)
-        if known is None or known[0] != self._cache.state_of(*key):
-            known = self._cache.traces_of(*key)
-            with self._lock:
-                self._remembered[key] = known
-                if len(self._remembered) > _MAX_REMEMBERED:
-                    del self._remembered[next(iter(self._remembered))]
-        return known[1]
+
+def _state(cache: TraceCache, key: _Key) -> object:
+    return cache.state_of(*key)
+
+
+_STATE = Input(_state, durable=False)
+"""What changes with what the cache has of an executable."""
+
+
+@query(limit=_MAX_REMEMBERED)
+def _traces(db: Database, cache: TraceCache, key: _Key) -> tuple[Kept, ...]:
+    _STATE(db, cache, key)
+    return cache.traces_of(*key)[1]
+
+
+@query
+def _build(db: Database, path: str) -> str:
+    STATUS(db, path)
+    return fingerprint(path)
+
+
+@query(limit=_MAX_REMEMBERED)
+def _best(db: Database, similar: SimilarTraces, node: Asked) -> _Best | None:
+    traces = _traces(db, similar.cache, node.traces)
+    if not traces:
+        return None
+    build = _build(db, node.path)
+    candidates = [
+        kept
+        for kept in traces
+        if _reports(kept.interface)
+        and similar.folders.issuperset(kept.workspaces)
+        and (not node.path or kept.executable == node.path or kept.build == build)
+    ]
+    if not candidates:
+        return None
+    best = max(candidates, key=lambda kept: _likeness(kept, node.request, build))
+    return _Best(best, best.given - frozenset(map(bare, node.request.args)), best.build != build)
+
+
+@query(limit=_MAX_REMEMBERED)
+def _similar(db: Database, similar: SimilarTraces, node: Asked, strange: frozenset[str]) -> Interface | None:
+    """`strange` are the texts in names of the run that this node is not given."""
+    best = _best(db, similar, node)
+    if best is None:
+        return None
+    elsewhere = Elsewhere(best.kept.node, best.kept.launch, best.of_another_build)
+    found = replace(_as_of(best.kept, node.request, strange), elsewhere=elsewhere)
+    return found if found.endpoints or found.params else None
 
 
 def _reports(interface: Interface) -> bool:

@@ -97,8 +97,9 @@ class OpenWorkspace:
 def open_workspace(environment: Environment, args: argparse.Namespace, *, similar: bool = True) -> OpenWorkspace:
     """The workspace of an environment; `similar` as for `analyse`."""
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
-    elsewhere = SimilarTraces(TraceCache(), environment) if similar else None
-    workspace = Workspace(environment, Sources(), commands=results, similar=elsewhere)
+    sources = Sources()
+    elsewhere = SimilarTraces(TraceCache(), environment, sources) if similar else None
+    workspace = Workspace(environment, sources, commands=results, similar=elsewhere)
     runner = CommandRunner(environment, workspace.cwd, CommandCache(), workspace.sources)
     return OpenWorkspace(workspace, results, args.no_run, runner)
 
