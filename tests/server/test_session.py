@@ -79,3 +79,45 @@ async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
     finally:
         may_go_on.set()
         await asyncio.get_running_loop().run_in_executor(None, session.close)
+
+
+async def test_no_edit_waits_for_who_reads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    reads, may_go_on = threading.Event(), threading.Event()
+    let_go: list[bool] = []
+    whole = Workspace.static
+
+    def waits(self: Workspace, *args: Any) -> Analysis:
+        if not reads.is_set():
+            with self.sources.db.reading():  # as who parses a large file, and asks nothing meanwhile
+                reads.set()
+                let_go.append(may_go_on.wait(10))
+        return whole(self, *args)
+
+    monkeypatch.setattr(Workspace, "static", waits)
+    monkeypatch.setattr(PreflightServer, "client_capabilities", types.ClientCapabilities())
+    server = PreflightServer()
+    session = Session(server, str(tmp_path), Settings(), trusted=False)
+    launch_file = tmp_path / "a.launch"
+
+    def edit(version: int, text: str) -> None:
+        document = server.texts.open(launch_file.as_uri(), "roslaunch", version, text)
+        session.takes(document)
+        session.text_changed(document, own=True, quiet=0)
+
+    try:
+        edit(1, "<launch/>")
+        assert await asyncio.get_running_loop().run_in_executor(None, reads.wait, 20)
+        for version in (2, 3, 4):
+            edit(version, f'<launch><arg name="a{version}"/></launch>')
+            await asyncio.sleep(0)  # for the loop to begin with what it is told
+        may_go_on.set()
+        view = await answered(
+            lambda: session.view(launch_file.as_uri()),
+            lambda view: view is not None and "a4" in view.document.text,
+        )
+        assert view is not None
+        assert view.analysis.documents[str(launch_file)].text == view.document.text
+        assert let_go == [True], "the event loop went on while somebody read"
+    finally:
+        may_go_on.set()
+        await asyncio.get_running_loop().run_in_executor(None, session.close)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import stat
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -172,17 +172,23 @@ class Disk:
 
     def open(self, path: str, text: str) -> None:
         """The editor's text counts from now on; call it again for each change."""
-        path = os.path.normpath(path)
-        lines = LINES(self.db, path)
-        with self.db.writing() as write:
-            write.set(BUFFER, _limited(path, text, lines), path)
+        self.take({path: text})
 
     def close(self, path: str) -> None:
         """The disk counts again."""
-        path = os.path.normpath(path)
+        self.take({path: None})
+
+    def take(self, texts: Mapping[str, str | None]) -> None:
+        """The same for several files in one write; None where the disk counts again. Waits until readers have left."""
+        buffers = {os.path.normpath(path): text for path, text in texts.items()}
+        lines = {path: LINES(self.db, path) for path, text in buffers.items() if text is not None}
         with self.db.writing() as write:
-            write.reload(BUFFER, path)
-        self.look([path])
+            for path, text in buffers.items():
+                if text is None:
+                    write.reload(BUFFER, path)
+                else:
+                    write.set(BUFFER, _limited(path, text, lines[path]), path)
+        self.look(path for path, text in buffers.items() if text is None)
 
     def look(self, paths: Iterable[str] | None = None) -> bool:
         """Notice what has changed of these paths, None: of all that was ever asked for; whether anything has."""

@@ -81,6 +81,7 @@ class Indexing:
                 await self._session.quiet()
             changed = None if self._everything or not self.index.complete else frozenset(self._changed)
             self._changed, self._everything = set(), False
+            await self._session.written()
             if changed is None:
                 await self._read_settings()
             if self._cancel.is_set():

@@ -30,6 +30,7 @@ from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
+from preflight_server.lsp.buffers import Buffers
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
@@ -99,6 +100,7 @@ class Session:
         self.folder = folder
         self.settings = settings
         self._sources = Sources()
+        self._buffers = Buffers(server, self._sources)
         for document in server.texts:
             self.takes(document)
         self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
@@ -142,11 +144,11 @@ class Session:
     def takes(self, document: OpenDocument) -> None:
         """The text of a document counts in place of the file, whichever folder that belongs to."""
         if document.path is not None:
-            self._sources.open(document.path, document.text)
+            self._buffers.put(document.path, document.text)
 
     def leaves(self, path: str) -> None:
         """The file on disk counts again."""
-        self._sources.close(path)
+        self._buffers.put(path, None)
 
     def text_changed(self, document: OpenDocument, *, own: bool, quiet: float) -> None:
         """A document was opened or its text changed, which `takes` was told, and the user will not type for `quiet`
@@ -253,6 +255,7 @@ class Session:
         self._closed = True
         self.runs.close()
         self.indexing.close()
+        self._buffers.close()
         self._pool.shutdown(wait=True, cancel_futures=True)
 
     # What the handlers ask
@@ -297,6 +300,10 @@ class Session:
         text = self._sources.text(path)
         return text if isinstance(text, Unreadable) else LaunchFile(path, 2, None, text, partial=True)
 
+    async def written(self) -> None:
+        """Wait until whoever reads files finds what was typed so far."""
+        await self._buffers.written()
+
     async def settled(self) -> None:
         """Wait until what was typed so far is analysed, in the context in which it is shown."""
         await self._settled.wait()
@@ -330,7 +337,8 @@ class Session:
         return list(dict.fromkeys((*chosen, *found)))
 
     async def in_pool(self, work: Callable[[], _T]) -> _T:
-        """Run `work` in a thread."""
+        """Run `work` in a thread, where it finds what was typed so far."""
+        await self.written()
         if self._closed:
             raise asyncio.CancelledError
         return await asyncio.get_running_loop().run_in_executor(self._pool, work)
@@ -345,16 +353,19 @@ class Session:
 
     async def _detect(self) -> None:
         folder, package_path = self.folder, self.settings.package_path
+
+        def work() -> Workspace:
+            environment = detect(folder, package_path=package_path, variables=self._variables)
+            similar = SimilarTraces(TraceCache(), environment, self._sources)
+            return Workspace(environment, self._sources, commands=self.runs.commands.results, similar=similar)
+
         try:
-            environment = await self.in_pool(
-                lambda: detect(folder, package_path=package_path, variables=self._variables)
-            )
+            workspace = await self.in_pool(work)
         finally:
             self._detecting = None
         if (folder, package_path) == (self.folder, self.settings.package_path):
-            commands, similar = self.runs.commands.results, SimilarTraces(TraceCache(), environment)
-            self._workspace = Workspace(environment, self._sources, commands=commands, similar=similar)
-            self.runs.set_workspace(self._workspace)
+            self._workspace = workspace
+            self.runs.set_workspace(workspace)
 
     # Which roots are analysed
 
