@@ -11,7 +11,7 @@ def test_an_argument_that_is_passed_without_a_value() -> None:
                                                  ^ error[ARG007] argument 'a' is passed without a value
         </launch>
         //- /inc.launch
-        <launch><arg name="a" default="2"/></launch>
+        <launch><arg name="a" default="2"/><param name="a" value="x$(arg a)"/></launch>
     """)
 
 

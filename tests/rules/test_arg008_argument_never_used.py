@@ -78,10 +78,13 @@ def test_an_argument_may_be_used_by_a_parameter_file_that_is_not_known() -> None
     """)
 
 
-def test_an_unused_argument_that_an_include_passes_is_left_alone() -> None:
+def test_an_include_that_passes_what_is_never_used() -> None:
     check("""
         <launch>
           <include file="/inc.launch"><arg name="rate" value="1"/></include>
+                                                 ^^^^ warning[ARG008] argument 'rate' has no effect: '/inc.launch'
+          <include file="/inc.launch"><arg name="rate" value="1"/></include>
+                                                 ^^^^ warning[ARG008] argument 'rate' has no effect
         </launch>
         //- /inc.launch
         <launch>
@@ -90,6 +93,39 @@ def test_an_unused_argument_that_an_include_passes_is_left_alone() -> None:
                      ^^^^^ hint[ARG008] argument 'other' is declared and never used
         </launch>
     """)
+
+
+@pytest.mark.silent
+def test_files_of_which_one_is_chosen_have_to_declare_what_the_others_use() -> None:
+    check("""
+        <launch>
+          <arg name="robot" default="inc"/>
+          <include file="/$(arg robot).launch"><arg name="rate" value="1"/></include>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="rate"/></launch>
+    """)
+
+
+def test_an_argument_that_is_not_passed_on() -> None:
+    text = """
+        <launch>
+          <arg name="teleop" default="true"/>
+                     ^^^^^^ warning[ARG008] setting argument 'teleop' has no effect: it is not passed on
+          <arg name="fixed" default="1"/>
+                     ^^^^^ hint[ARG008] argument 'fixed' is declared and never used
+          <include file="/inc.launch"/>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="teleop" default="true"/>
+          <arg name="fixed" value="2"/>
+          <node if="$(arg teleop)" pkg="p" type="x$(arg fixed)" name="x"/>
+        </launch>
+    """
+    found = next(each for each in check(text) if "teleop" in each.message)
+    passed = apply(text, found.fixes[0].edits)["/main.launch"]
+    assert '<arg name="teleop" value="$(arg teleop)"/>' in passed
 
 
 def test_an_argument_that_no_file_of_the_launch_uses() -> None:

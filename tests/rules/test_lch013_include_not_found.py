@@ -1,7 +1,11 @@
 """LCH013: an include of a file that is not there."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.findings.finding import Finding
 from support.check import check, findings_of
+from support.python_launch_harness import PythonHarness
 
 
 def test_an_included_file_that_is_not_there() -> None:
@@ -28,3 +32,66 @@ def test_an_included_file_that_is_there_or_not_included() -> None:
         //- /inc.launch
         <launch/>
     """)
+
+
+def _of_arm(folder: Path, launch: str) -> list[Finding]:
+    """The findings in a Python launch file of package `arm`, which has two others."""
+    arm = PythonHarness(folder, "arm")
+    files = "[('share/arm', ['launch/robot.launch.py']), ('share/arm/inner', ['launch/inner/deep.launch.xml'])]"
+    arm.write("setup.py", f"from setuptools import setup\nsetup(name='arm', data_files={files})\n")
+    arm.write("launch/leader.launch.py", "")
+    arm.write("launch/inner/deep.launch.xml", "<launch/>")
+    return [*arm.launch(arm.write("launch/robot.launch.py", launch)).findings]
+
+
+def _launch_file(*actions: str) -> str:
+    return f"""
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+def generate_launch_description():
+    return LaunchDescription([
+        {", ".join(actions)}
+    ])
+"""
+
+
+@pytest.mark.ros
+def test_a_process_that_launches_a_file_that_is_not_there(tmp_path: Path) -> None:
+    text = _launch_file("ExecuteProcess(cmd=['ros2', 'launch', '--debug', 'arm', 'leadr.launch.py', 'a:=b'])")
+    (found,) = [each for each in _of_arm(tmp_path, text) if each.rule == "LCH013"]
+    assert (found.rule, found.severity) == ("LCH013", "warning")
+    assert found.message == (
+        "launched file 'arm/launch/leadr.launch.py' does not exist; did you mean 'arm/launch/leader.launch.py'?"
+    )
+    (edit,) = found.fixes[0].edits
+    span = edit.location.span
+    assert (text[span.start : span.end], edit.text) == ("leadr.launch.py", "leader.launch.py")
+
+
+@pytest.mark.ros
+@pytest.mark.silent
+def test_a_process_that_launches_a_file_by_its_name(tmp_path: Path) -> None:
+    actions = (
+        "ExecuteProcess(cmd=['ros2', 'launch', 'arm', 'leader.launch.py'])",
+        "ExecuteProcess(cmd=['ros2', 'launch', 'arm', 'deep.launch.xml', 'rate:=10'])",
+        "ExecuteProcess(cmd=['ros2', 'launch'])",
+        "ExecuteProcess(cmd=['ros2', 'topic', 'list'])",
+    )
+    assert _of_arm(tmp_path, _launch_file(*actions)) == []
+
+
+@pytest.mark.ros
+def test_a_process_that_launches_a_file_of_a_package_that_is_not_there(tmp_path: Path) -> None:
+    found = _of_arm(tmp_path, _launch_file("ExecuteProcess(cmd=['ros2 launch amr leader.launch.py'], shell=True)"))
+    assert [each.rule for each in found] == ["PKG001"]
+
+
+@pytest.mark.ros
+@pytest.mark.silent
+def test_a_file_that_is_installed_beside_its_folder(tmp_path: Path) -> None:
+    file = "PathJoinSubstitution([FindPackageShare('arm'), 'inner', 'deep.launch.xml'])"
+    assert _of_arm(tmp_path, _launch_file(f"IncludeLaunchDescription(PythonLaunchDescriptionSource({file}))")) == []

@@ -265,6 +265,13 @@ class IncludeNotFound(UnreadablePath):
     __slots__ = ()
 
 
+class LaunchedFileNotFound(UnreadablePath):
+    """A file is not there that a process launches with `ros2 launch`."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
 class UnreadableInclude(UnreadablePath):
     """An included file is binary, too large, a folder, not permitted to be read, or no launch file."""
 

@@ -29,6 +29,7 @@ class _Parent(NamedTuple):
     known: of several dictionaries in a list, each has its own keys."""
 
     call: ast.Call
+    made_by: PythonClass
     part: ast.expr | None = None
 
 
@@ -54,7 +55,9 @@ class _Reader:
         items = self._source.resolved(given)
         if not isinstance(items, (ast.List, ast.Tuple)) or len(items.elts) != len(parameters):
             return {}
-        return {id(r): _Parent(parent.call, item) for r, item in zip(parameters, items.elts, strict=True)}
+        return {
+            id(r): _Parent(parent.call, parent.made_by, item) for r, item in zip(parameters, items.elts, strict=True)
+        }
 
     def _action(self, record: dict[str, Any], around: Span, parent: _Parent | None, depth: int) -> Action:
         kind, source = record["k"], self._source
@@ -81,7 +84,7 @@ class _Reader:
         if kind == "opaque" and isinstance(number, int):
             attributes.append(self._text("id", str(number), kind_span))
             attributes.append(self._text("class", str(record.get("n")), kind_span))
-        inside = _Parent(call) if call is not None else parent
+        inside = _Parent(call, made_by) if call is not None else parent
         children = self.actions(record.get("c"), kind_span, inside, depth + 1)
         return Action(kind, kind_span, tuple(attributes), children, (), _literal("", kind_span), head, span)
 
@@ -146,7 +149,15 @@ class _Reader:
     ) -> ast.expr | None:
         if parent is None:
             return None
-        whole = parent.part or _keywords(parent.call).get(self._python.parameters.get(kind, kind))
+        keywords = _keywords(parent.call)
+        whole = parent.part or next(
+            (
+                keywords[name]
+                for name in (self._python.parameters.get(kind, kind), parent.made_by.parameter(kind))
+                if name in keywords
+            ),
+            None,
+        )
         if whole is None:
             return None
         given = record.get("a")

@@ -17,7 +17,7 @@ class PythonClass:
     positional: tuple[str, ...] = ()
     """The parameters that may be given without their keyword, in order."""
     keywords: Mapping[str, str] = field(default_factory=dict)
-    """Attributes whose parameter has another name."""
+    """Attributes whose parameter has another name, and kinds of children that have one beside that of their own."""
     unrun: tuple[str, ...] | None = None
     """The attributes that are read where the file was not run; None: the class is not read at all then."""
 

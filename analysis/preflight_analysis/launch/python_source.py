@@ -165,18 +165,25 @@ class PythonSource:
         """Where a node stands; of a text what is between its quotes."""
         return self._now(self._span(node))
 
+    def whole_span(self, node: ast.expr) -> Span:
+        """Where a node stands, with its quotes."""
+        return self._now(self._whole_span(node))
+
     def _now(self, span: Span) -> Span:
         return self._since.moved(span) if self._since is not None else span
 
-    def _span(self, node: ast.expr | ast.keyword) -> Span:
+    def _whole_span(self, node: ast.expr | ast.keyword) -> Span:
         start = self._offset(node.lineno, node.col_offset)
-        end = self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
+        return Span(start, self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset))
+
+    def _span(self, node: ast.expr | ast.keyword) -> Span:
+        start, end = (whole := self._whole_span(node)).start, whole.end
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.lineno == node.end_lineno:
             written = self.text[start:end]
             quoted = re.match(r"[A-Za-z]{0,2}(\"\"\"|'''|\"|')", written)
             if quoted and len(written) >= quoted.end() + len(quoted[1]):
                 return Span(start + quoted.end(), end - len(quoted[1]))
-        return Span(start, end)
+        return whole
 
     def name_span(self, call: ast.Call) -> Span:
         """The name of what is called."""

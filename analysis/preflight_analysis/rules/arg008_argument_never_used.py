@@ -5,14 +5,16 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.problems import ArgumentNeeded
-from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.evaluation.tree import Include
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
-from preflight_analysis.launch.model import LaunchFile, Value
-from preflight_analysis.rules.arguments import declarations
-from preflight_analysis.rules.problems import problems_of
+from preflight_analysis.launch.model import LaunchFile, Value, action_at
+from preflight_analysis.rules.arguments import declarations, pass_on
+from preflight_analysis.rules.problems import problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
@@ -29,6 +31,8 @@ _WITHOUT_NAMES = sys.stdlib_module_names | {
 }  # fmt: skip
 """Modules that take arguments by no name of their own."""
 _FALSE = ("false", "0", "")
+_FIXED = ("find", "dirname")
+"""Substitutions that give the same in every launch."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,17 +53,70 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         in_texts = _used_in_texts(context, path, substituted)
         if in_texts is None:
             continue
-        # An include that passes it would break without the declaration: it is part of what the files agreed on.
-        for name in sorted(unused - in_texts - context.once(_passed).get(path, set())):
+        for name in sorted(unused - in_texts):
             tags = declared[name]
             value = tags[0].value("name")
-            span = value.span if value is not None else tags[0].head_span
+            location = context.location(path, value.span if value is not None else tags[0].head_span)
+            givers = [include for include in context.once(_includers).get(path, ()) if name in include.args]
+            # An include that passes it would break without the declaration: it is part of what the files agreed on.
+            if not any(tag.value("value") is not None for tag in tags):
+                for include in {include.origin[-1]: include for include in givers}.values():
+                    yield from _given_in_vain(rule, context, include, name, location)
+            if givers:
+                continue
             edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
+            remove = Fix(f"Remove the declaration of '{name}'", edits)
+            below = _declared_below(context, path, name)
+            if below is None:
+                message = f"argument '{name}' is declared and never used in this file"
+                yield rule.finding(message, location, fixes=(remove,))
+            else:
+                included, its_declaration = below
+                yield rule.finding(
+                    f"setting argument '{name}' has no effect: it is not passed on to "
+                    f"'{shown(str(included.path), context)}', which has one of that name",
+                    location,
+                    severity="warning",
+                    related=(
+                        Related("included here", included.file_location),
+                        Related("declared here", its_declaration),
+                    ),
+                    fixes=(*pass_on(context, included.origin[-1], name), remove),
+                )
+
+
+def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, declared: Location) -> Iterator[Finding]:
+    """Where an include passes what its file does not use: whoever wrote that believes that it has an effect."""
+    includer = context.launch_files.get(include.origin[-1].file)
+    action = action_at(includer, include.origin[-1].span.start + 1) if includer is not None else None
+    file = action.value("file") if action is not None else None
+    # Of files of which one is chosen, each has to declare what all of them are passed.
+    if action is None or file is None or any(part.command not in _FIXED for part in file.substitutions):
+        return
+    for given in action.children:
+        value = given.value("name")
+        if given.kind == "arg" and value is not None and value.text == name:
+            where = shown(str(include.path), context)
             yield rule.finding(
-                f"argument '{name}' is declared and never used in this file",
-                context.location(path, span),
-                fixes=(Fix(f"Remove the declaration of '{name}'", edits),),
+                f"argument '{name}' has no effect: '{where}' declares it and never uses it",
+                context.location(include.origin[-1].file, value.span),
+                severity="warning",
+                related=(Related("declared here", declared),),
             )
+
+
+def _declared_below(context: Context, path: str, name: str) -> tuple[Include, Location] | None:
+    """The include in a file that is not passed an argument which the included file declares and may be given, and
+    where it does; nothing if one is passed it, under whatever name of another."""
+    for include in context.tree.includes:
+        if include.path is None or include.origin[-1].file != path or name in include.args:
+            continue
+        launch_file = context.launch_files.get(include.path)
+        for tag in declarations(launch_file).get(name, ()) if launch_file is not None else ():
+            value = tag.value("name")
+            if value is not None and tag.value("value") is None:
+                return include, context.location(include.path, value.span)
+    return None
 
 
 def _unused(launch_file: LaunchFile) -> tuple[LaunchFile, frozenset[str], tuple[Value, ...]] | None:
@@ -72,13 +129,13 @@ def _unused(launch_file: LaunchFile) -> tuple[LaunchFile, frozenset[str], tuple[
     return (launch_file, frozenset(unused), arguments.substituted) if unused and not arguments.passes_all else None
 
 
-def _passed(context: Context) -> Mapping[str, set[str]]:
-    """What includes pass to each file."""
-    passed: dict[str, set[str]] = {}
+def _includers(context: Context) -> Mapping[str, list[Include]]:
+    """The includes of each file."""
+    found: dict[str, list[Include]] = {}
     for include in context.tree.includes:
         if include.path is not None:
-            passed.setdefault(include.path, set()).update(include.args)
-    return passed
+            found.setdefault(include.path, []).append(include)
+    return found
 
 
 def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -2,38 +2,34 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
-from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.rules.installed import lack_of_file
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
 
-_MOST_ENTRIES = 5000
-"""A package has fewer; a path into a home directory must not lead to reading all of it."""
 
-
-def check_missing_files(kind: type[UnreadablePath], what: str) -> Check:
-    """The check of a rule about files that are not there, `what` they are: the nearest one is named and offered."""
+def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
+    """The check of a rule about files that are not there, by what they are: the nearest one is named and offered."""
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
-        for problem in problems_of(context, kind):
+        for problem in problems_of(context, *what):
             path = problem.kind.path
             near = nearest_file(context.disk, path, context.environment)
-            message = f"{what} '{shown(path, context)}' does not exist"
+            message = f"{what[type(problem.kind)]} '{shown(path, context)}' does not exist"
             fixes: tuple[Fix, ...] = ()
             if near is not None:
                 message += f"; did you mean '{shown(near, context)}'?"
                 fixes = correct_path(context, problem.location, path, near)
-            # ros2 launch goes on without the parameter file of a node: it is missed, and nothing stops.
+            # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
             lack = lack_of_file(context, path) if near is None else None
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
@@ -58,7 +54,7 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     First a file of a like name in the same folder; then the same name, or one like it, elsewhere in the package.
     """
     wanted = Path(path)
-    siblings = {entry.name: entry for entry in _files(disk, wanted.parent, deep=False)}
+    siblings = {entry.name: entry for entry in map(Path, files_in(disk, str(wanted.parent), deep=False))}
     alike = [name for name in siblings if Path(name).suffix == wanted.suffix]
     near = nearest(wanted.name, alike, key=_stem) or next((n for n in siblings if _stem(n) == wanted.stem), None)
     if near is not None:
@@ -67,7 +63,7 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     if share is None:
         return None
     elsewhere: dict[str, list[Path]] = {}
-    for entry in _files(disk, share, deep=True):
+    for entry in map(Path, files_in(disk, str(share), deep=True)):
         if entry.suffix == wanted.suffix:
             elsewhere.setdefault(entry.name, []).append(entry)
     name = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
@@ -117,22 +113,3 @@ def package_folder(path: str, environment: Environment) -> Path | None:
 def _stem(name: str) -> str:
     """What can be a slip of the keyboard: an equal extension would make short names look alike."""
     return name.partition(".")[0] or name
-
-
-def _files(disk: Disk, folder: Path, *, deep: bool) -> Iterator[Path]:
-    """Files in `folder`, those of its sub-folders too if `deep`; folders that cannot be read have none."""
-    return map(Path, _files_in(disk.db, str(folder), deep))
-
-
-@query
-def _files_in(db: Database, folder: str, deep: bool) -> tuple[str, ...]:
-    disk, found, pending = Disk(db), list[str](), [folder]
-    while pending and len(found) < _MOST_ENTRIES:
-        place = pending.pop()
-        names = disk.names(place)
-        inner = [name for name in names if disk.is_folder(os.path.join(place, name))]
-        found += (os.path.join(place, name) for name in sorted(set(names).difference(inner)))
-        if deep:
-            below = (os.path.join(place, name) for name in reversed(inner) if not name.startswith("."))
-            pending += (path for path in below if not disk.is_link(path))
-    return tuple(found[:_MOST_ENTRIES])

@@ -12,7 +12,6 @@ from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal
 from preflight_analysis.rules.rule import Context, Rule
 
-_END = r"[^\s'\":;,<>|)]*"
 _HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
 _ROS = re.compile(r"/opt/ros/[a-z]+/")
 _END = r"[^\s'\":;,<>|)]*"

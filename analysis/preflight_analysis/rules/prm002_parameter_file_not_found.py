@@ -14,6 +14,6 @@ RULE = Rule(
     "without the file, on their defaults: then it is a warning.",
     example='<rosparam command="load" file="$(find camera)/config/camrea.yaml"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
-    check=check_missing_files(ParameterFileNotFound, "parameter file"),
+    check=check_missing_files({ParameterFileNotFound: "parameter file"}),
     problems=(ParameterFileNotFound,),
 )

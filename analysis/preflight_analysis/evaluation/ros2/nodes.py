@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import InvalidName
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Scope
+from preflight_analysis.evaluation.ros2.launched import check_launched
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.params import (
     Sources,
@@ -193,6 +194,7 @@ def evaluate_executable(performer: Performer, action: Action, *, deferred: bool)
         return
     words = _words(performer, action, "cmd")
     state, place = performer.state, performer.place
+    check_launched(performer, action, words)
     state.nodes.append(
         LaunchNode(
             "",

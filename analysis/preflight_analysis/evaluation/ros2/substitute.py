@@ -218,9 +218,13 @@ class Performer:
     def _command(self, part: Substitution) -> str:
         line = self._word(part, 0)
         try:
-            shlex.split(line)
+            words = shlex.split(line)
         except ValueError as error:
             raise _Failure(MalformedCommand(str(error))) from error
+        for word in words:
+            # What the package will install elsewhere is read where it is now.
+            if word.startswith("/"):
+                line = line.replace(word, self.state.located(word))
         if self.state.results.placeholder is not None:
             return self.state.results.placeholder
         result = self.state.results.result(line)
@@ -317,7 +321,7 @@ class Performer:
 
     def _path_join(self, part: Substitution) -> str:
         words = [self._word(part, index) for index in range(len(part.words))]
-        return self.state.located(os.path.join(*words)) if words else ""
+        return os.path.join(*words) if words else ""
 
     # Those of Python launch files only
 

@@ -32,7 +32,7 @@ ENTITIES = (
             starts=True,
         ),
         python=(
-            PythonClass("launch.actions.ExecuteProcess", keywords={"launch-prefix": "prefix"}),
+            PythonClass("launch.actions.ExecuteProcess", keywords={"launch-prefix": "prefix", "argument": "cmd"}),
             PythonClass("launch.actions.ExecuteLocal"),
         ),
         evaluate=evaluate,

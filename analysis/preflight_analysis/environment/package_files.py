@@ -1,0 +1,30 @@
+"""The files below a folder, such as that of a package."""
+
+from __future__ import annotations
+
+import os
+
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.incremental.database import Database, query
+
+_MOST_ENTRIES = 5000
+"""A package has fewer; a path into a home directory must not lead to reading all of it."""
+
+
+def files_in(disk: Disk, folder: str, *, deep: bool) -> tuple[str, ...]:
+    """Paths of files in `folder`, those of its sub-folders too if `deep`; folders that cannot be read have none."""
+    return _files_in(disk.db, folder, deep)
+
+
+@query
+def _files_in(db: Database, folder: str, deep: bool) -> tuple[str, ...]:
+    disk, found, pending = Disk(db), list[str](), [folder]
+    while pending and len(found) < _MOST_ENTRIES:
+        place = pending.pop()
+        names = disk.names(place)
+        inner = [name for name in names if disk.is_folder(os.path.join(place, name))]
+        found += (os.path.join(place, name) for name in sorted(set(names).difference(inner)))
+        if deep:
+            below = (os.path.join(place, name) for name in reversed(inner) if not name.startswith("."))
+            pending += (path for path in below if not disk.is_link(path))
+    return tuple(found[:_MOST_ENTRIES])

@@ -1,0 +1,92 @@
+"""LCH039: two strings of a list between which the comma is missing."""
+
+from __future__ import annotations
+
+import ast
+import io
+import tokenize
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.problems import quoted, shortened
+from preflight_analysis.rules.rule import Context, Rule
+
+_BREAKS = "/_-.:,="
+"""Where somebody breaks a long path or name on purpose."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for path, launch_file in context.launch_files.items():
+        for first, span, parts in _glued(launch_file) if path.endswith(".py") else ():
+            comma = context.location(path, Span(first, first))
+            yield rule.finding(
+                f"{quoted(parts)} are one string, '{shortened(''.join(parts))}': the comma between them is missing",
+                context.location(path, span),
+                confidence="likely",
+                fixes=(Fix("Insert the comma", (Edit(comma, ","),), True),),
+            )
+
+
+@memoize_by_file
+def _glued(launch_file: LaunchFile) -> tuple[tuple[int, Span, tuple[str, ...]], ...]:
+    """Where the comma goes, all that is glued, and the strings of it."""
+    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    if source.module is None:
+        return ()
+    return tuple(
+        found
+        for node in ast.walk(source.module)
+        if isinstance(node, (ast.List, ast.Tuple, ast.Set)) and len(node.elts) > 1
+        for found in _in_sequence(source, node.elts)
+    )
+
+
+def _in_sequence(source: PythonSource, elements: list[ast.expr]) -> Iterator[tuple[int, Span, tuple[str, ...]]]:
+    words = [each.value for each in elements if isinstance(each, ast.Constant) and isinstance(each.value, str)]
+    # Texts and long lines are broken on purpose; a list of single words is not.
+    if len(words) < len(elements) or any(len(word.split()) != 1 for word in words):
+        return
+    for each in elements:
+        span = source.whole_span(each)
+        tokens = _strings(source.text[span.start : span.end])
+        if len(tokens) < 2 or source.text[: span.start].rstrip().endswith("("):
+            continue
+        parts = tuple(part for _, part in tokens)
+        if all(parts) and not any(part[-1] in _BREAKS for part in parts[:-1]) and parts[1][0] not in _BREAKS:
+            yield span.start + tokens[0][0], span, parts
+
+
+def _strings(text: str) -> list[tuple[int, str]]:
+    """The literals that an expression is made of, each with the offset of its end; none where one is not plain."""
+    lines = text.splitlines(keepends=True)
+    found: list[tuple[int, str]] = []
+    try:
+        for token in tokenize.generate_tokens(io.StringIO(f"({text})").readline):
+            if token.type == tokenize.STRING:
+                row, column = token.end
+                # The bracket before is one character of the first line.
+                end = sum(map(len, lines[: row - 1])) + column - (1 if row == 1 else 0)
+                found.append((end, str(ast.literal_eval(token.string))))
+    except (tokenize.TokenError, SyntaxError, ValueError):
+        return []
+    return found
+
+
+RULE = Rule(
+    id="LCH039",
+    name="glued-strings",
+    severity="warning",
+    what="Reports two strings in a list of single words in a Python launch file, between which there is no comma: "
+    "Python makes one string of them. Texts with blanks, and what is broken after a `/` or another sign, are left "
+    "alone.",
+    why="The list has neither of the two: an argument refuses a value that seems to be among its choices, a node "
+    "gets one word for two.",
+    example='choices=["diff_drive" "mecanum", "tricycle"]',
+    instead='choices=["diff_drive", "mecanum", "tricycle"]',
+    generations=(2,),
+    check=_check,
+)

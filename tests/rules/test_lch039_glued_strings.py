@@ -1,0 +1,55 @@
+"""LCH039: two strings of a list between which the comma is missing."""
+
+import pytest
+from support.check import apply, check
+
+_START = """//- /robot.launch.py
+        from launch import LaunchDescription
+        from launch.actions import DeclareLaunchArgument
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            return LaunchDescription(["""
+
+
+def test_two_choices_without_a_comma() -> None:
+    text = f"""
+        {_START}
+                DeclareLaunchArgument("drive", default_value="c", choices=["a" "b", "c"]),
+                                                                           ^^^^^^^ warning[LCH039] 'a' and 'b' are one
+            ])
+    """
+    (found,) = check(text)
+    assert 'choices=["a", "b", "c"]' in apply(text, found.fixes[0].edits)["/robot.launch.py"]
+
+
+def test_two_lines_without_a_comma() -> None:
+    text = f"""
+        {_START}
+                Node(package="p", executable="e", arguments=[
+                    "--one"
+                    ^^^^^^^ warning[LCH039] '--one' and 'two' are one string
+                    "two",
+                    "three",
+                ]),
+            ])
+    """
+    found = check(text)
+    assert '"--one",\n' in apply(text, found[0].fixes[0].edits)["/robot.launch.py"]
+
+
+@pytest.mark.silent
+def test_what_is_broken_on_purpose() -> None:
+    check(f"""
+        {_START}
+                Node(package="p", executable="e", arguments=[
+                    "a" "b",
+                    "a long text that "
+                    "goes on",
+                ]),
+                Node(package="p", executable="e", arguments=["--file", "a/long/path/"
+                    "that/goes/on"]),
+                Node(package="p", executable="e", arguments=["--file", ("a"
+                    "b")]),
+            ])
+    """)
