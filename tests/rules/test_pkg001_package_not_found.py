@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -67,15 +68,64 @@ def test_a_package_whose_name_is_unknown_is_not_judged() -> None:
     assert [finding.rule for finding in findings] == ["ARG003"]
 
 
-def test_a_package_without_a_near_one_is_a_lack_of_the_machine(launch: Path) -> None:
-    launch.write_text('<launch><node pkg="tf2_ros" type="x" name="n"/><node pkg="demmo" type="x" name="m"/></launch>')
+def of_packages(launch: Path, *names: str, python: str | None = None, distro: str = "noetic") -> list[Finding]:
+    """What is said of nodes of these packages in a workspace that has package `demo` alone."""
+    nodes = "".join(f'<node pkg="{name}" type="x" name="n{at}"/>' for at, name in enumerate(names))
+    launch.write_text(f"<launch>{nodes}</launch>")
     share = str(launch.parent)
-    packages = {"demo": Package("demo", share, f"{share}/package.xml")}
-    for python in (None, "/usr/bin/python3"):
-        environment = Environment(1, "noetic", {}, (share,), packages, {}, (), (), python)
-        findings = Workspace(environment, Sources(), share).static(str(launch)).findings
-        assert [f.severity for f in findings] == ["hint", "error"]
-        assert [f.lack for f in findings] == [Lack("package", "tf2_ros"), None]
+    packages = {"demo": Package("demo", share, f"{share}/package.xml", frozenset({"our_own_driver"}))}
+    environment = Environment(1, distro, {}, (share,), packages, {}, (), (), python)
+    findings = Workspace(environment, Sources(), share).static(str(launch)).findings
+    return [finding for finding in findings if finding.rule == "PKG001"]
+
+
+@pytest.mark.parametrize("python", [None, "/usr/bin/python3"])
+def test_a_released_package_that_is_not_installed_is_the_machine_s_lack(launch: Path, python: str | None) -> None:
+    (finding,) = of_packages(launch, "move_base", python=python)
+    assert (finding.severity, finding.confidence) == ("hint", "certain")
+    assert finding.message == "package 'move_base' is not installed here: ros-noetic-move-base"
+    assert finding.lack == Lack("package", "move_base", "apt install ros-noetic-move-base")
+
+
+def test_a_package_that_only_another_distribution_has_says_so(launch: Path) -> None:
+    (finding,) = of_packages(launch, "kobuki_node")
+    assert finding.severity == "hint"
+    assert "is not installed here; it is released for indigo and kinetic" in finding.message
+    assert finding.lack == Lack("package", "kobuki_node")
+    (of_its_own,) = of_packages(launch, "kobuki_node", distro="kinetic")
+    assert of_its_own.message.endswith("ros-kinetic-kobuki-node")
+
+
+def test_a_slip_in_a_released_name_is_an_error_with_a_fix(launch: Path) -> None:
+    (finding,) = of_packages(launch, "robot_state_publishr")
+    assert (finding.severity, finding.confidence, finding.lack) == ("error", "certain", None)
+    assert "did you mean 'robot_state_publisher'?" in finding.message
+    assert finding.fixes[0].edits[0].text == "robot_state_publisher"
+
+
+def test_a_short_word_is_near_to_too_much(launch: Path) -> None:
+    (finding,) = of_packages(launch, "arm_description")
+    assert (finding.severity, finding.fixes) == ("warning", ())
+
+
+def test_a_name_of_the_other_generation_is_none_of_this_one(launch: Path) -> None:
+    (finding,) = of_packages(launch, "nav2_amcl", python="/usr/bin/python3")
+    assert (finding.severity, finding.lack) == ("warning", None)
+
+
+@pytest.mark.parametrize("python", [None, "/usr/bin/python3"])
+def test_a_name_that_nobody_knows(launch: Path, python: str | None) -> None:
+    (finding,) = of_packages(launch, "fancy_unheard_of", python=python)
+    assert (finding.severity, finding.confidence, finding.lack) == ("warning", "likely", None)
+    assert "no distribution has released it, and no package.xml of the workspace names it" in finding.message
+
+
+@pytest.mark.parametrize("python", [None, "/usr/bin/python3"])
+def test_a_name_that_only_a_manifest_knows_is_lacking(launch: Path, python: str | None) -> None:
+    (finding,) = of_packages(launch, "our_own_driver", python=python)
+    assert (finding.severity, finding.confidence) == ("hint", "likely")
+    assert finding.message.endswith("neither installed here nor in the workspace, and no distribution has released it")
+    assert finding.lack == Lack("package", "our_own_driver")
 
 
 def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> None:
@@ -90,7 +140,7 @@ def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> N
     )
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001"]
-    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("hint", "package 'nowhere_known'")]
+    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("warning", "package 'nowhere_known'")]
 
 
 @pytest.mark.silent

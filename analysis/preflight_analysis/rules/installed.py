@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.rule import Context
@@ -26,6 +27,8 @@ _NO_PACKAGE = re.compile(
     r" not found|[Pp]ackage not found: ['\"]?([\w-]+)"
 )
 """How rospkg, roslib, xacro and ament_index say that a package is not there."""
+_LONG = 5
+"""Letters of a word."""
 
 
 def has_ros(context: Context) -> bool:
@@ -35,9 +38,38 @@ def has_ros(context: Context) -> bool:
     return not _CORE.isdisjoint(context.environment.packages)
 
 
-def lack_of_package(name: str) -> Lack:
+def lack_of_package(context: Context, name: str) -> Lack:
     """A package that is neither installed nor in the workspace."""
-    return Lack("package", name)
+    package = debian_package_of(context, name)
+    return Lack("package", name, f"apt install {package}" if package is not None else None)
+
+
+def debian_package_of(context: Context, name: str) -> str | None:
+    """What a package of ROS is installed as, where the distribution that is used here has released it."""
+    known, used = DISTRIBUTIONS[context.tree.generation], context.environment.distro
+    having = distributions_with(name, context.tree.generation)
+    distro = used if used is not None and used in known else context.tree.ros.default_distro
+    return debian_package(name, distro) if having and (distro in having or distro not in known) else None
+
+
+def near_package(context: Context, name: str) -> str | None:
+    """A package that is here, or that a distribution has released, of whose name this is a slip. A released name is
+    none."""
+    generation = context.tree.generation
+    if distributions_with(name, generation):
+        return None
+    near = nearest(name, context.environment.packages)
+    if near is not None and is_slip(name, near):
+        return near
+    released = nearest_released(name, generation, 1)
+    return next((each for each in released if is_slip(name, each) and _differ_in_long_words(name, each)), None)
+
+
+def _differ_in_long_words(name: str, other: str) -> bool:
+    """Of the thousands of released names one is always near `arm_description` or another with a short word."""
+    words, others = name.split("_"), other.split("_")
+    differing = [pair for pair in zip(words, others, strict=False) if pair[0] != pair[1]]
+    return len(words) != len(others) or all(len(word) >= _LONG for pair in differing for word in pair)
 
 
 def lack_of_build(context: Context, package: str) -> Lack:
@@ -97,7 +129,6 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
             return lack_of_module(context, found[1])
         if found := _NO_PACKAGE.search(line):
             name = next(filter(None, found.groups()))
-            near = nearest(name, context.environment.packages)
-            wrong = name in context.environment.packages or (near is not None and is_slip(name, near))
-            return None if wrong else lack_of_package(name)
+            wrong = name in context.environment.packages or near_package(context, name) is not None
+            return None if wrong else lack_of_package(context, name)
     return None

@@ -4,12 +4,15 @@ import os
 from collections.abc import Iterable, Iterator
 from functools import cache, partial
 
+from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.problems import PackageNotFound
-from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.installed import lack_of_package
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.installed import debian_package_of, lack_of_package, near_package
+from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.retired import was_removed
@@ -33,7 +36,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _meant(context: Context, name: str) -> tuple[Package | None, str | None]:
     """The package in a folder of that name, and the name of the one that was probably meant."""
     renamed = _in_folder_of_that_name(context, name)
-    return renamed, renamed.name if renamed is not None else nearest(name, context.environment.packages)
+    return renamed, renamed.name if renamed is not None else near_package(context, name)
 
 
 def _finding(
@@ -47,17 +50,9 @@ def _finding(
     stops: bool,
 ) -> Finding:
     renamed, near = meant
-    sure = renamed is not None or (near is not None and is_slip(name, near))
-    if not sure:
-        return rule.finding(
-            f"package '{name}' is neither installed here nor in the workspace{did_you_mean(near)}",
-            location,
-            confidence="possible",
-            related=related,
-            stops_launch=stops,
-            lack=lack_of_package(name),
-        )
-    fixes = rename(context, location, name, near) if near is not None else ()
+    if near is None:
+        return _not_here(rule, context, name, location, related, stops=stops)
+    fixes = rename(context, location, name, near)
     hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     return rule.finding(
         f"package '{name}' is not among the {len(context.environment.packages)} packages of this environment{hint}",
@@ -66,6 +61,38 @@ def _finding(
         fixes=fixes,
         stops_launch=stops,
     )
+
+
+def _not_here(
+    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], *, stops: bool
+) -> Finding:
+    """Of a package that nothing is near to: what is released, or named by a manifest, is missing on this machine."""
+    having = distributions_with(name, context.tree.generation)
+    confidence: Confidence = "certain" if having else "likely"
+    lack: Lack | None = lack_of_package(context, name)
+    text = f"package '{name}' is neither installed here nor in the workspace"
+    if having:
+        package = debian_package_of(context, name)
+        which = f": {package}" if package else f"; it is released for {' and '.join(having)}"
+        text = f"package '{name}' is not installed here{which}"
+    elif name in context.once(_named_by_manifests):
+        text += ", and no distribution has released it"
+    else:
+        text += f"; no distribution has released it, and no {MANIFEST} of the workspace names it"
+        lack = None
+    return rule.finding(
+        text,
+        location,
+        severity="warning",
+        confidence=confidence,
+        related=related,
+        stops_launch=stops,
+        lack=lack,
+    )
+
+
+def _named_by_manifests(context: Context) -> frozenset[str]:
+    return frozenset[str]().union(*(package.dependencies for package in context.environment.packages.values()))
 
 
 def _in_folder_of_that_name(context: Context, name: str) -> Package | None:
@@ -82,8 +109,10 @@ RULE = Rule(
     name="package-not-found",
     severity="error",
     what="Reports a package, in `$(find ...)` or as a node's `pkg`, that is neither on the package path nor in the "
-    "workspace, and names the nearest one, or the one whose folder has that name and whose `package.xml` another. "
-    "Without such a name the package may just not be installed on this machine: that is a hint only.",
+    "workspace, and names the nearest one, here or among those that ROS's distributions have released, or the one "
+    "whose folder has that name and whose `package.xml` another. One that is released, or that a `package.xml` names, "
+    "may just not be installed on this machine: that is a hint only, with the Debian package. One that nobody knows "
+    "and that nothing is near to is a warning.",
     why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
     "command `ros-preflight doctor` shows where packages are looked for.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

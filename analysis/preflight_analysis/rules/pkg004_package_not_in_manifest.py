@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 
+from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
@@ -48,8 +49,10 @@ def _missing(
     missing = tuple(
         (name, span)
         for name, span in _used_packages(launch_file).items()
-        # One that is not there at all is another rule's: it may well be a wrong name.
-        if name in environment.packages and name not in owner.dependencies and name != owner.name
+        # One that is neither here nor released is another rule's: it may well be a wrong name.
+        if name not in owner.dependencies
+        and name != owner.name
+        and (name in environment.packages or distributions_with(name, launch_file.generation))
     )
     return (launch_file.path, owner, missing) if missing else None
 

@@ -1,0 +1,57 @@
+"""The names of all packages that distributions of ROS have released."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+
+from rapidfuzz import process
+from rapidfuzz.distance import OSA
+
+DISTRIBUTIONS: Mapping[int, Mapping[str, str]] = {
+    1: {"indigo": "I", "kinetic": "K", "melodic": "M", "noetic": "N"},
+    2: {
+        "foxy": "f",
+        "galactic": "g",
+        "humble": "h",
+        "iron": "i",
+        "jazzy": "j",
+        "kilted": "k",
+        "lyrical": "l",
+        "rolling": "r",
+    },
+}
+"""Those whose packages are known, of each generation, the oldest first, with the letter that each has in the data."""
+DATA = Path(__file__).with_name("data")
+RELEASED = DATA / "released.txt"
+"""A line a package: its name and the letters of the distributions that have it. Lines with `#` say where it is from."""
+
+
+def distributions_with(name: str, generation: int) -> tuple[str, ...]:
+    """The distributions of a generation that have a package, the oldest first."""
+    letters = _letters().get(name, "")
+    return tuple(distro for distro, letter in DISTRIBUTIONS[generation].items() if letter in letters)
+
+
+def debian_package(name: str, distro: str) -> str:
+    """What a package of ROS is called where it is installed from its distribution."""
+    return f"ros-{distro}-{name.replace('_', '-')}"
+
+
+def nearest_released(name: str, generation: int, edits: int) -> Iterator[str]:
+    """The packages of a generation, in whichever distribution, that are at most so many edits away; nearest first."""
+    near = process.extract(name, _names(generation), scorer=OSA.distance, score_cutoff=edits, limit=4)
+    yield from (found for found, distance, _ in near if distance)
+
+
+@lru_cache(maxsize=2)
+def _names(generation: int) -> tuple[str, ...]:
+    letters = set(DISTRIBUTIONS[generation].values())
+    return tuple(name for name, of in _letters().items() if not letters.isdisjoint(of))
+
+
+@lru_cache(maxsize=1)
+def _letters() -> Mapping[str, str]:
+    lines = RELEASED.read_text().splitlines()
+    return dict(line.split(" ", 1) for line in lines if not line.startswith("#"))

@@ -1,0 +1,33 @@
+"""Writes the catalogue of what everybody uses: `make catalogue SOURCES=FOLDER`.
+
+  python tests/tools/catalogue --sources FOLDER [released]...
+
+The folder has snapshots of public repositories, `OWNER+NAME/repo`. Facts alone are taken from them: names, types,
+defaults, ranges, conditions and QoS, by this project's own analysis. `catalogue/data/README.md` says more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2]))  # tests/, as pytest has it
+
+from tools.catalogue.released import write_released
+
+PARTS = {"released": write_released}
+
+
+def main() -> None:
+    """Write the parts that are asked for, all without any."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sources", type=Path, required=True)
+    parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help="default: all")
+    options = parser.parse_args()
+    for part in options.parts or PARTS:
+        PARTS[part](options.sources)
+
+
+if __name__ == "__main__":
+    main()
