@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -46,6 +46,9 @@ class Commands(Protocol):
     def last_good(self, series: str) -> str | None:
         """Of the runs of a Python launch file with one text or another the last that went well: its line."""
 
+    def snapshot(self) -> Commands:
+        """The results as they are now, for another process."""
+
 
 class NoResults:
     """Nothing was run."""
@@ -60,6 +63,33 @@ class NoResults:
     def last_good(self, series: str) -> str | None:
         """None."""
         return None
+
+    def snapshot(self) -> Commands:
+        """The same."""
+        return NoResults()
+
+
+@dataclass(frozen=True, eq=False)
+class KnownResults:
+    """Results by their lines. `otherwise` is that of all other lines. Implements `Commands`."""
+
+    placeholder: str | None
+    results: Mapping[str, CommandResult]
+    lines_of_last_good: Mapping[str, str]
+    otherwise: CommandResult | None
+    edition: int = 0
+
+    def result(self, line: str) -> CommandResult | None:
+        """The result of a command line."""
+        return self.results.get(line, self.otherwise)
+
+    def last_good(self, series: str) -> str | None:
+        """The line of the last run that went well."""
+        return self.lines_of_last_good.get(series)
+
+    def snapshot(self) -> Commands:
+        """The same."""
+        return self
 
 
 def _edition(commands: Commands) -> Hashable:
@@ -101,3 +131,7 @@ class QueriedCommands:
     def last_good(self, series: str) -> str | None:
         """The line of the last run that went well."""
         return _last_good(self._db, self._commands, series)
+
+    def snapshot(self) -> Commands:
+        """The results as they are now."""
+        return self._commands.snapshot()

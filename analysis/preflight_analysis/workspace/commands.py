@@ -6,7 +6,7 @@ import os
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 
-from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.commands import CommandResult, Commands, KnownResults
 from preflight_analysis.evaluation.ros2.python_runs import MARK, good_series
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing.commands import CommandRunner, alike
@@ -38,14 +38,20 @@ class CommandResults:
 
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line, or why it has none."""
-        found = self._results.get(line)
-        if found is None and (why := self._why_not_run()) is not None:
-            return CommandResult("not-run", reason=why)
-        return found
+        return self._results.get(line) or self._otherwise
 
     def last_good(self, series: str) -> str | None:
         """The line of the last run of a Python launch file that went well, whatever its text was then."""
         return self._last_good.get(series)
+
+    def snapshot(self) -> Commands:
+        """The results as they are now."""
+        return KnownResults(self.placeholder, self._results, self._last_good, self._otherwise)
+
+    @property
+    def _otherwise(self) -> CommandResult | None:
+        why = self._why_not_run()
+        return CommandResult("not-run", reason=why) if why is not None else None
 
     def update(self, results: Mapping[str, CommandResult]) -> None:
         """Take over results."""

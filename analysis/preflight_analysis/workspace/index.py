@@ -87,6 +87,11 @@ class WorkspaceIndex:
     """The includes whose `file` can be told from the text alone, whether some root takes them or not."""
     complete: bool = False
 
+    def with_part(self, part: WorkspaceIndex) -> WorkspaceIndex:
+        """What either knows; `part` is of other files."""
+        files, entries = {**self.files, **part.files}, {**self.entries, **part.entries}
+        return WorkspaceIndex(files, entries, self.written + part.written)
+
     def roots_of(self, path: str) -> tuple[Root, ...]:
         """The roots that reach a file, those that name it or reach it most directly first; itself where none does."""
         return self._reaching.get(path) or (Root(path),)

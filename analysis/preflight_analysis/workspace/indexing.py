@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import tempfile
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from preflight_analysis.documents.reading import Unreadable
@@ -39,6 +39,7 @@ def build_index(
     folder: str | None,
     named: Sequence[Root] = (),
     *,
+    paths: Sequence[str] | None = None,
     previous: WorkspaceIndex | None = None,
     changed: Collection[str] | None = None,
     report: Report = lambda done, total, path: None,
@@ -46,22 +47,20 @@ def build_index(
 ) -> WorkspaceIndex | None:
     """The index of the launch files below `folder`; None when `cancelled()`.
 
-    `named` are the roots that the settings name. With `previous`, only what depends on the files in `changed` is
-    looked at again (None: everything). Runs in a thread of its own for as long as it takes; never raises for what
-    files contain.
+    `named` are the roots that the settings name, `paths` those launch files, where they are known. With `previous`,
+    only what depends on the files in `changed` is looked at again (None: everything). Runs in a thread of its own for
+    as long as it takes; never raises for what files contain.
     """
     known = previous if previous is not None and changed is not None else WorkspaceIndex()
     stale = frozenset(changed or ())
-    paths = _launch_files(folder, workspace) if folder is not None else []
+    if paths is None:
+        paths = launch_files(folder, workspace) if folder is not None else []
     maker = _Maker(workspace, known, stale, report, len(paths))
     for path in paths:
         if cancelled():
             return None
         maker.read(path)
-    includes_written = frozenset(i.target for i in maker.written if i.target != i.includer)
-    named_paths = {root.path for root in named}
-    candidates = [*named, *(Root(p) for p in paths if p not in includes_written and p not in named_paths)]
-    for root in candidates:
+    for root in _candidates(paths, named, maker.written):
         if cancelled():
             return None
         maker.enter(root)
@@ -81,6 +80,35 @@ def build_index(
     maker.drop_included(keep=frozenset(named))
     maker.read_reached()
     return WorkspaceIndex(maker.files, maker.entries, tuple(maker.written), complete=True)
+
+
+def parts_of_index(
+    workspace: Workspace, paths: Sequence[str], named: Sequence[Root], step: int
+) -> Iterator[WorkspaceIndex]:
+    """What `build_index` would make of some of the launch files, `step` of them at a time: what is known of each, then
+    the evaluated roots. What only other files include is evaluated as a root, too."""
+    maker = _Maker(workspace, WorkspaceIndex(), frozenset(), lambda done, total, path: None, len(paths))
+    for start in range(0, len(paths), step):
+        some, before = paths[start : start + step], len(maker.written)
+        for path in some:
+            maker.read(path)
+        facts = {path: maker.files[path] for path in some if path in maker.files}
+        yield WorkspaceIndex(facts, {}, tuple(maker.written[before:]))
+    roots = _candidates(paths, named, maker.written)
+    for start in range(0, len(roots), step):
+        some_roots = roots[start : start + step]
+        for root in some_roots:
+            maker.enter(root)
+        if maker.left_out:
+            break
+        yield WorkspaceIndex({}, {root: maker.entries[root] for root in some_roots})
+
+
+def _candidates(paths: Iterable[str], named: Sequence[Root], written: Iterable[Inclusion]) -> list[Root]:
+    """What probably are roots."""
+    included = frozenset(i.target for i in written if i.target != i.includer)
+    named_paths = {root.path for root in named}
+    return [*named, *(Root(p) for p in paths if p not in included and p not in named_paths)]
 
 
 class _Upstream:
@@ -224,7 +252,7 @@ def _written_path(value: Value, path: str, packages: Mapping[str, Package]) -> s
     return os.path.normpath(text) if os.path.isabs(text) else None
 
 
-def _launch_files(folder: str, workspace: Workspace) -> list[str]:
+def launch_files(folder: str, workspace: Workspace) -> list[str]:
     """The launch files below a workspace, without those of ROS 2 that colcon ignores: by their names, and what makes a
     launch description in Python, where it lies in a launch folder or is installed. A folder that is nobody's
     workspace (`/tmp`, the home folder), taken for one because a file in it was opened alone, is not walked: only its

@@ -205,3 +205,6 @@ class _Commands:
         found = self._commands.last_good(series)
         self._note(_last_good(series, found))
         return found
+
+    def snapshot(self) -> Commands:
+        return self._commands.snapshot()

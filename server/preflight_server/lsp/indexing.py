@@ -76,8 +76,8 @@ class Indexing:
     async def _rounds(self) -> None:
         while (self._changed or self._everything) and not self._cancel.is_set():
             workspace = await self._session.workspace()
-            await self._session.settled()
             if self.index.complete:
+                await self._session.settled()
                 await self._session.quiet()
             changed = None if self._everything or not self.index.complete else frozenset(self._changed)
             self._changed, self._everything = set(), False
