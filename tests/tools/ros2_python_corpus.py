@@ -38,7 +38,7 @@ def main() -> int:
     for row in rows:
         repository = _repository(options.sources, row)
         assert repository is not None
-        _take_over(repository, row["commit"], options.out / "src" / row["folder"])
+        take_over(repository, row["commit"], options.out / "src" / row["folder"])
     for name in ("jobs-python.jsonl", "packages.json"):
         shutil.copyfile(options.corpus / name, options.out / name)
     actual = options.out / "actual.jsonl"
@@ -64,7 +64,7 @@ def _repository(sources: Path, row: dict[str, str]) -> Path | None:
     return None
 
 
-def _take_over(git: Path, commit: str, folder: Path) -> None:
+def take_over(git: Path, commit: str, folder: Path) -> None:
     """The small files of a commit; done once."""
     mark = folder.with_name(f".{folder.name}.{commit}")
     if mark.exists():

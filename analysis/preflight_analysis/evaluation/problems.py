@@ -134,13 +134,15 @@ class PythonException(ProblemKind):
 
 @dataclass(frozen=True, slots=True)
 class PythonImportFailed(ProblemKind):
-    """A Python launch file imports what is not there."""
+    """A Python launch file imports what is not there. `stood_in_for`: it was run all the same, and what depends on the
+    module is not known."""
 
     leaves_out = True
     usually_fatal = False
 
     module: str
     message: str
+    stood_in_for: bool = False
 
 
 @dataclass(frozen=True, slots=True)

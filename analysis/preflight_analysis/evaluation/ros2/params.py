@@ -26,6 +26,7 @@ from preflight_analysis.evaluation.ros2.param_files import (
 )
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid, loaded
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
@@ -176,6 +177,8 @@ def file_source(
             state.note_unknown(path, "a substitution in it is not known", origin[-1])
             return ParamSource(path, (), origin, substituted=True)
         text = result.text
+    if is_unknown(text):
+        state.note_unknown(path, "values in it are not known", origin[-1])
     file = read_param_file(text)
     if file.problem is not None:
         message, span = file.problem
@@ -246,6 +249,8 @@ def _of_file(
     params, keys = [], []
     for section in reaching:
         for param in section.params:
+            if is_unknown(param.name) or any(map(is_unknown, _items(param.value))):
+                continue
             place = lines.location(path, param.name_span) if lines is not None else Location.of_file(path)
             value = param.by_launch if to.composable else param.value
             by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
@@ -253,6 +258,11 @@ def _of_file(
             params.append(Param(param.name, value, way, to.owner, name_place, by_launch=by_launch))
             keys.append(section.key)
     return ParamSource(path, tuple(params), origin, tuple(keys), lines is None)
+
+
+def _items(value: Any) -> list[Any]:
+    """Those of a list, or the value alone."""
+    return value if isinstance(value, list) else [value]
 
 
 def _flat(text: str, span: Span) -> tuple[int, ...]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -30,11 +30,13 @@ from preflight_analysis.evaluation.problems import (
     PythonImportFailed,
     UnsetVariable,
 )
-from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
+from preflight_analysis.evaluation.ros2.context import Configuration, Context, Place, PythonRun
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable, unknown_text
 from preflight_analysis.evaluation.tree import Command, Edited
 from preflight_analysis.launch.configurations import substitutions_of
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
@@ -115,7 +117,7 @@ def recorded(
     if reply is None or launch_file.root is None:
         return launch_file, None
     children = _actions(reply.output, run.source, whole, context.python)
-    context.environment.update(_texts(reply.values.get("env")) or {})
+    context.environment.update(_variables(reply))
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
@@ -182,7 +184,7 @@ def called(
     changed, removed = _texts(reply.values.get("set")), reply.values.get("unset")
     gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
     actions = _actions(reply.output, run.source, at, context.python)
-    return Answer(replace(place, run=run), actions, None, changed, gone, _texts(reply.values.get("env")))
+    return Answer(replace(place, run=run), actions, None, changed, gone, _variables(reply))
 
 
 @memoize_by_file
@@ -206,13 +208,15 @@ def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
 
 
 def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
-    """What is configured, as far as it is known, and whether all of it is."""
+    """What is configured, with a mark for what is not known, and whether all of it is."""
     scope = context.scope
-    found: dict[str, Any] = {k: c.value.text for k, c in scope.configurations.items() if c.value.known}
-    complete = len(found) == len(scope.configurations)
+    given = dict(scope.configurations)
     if scope.namespace is not None:
-        found["ros_namespace"] = scope.namespace.text
-        complete = complete and scope.namespace.known
+        given["ros_namespace"] = Configuration(scope.namespace, None)
+    complete = all(each.value.known for each in given.values())
+    found: dict[str, Any] = {
+        name: each.value.text if each.value.known else unknown_text(name) for name, each in given.items()
+    }
     if scope.params:
         found["global_params"] = [[p.name, p.value] if p.name is not None else p.value for p in scope.params]
     if scope.remaps:
@@ -247,6 +251,7 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         if state.files.exists(path):
             continue  # a file of the host's is what it is, whatever the run says
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
+    _missed(state, place, run, reply.get("missed"), origin)
     error = reply.get("error")
     if isinstance(error, dict):
         _raised(state, place, run, error, origin, sure=sure)
@@ -277,13 +282,47 @@ def _actions(output: str, source: PythonSource, around: Span, python: PythonClas
     return actions_of(_read(output).get("actions"), source, around, python)
 
 
+def _missed(state: Collector, place: Place, run: PythonRun, missed: object, origin: Origin) -> None:
+    """The modules, packages and variables that were not there, and for which something stood in: each where it is
+    asked for first."""
+    for each in missed if isinstance(missed, list) else ():
+        match each:
+            case ["variable", str(name), at] if name in state.environment.variables:
+                there = _line(place, run, at, origin)[-1]
+                state.note_unknown(name, f"the sandbox is not told what {name} is", there)
+            case [str(what), str(name), at] if what in _MISSED:
+                state.problem(_MISSED[what](name), _line(place, run, at, origin))
+
+
+def _line(place: Place, run: PythonRun, at: object, origin: Origin) -> Origin:
+    """The line of a place that an answer names."""
+    line = at[0] if isinstance(at, list) and at and isinstance(at[0], int) else 0
+    return place.origin(run.source.line_span(line)) if line else origin
+
+
+def _module(name: str) -> PythonImportFailed:
+    return PythonImportFailed(name, f"No module named '{name}'", stood_in_for=True)
+
+
+_MISSED: dict[str, Callable[[str], ProblemKind]] = {
+    "module": _module,
+    "package": PackageNotFound,
+    "variable": UnsetVariable,
+}
+
+
+def _variables(reply: _Reply) -> dict[str, str]:
+    """The variables that were set to what is known."""
+    return {k: v for k, v in (_texts(reply.values.get("env")) or {}).items() if not is_unknown(v)}
+
+
 def _raised(
     state: Collector, place: Place, run: PythonRun, error: Mapping[str, Any], origin: Origin, *, sure: bool
 ) -> None:
     """What an exception says, on the line of the file that raised it."""
     name, message = str(error.get("type")), str(error.get("message"))
-    state.note_unknown(name, message, origin[-1])
-    if not sure:
+    state.note_unknown(name, readable(message), origin[-1])
+    if not sure or error.get("unsure") is True:
         return
     frames = error.get("frames")
     own = [

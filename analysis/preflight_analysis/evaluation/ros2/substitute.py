@@ -30,6 +30,7 @@ from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.types import loaded
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
 from preflight_analysis.evaluation.tree import Command, Use
 from preflight_analysis.launch.model import Literal, Substitution, Value
 from preflight_analysis.launch.problems import BadSubstitution, ProblemKind
@@ -349,6 +350,10 @@ class Performer:
         self.state.note_unknown(part.text, "it is known only when it is launched", self._at(part))
         raise _Failure
 
+    def _unknown(self, part: Substitution) -> str:
+        self.state.note_unknown(self._word(part, 0), "what it comes from is not installed here", self._at(part))
+        raise _Failure
+
     def _not_read(self, part: Substitution) -> str:
         self.state.note_unknown("a value", "the launch file was not run", self._at(part))
         raise _Failure
@@ -357,6 +362,9 @@ class Performer:
         number, name = (self._word(part, index) for index in (0, 1))
         answer = called(self.state, self.context, self.place, number, name, "perform", part.span)
         if answer is None or answer.text is None:
+            raise _Failure
+        if is_unknown(answer.text):
+            self.state.note_unknown(part.text, f"it is {readable(answer.text)}", self._at(part))
             raise _Failure
         return answer.text
 
@@ -369,6 +377,7 @@ _PERFORM_PYTHON: dict[str, Callable[[Performer, Substitution], str]] = {
     "local": Performer._local,
     "python": Performer._not_read,
     "own": Performer._own,
+    "unknown": Performer._unknown,
     "command": Performer._command,
 }
 _PERFORM: dict[str, Callable[[Performer, Substitution], str]] = {

@@ -32,7 +32,7 @@ def is_unknown(text: Any) -> bool:
     return isinstance(text, str) and BEGIN in text
 
 
-class Made:
+class AnyBase:
     """What a class is derived from whose base is a stand-in."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
@@ -48,6 +48,9 @@ class Made:
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
         return Anything(f"{type(self).__name__}()")
+
+    def __fspath__(self) -> str:
+        return unknown_text(type(self).__name__)
 
 
 class Anything:
@@ -71,7 +74,7 @@ class Anything:
         """As the base of a class."""
         made = self._preflight_made
         if "" not in made:
-            made[""] = type(self._preflight_name.rpartition(".")[2], (Made,), {})
+            made[""] = type(self._preflight_name.rpartition(".")[2], (AnyBase,), {})
         return (made[""],)
 
     def __instancecheck__(self, instance: Any) -> bool:

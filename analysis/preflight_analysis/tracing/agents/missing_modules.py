@@ -11,13 +11,14 @@ import importlib.abc
 import importlib.machinery
 import linecache
 import sys
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Optional, Sequence
 
 from .anything import AnyModule, importer
 
 GENERATED = ("msg", "srv", "action")
 """Below a package that is only source: what building it makes."""
-_CATCHES = ("ImportError", "ModuleNotFoundError", "Exception", "BaseException")
+_CATCHES = ("ImportError", "ModuleNotFoundError")
+_ALL = ("Exception", "BaseException")
 _ENDS = ("exit", "_exit", "quit", "abort")
 
 Note = Callable[[str, str, int], None]
@@ -40,7 +41,7 @@ class MissingModules(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         if not above and fullname in getattr(sys, "stdlib_module_names", ()):
             return None  # another system's
         frame = importer()
-        if frame is None or _only_asks() or _provided_for(frame.f_code.co_filename, frame.f_lineno):
+        if frame is None or _only_asks() or provided_for(frame, _CATCHES):
             return None
         if not within and fullname not in self.noted:
             self.noted[fullname] = None
@@ -63,25 +64,26 @@ def _only_asks() -> bool:
     return False
 
 
-def _provided_for(file: str, line: int) -> bool:
-    """Whether an import on a line stands in a `try` that goes on in another way without it."""
+def provided_for(frame: Any, errors: Sequence[str]) -> bool:
+    """Whether a program stands in a `try` that goes on in another way after one of the errors, which it may name."""
     try:
-        tree = ast.parse("".join(linecache.getlines(file)))
+        tree = ast.parse("".join(linecache.getlines(frame.f_code.co_filename)))
     except (SyntaxError, ValueError):
         return False
     return any(
         isinstance(node, ast.Try)
-        and node.body[0].lineno <= line <= (node.body[-1].end_lineno or 0)
-        and any(_catches(each.type) and not _ends(each) for each in node.handlers)
+        and node.body[0].lineno <= frame.f_lineno <= (node.body[-1].end_lineno or 0)
+        and any(_catches(each.type, errors) and not _ends(each) for each in node.handlers)
         for node in ast.walk(tree)
     )
 
 
-def _catches(kind: Optional[ast.expr]) -> bool:
+def _catches(kind: Optional[ast.expr], errors: Sequence[str]) -> bool:
     if kind is None:
         return True
     kinds = kind.elts if isinstance(kind, ast.Tuple) else [kind]
-    return any(isinstance(each, ast.Name) and each.id in _CATCHES for each in kinds)
+    names = [each.attr if isinstance(each, ast.Attribute) else getattr(each, "id", "") for each in kinds]
+    return any(name in errors or name in _ALL for name in names)
 
 
 def _ends(handler: ast.ExceptHandler) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClass
@@ -23,7 +24,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         return
     for key, text in (answer.changed or {}).items():
         if key not in ("ros_namespace", "global_params", "ros_remaps"):
-            context.set(key, Resolved(text), origin)
+            context.set(key, Resolved(readable(text), not is_unknown(text)), origin)
     for key in answer.removed:
         context.scope.configurations.pop(key, None)
     context.environment.update(answer.variables or {})
@@ -34,6 +35,12 @@ def evaluate_coroutine(walk: Walk, performer: Performer, action: Action) -> None
     """Nobody awaits it here."""
     at = performer.place.location(action.head_span)
     walk.state.note_unknown("OpaqueCoroutine", "what it does is known only when it is launched", at)
+
+
+def evaluate_stand_in(walk: Walk, performer: Performer, action: Action) -> None:
+    """An action made by a module that is not installed: anything may be in it."""
+    only_read(walk, performer, action)
+    walk.context.cannot_follow(performer.place.location(action.head_span))
 
 
 ENTITIES = (
@@ -55,6 +62,7 @@ ENTITIES = (
         evaluate=evaluate_coroutine,
     ),
     LaunchAction(kind="unknown", tag=None, python=(), evaluate=only_read),
+    LaunchAction(kind="stand_in", tag=None, python=(), evaluate=evaluate_stand_in),
     # `launch_testing` starts no node.
     LaunchAction(kind="test", tag=None, python=(), evaluate=None),
 )

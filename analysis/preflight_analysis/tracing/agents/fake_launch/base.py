@@ -8,6 +8,8 @@ import os
 import sys
 from typing import Any, Iterable, Optional
 
+from ..anything import Anything
+
 OURS = os.path.dirname(os.path.abspath(__file__))
 _STEPS = 200
 """How far up the stack to look for the launch file."""
@@ -28,6 +30,14 @@ class Recorder:
         self.made: dict[int, Any] = {}
         self.packages: dict[str, str] = {}
         self.positions: dict[Any, list[tuple[Any, ...]]] = {}
+        self.missed: dict[tuple[str, str], Any] = {}
+        self.unknown = False
+        """Whether something that the file is given is not known."""
+
+    def miss(self, what: str, name: str) -> None:
+        """Note a module or package that is not here, where it is asked for first."""
+        self.missed.setdefault((what, name), self.place())
+        self.unknown = True
 
     def place(self) -> Optional[list[int]]:
         """Line and column (-1: not known) in the launch file of the call that is going on."""
@@ -269,7 +279,9 @@ class Event:
 
 
 def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: Optional[str] = None) -> None:
-    """Raise `TypeError` as launch does."""
+    """Raise `TypeError` as launch does; a stand-in may be of any type."""
+    if isinstance(argument, Anything):
+        return
     allowed = tuple(types) if isinstance(types, collections.abc.Iterable) else (types,)
     if not isinstance(argument, allowed):
         where = "" if caller is None else f"{caller} "
@@ -285,7 +297,7 @@ def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
             return x
         if isinstance(x, str):
             return TextSubstitution(text=x)
-        if isinstance(x, os.PathLike):
+        if isinstance(x, os.PathLike):  # a stand-in is one too
             return TextSubstitution(text=os.fspath(x))
         raise TypeError(
             f"Failed to normalize given item of type '{type(x)}', "

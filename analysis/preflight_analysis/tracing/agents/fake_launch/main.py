@@ -6,7 +6,9 @@ import atexit
 import base64
 import inspect
 import json
+import linecache
 import os
+import re
 import stat
 import sys
 import tempfile
@@ -16,7 +18,8 @@ import types
 import zlib
 from typing import Any, Callable, Optional
 
-from . import installed
+from ..anything import BEGIN, AnyBase, Anything, is_unknown
+from . import installed, unknown_files
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -26,6 +29,7 @@ MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log")
 _fork = os.fork
+_ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 
 
 def main() -> None:
@@ -56,6 +60,7 @@ def _answer(work: Callable[[], dict[str, Any]]) -> str:
         result = {"error": {"type": "SystemExit", "message": str(error), "frames": []}}
     except BaseException as error:
         result = {"error": _error_record(error)}
+    result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
     result["files"] = _files()
     return json.dumps(result)
 
@@ -91,6 +96,7 @@ def _branch(branch: dict[str, Any]) -> Optional[str]:
 
 
 def _in_branch(branch: dict[str, Any]) -> dict[str, Any]:
+    RECORDER.missed.clear()
     _write(branch["files"])
     return _call(branch["call"])
 
@@ -104,20 +110,26 @@ def _write(files: dict[str, str]) -> None:
 def _run(job: dict[str, Any]) -> dict[str, Any]:
     install()
     installed.install(job["installed"])
+    unknown_files.install()
     environment = dict(os.environ)
     _write(job.get("files", {}))
+    lines = job["text"].splitlines(keepends=True)
+    linecache.cache[job["file"]] = (len(job["text"]), None, lines, job["file"])  # the editor's, not the disk's
     module = types.ModuleType("python_launch_file")
     module.__file__ = job["file"]
     sys.modules["python_launch_file"] = module
     code = compile(job["text"], job["file"], "exec", dont_inherit=True)
     exec(code, vars(module))  # noqa: S102 - what this is for; inside the sandbox
     description = _description(module)
+    if isinstance(description, (Anything, AnyBase)):
+        description = LaunchDescription([description])
     if not isinstance(description, LaunchDescription):
         kind = type(description).__name__
         raise TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
     changed = {k: v for k, v in os.environ.items() if environment.get(k) != v}
     result: dict[str, Any] = {"actions": Serializer().description(description.entities), "env": changed}
     for call in job["calls"]:
+        RECORDER.missed.clear()  # they are told by the answers to what came before
         result = _call(call)
     return result
 
@@ -137,6 +149,7 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
     thing = RECORDER.made[call["id"]]
     context = LaunchContext()
     context.launch_configurations.update(call["configurations"])
+    RECORDER.unknown = RECORDER.unknown or any(map(is_unknown, call["configurations"].values()))
     context.extend_globals(
         {"current_launch_file_path": call["file"], "current_launch_file_directory": os.path.dirname(call["file"])}
     )
@@ -178,9 +191,19 @@ def _error_record(error: BaseException) -> dict[str, Any]:
         record["path"] = error.filename
     if isinstance(error, OSError):
         record["errno"] = error.errno
+    if RECORDER.unknown and not _of_ours(error, message):
+        record["unsure"] = True
     if isinstance(error, NotHereError):
         record["refused"] = True
     return record
+
+
+def _of_ours(error: BaseException, message: str) -> bool:
+    """Whether it says what launch would say whatever is unknown: of arguments that an action does not take."""
+    if not isinstance(error, TypeError) or BEGIN in message:
+        return False
+    frames = traceback.extract_tb(error.__traceback__)
+    return bool(frames and frames[-1].filename.startswith(OURS)) or _ARGUMENTS.search(message) is not None
 
 
 def _files() -> dict[str, str]:

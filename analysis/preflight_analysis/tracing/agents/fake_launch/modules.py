@@ -12,6 +12,7 @@ import sys
 import types
 from typing import Any, Optional
 
+from ..missing_modules import MissingModules
 from . import settings
 from .base import RECORDER
 from .tables import FALLBACK, SIBLINGS, TABLE
@@ -129,7 +130,8 @@ class _PackageFinder(importlib.abc.MetaPathFinder):
 def install() -> None:
     """From now on these modules are ours."""
     sys.meta_path.insert(0, _Finder(TABLE))
-    found: list[Any] = [_PackageFinder(), _Finder(FALLBACK)]
+    missing = MissingModules(lambda name, file, line: RECORDER.miss("module", name))
+    found: list[Any] = [_PackageFinder(), _Finder(FALLBACK), missing]
     sys.meta_path.extend(found)
     # `import launch; launch.actions.Node`: launch itself imports these.
     for name in ("actions", "conditions", "descriptions", "events", "frontend", "logging", "substitutions"):

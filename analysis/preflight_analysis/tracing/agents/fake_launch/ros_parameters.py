@@ -7,6 +7,7 @@ from collections.abc import Iterable as AnyIterable
 from collections.abc import Mapping, Sequence
 from typing import Any, Iterable, Optional
 
+from ..anything import Anything
 from .base import (
     LaunchContext,
     Made,
@@ -100,8 +101,8 @@ def normalize_parameter_dict(parameters: Any, *, _prefix: Any = None) -> Any:
 def _parameter_value(value: Any) -> Any:
     if isinstance(value, (ParameterValue, str, float, bool, int, bytes)):
         return value
-    if isinstance(value, Substitution):
-        return ("yaml", [value])
+    if isinstance(value, (Substitution, Anything)):
+        return ("yaml", normalize_to_list_of_substitutions(value))
     if isinstance(value, Sequence):
         return _parameter_array(value)
     raise TypeError(f"Unexpected type for parameter value {value!r}")
@@ -119,6 +120,7 @@ def _kind(item: Any) -> type:
 def _parameter_array(value: Any) -> Any:
     for each in value:
         ensure_argument_type(each, (float, int, str, bool, Substitution, AnyIterable), "subvalue")
+    value = [str(each) if isinstance(each, Anything) else each for each in value]
     kinds = {_kind(each) for each in value}
     if kinds in ({int}, {bool}):
         return ("list", list(value))
@@ -131,6 +133,8 @@ def _parameter_array(value: Any) -> Any:
 
 
 def normalize_parameters(parameters: Any) -> tuple[Any, ...]:
+    if isinstance(parameters, Anything):
+        parameters = [parameters]
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
         raise TypeError(f"Expecting list of parameters, got {parameters}")
     found: list[Any] = []
@@ -146,7 +150,7 @@ def normalize_parameters(parameters: Any) -> tuple[Any, ...]:
 
 def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
     ensure_argument_type(remap_rule, tuple, "remap_rule")
-    if len(remap_rule) != 2:
+    if not isinstance(remap_rule, Anything) and len(remap_rule) != 2:
         raise TypeError(f"remap_rule must be a tuple of length 2, got length {len(remap_rule)}")
     return (
         tuple(normalize_to_list_of_substitutions(remap_rule[0])),

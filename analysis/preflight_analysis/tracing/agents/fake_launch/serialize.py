@@ -8,8 +8,10 @@ if the host may ask for its execution. A value is a list of pieces, or `{"v": pl
 from __future__ import annotations
 
 import contextlib
+import re
 from typing import Any, Iterable, Iterator, Optional
 
+from ..anything import BEGIN, END, AnyBase, Anything, is_unknown
 from .base import (
     Action,
     Condition,
@@ -70,6 +72,8 @@ class Serializer:
         for entity in entities:
             if isinstance(entity, (list, tuple)):
                 self.entities(entity)
+            elif isinstance(entity, (Anything, AnyBase)):
+                self.child("stand_in", what=entity)
             elif entity is not None:
                 self.entity(entity)
 
@@ -108,6 +112,8 @@ class Serializer:
                 serialized["value"] = {"v": inner}
             else:
                 self._items(made, inner)
+        elif is_unknown(value):
+            serialized["form"], serialized["value"] = ["yaml"], self.parts(value)
         else:
             serialized["form"] = ["plain"]
             serialized["value"] = {"v": value.decode(errors="replace") if isinstance(value, bytes) else value}
@@ -115,9 +121,9 @@ class Serializer:
     def _typed(self, made: dict[str, Any], value: ParameterValue) -> None:
         inner, serialized = value.value, made["a"]
         serialized["type"] = [value.preflight_type or "yaml"]
-        if _plain(inner):
+        if _plain(inner) and not is_unknown(inner):
             serialized["form"], serialized["value"] = ["plain"], {"v": inner}
-        elif inner and all(isinstance(each, Substitution) for each in inner):
+        elif is_unknown(inner) or (inner and all(isinstance(each, Substitution) for each in inner)):
             serialized["form"], serialized["value"] = ["typed"], self.parts(inner)
         else:
             serialized["form"] = ["items"]
@@ -126,7 +132,7 @@ class Serializer:
     def _items(self, made: dict[str, Any], items: Iterable[Any]) -> None:
         for each in items:
             # A text as it is stays one, whatever it would be as YAML.
-            value = {"v": each} if _plain(each) else self.parts(each)
+            value = {"v": each} if _plain(each) and not is_unknown(each) else self.parts(each)
             made["c"].append({"k": "item", "a": {"value": value}, "c": []})
 
     # Entities
@@ -178,6 +184,9 @@ class Serializer:
         """`if` or `unless`."""
         if condition is None:
             return
+        if isinstance(condition, (Anything, AnyBase)):
+            self.attribute("if", condition)
+            return
         known = isinstance(condition, (IfCondition, LaunchConfigurationEquals))
         if known and not overrides(condition, "evaluate"):
             self.attribute(condition.attribute, condition.expression)  # type: ignore[attr-defined]
@@ -195,14 +204,26 @@ class Serializer:
 
     def parts(self, value: Any) -> list[Any]:
         """The pieces of a text."""
-        return [self._part(sub) for sub in normalize_to_list_of_substitutions(value)]
+        return [part for sub in normalize_to_list_of_substitutions(value) for part in self._pieces(sub)]
+
+    def _pieces(self, sub: Any) -> Iterable[Any]:
+        """One piece, or those of a text in which something is not known."""
+        if type(sub) is not TextSubstitution or not is_unknown(sub.text):
+            yield self._part(sub)
+            return
+        for text in re.split(f"({BEGIN}[^{END}]*{END}?)", sub.text):
+            if text.startswith(BEGIN):
+                name = text.strip(BEGIN + END)
+                yield {"s": "unknown", "w": [[name]], "n": "", "p": sub.preflight_place}
+            elif text:
+                yield text
 
     def _part(self, sub: Any) -> Any:
         if type(sub) is TextSubstitution:
             return sub.text
         own = overrides(sub, "perform") or (isinstance(sub, FindPackage) and overrides(sub, "find"))
         if isinstance(sub, Worded) and not own:
-            words = [[self._part(each) for each in word] for word in sub.words]
+            words = [[part for each in word for part in self._pieces(each)] for word in sub.words]
             return {"s": sub.command, "w": words, "n": type(sub).__name__, "p": sub.preflight_place}
         return _own(sub)
 

@@ -6,6 +6,7 @@ import collections.abc
 import importlib
 from typing import Any, List, Optional
 
+from ..anything import Anything
 from .base import (
     LaunchContext,
     Substitution,
@@ -114,7 +115,7 @@ def get_typed_value(value: Any, data_type: Any, *, can_be_str: bool = False) -> 
 
 
 def is_substitution(x: Any) -> bool:
-    if isinstance(x, Substitution):
+    if isinstance(x, (Substitution, Anything)):
         return True
     if not isinstance(x, collections.abc.Iterable) or not len(x):  # type: ignore[arg-type]
         return False

@@ -1,0 +1,153 @@
+"""What lies in a folder that is not known, and a variable of the environment that is not set: unknown as well.
+
+A path with a mark in it (`anything`) is there, whoever asks; what is read of it is a text that is not known. Parsers
+that get such a text give a stand-in.
+"""
+
+from __future__ import annotations
+
+import builtins
+import functools
+import importlib.abc
+import importlib.util
+import io
+import os
+import pathlib
+import sys
+from typing import Any, Callable
+
+from ..anything import BEGIN, Anything, is_unknown, unknown_text
+from ..missing_modules import provided_for
+from .base import OURS, RECORDER
+
+_PARSERS = {
+    "json": ("load", "loads"),
+    "yaml": ("load", "safe_load", "full_load", "unsafe_load", "load_all", "safe_load_all"),
+    "xacro": ("process_file", "parse", "process_doc"),
+    "xml.dom.minidom": ("parse", "parseString"),
+    "xml.etree.ElementTree": ("parse", "fromstring"),
+    "subprocess": ("check_output", "run", "check_call", "call"),
+}
+"""Functions whose value is unknown where something of what they are given is."""
+_MAPPINGS = ("_collections_abc", "collections.abc", "os")
+"""Which ask for a variable to tell whether it is there."""
+
+
+def install() -> None:
+    """From now on what is unknown is there."""
+    open_file = io.open
+
+    def opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
+        if not _is_of_unknown(file):
+            return open_file(file, mode, *args, **kwargs)
+        text = _Text(str(file)) if "b" not in mode else io.BytesIO(str(file).encode())
+        text.name = str(file)
+        return text
+
+    for module in (builtins, io):
+        module.open = opened  # type: ignore[attr-defined]
+    for name in ("exists", "lexists", "isfile", "isdir"):
+        setattr(os.path, name, _true(getattr(os.path, name)))
+    for name in ("exists", "is_file", "is_dir"):
+        setattr(pathlib.Path, name, _true(getattr(pathlib.Path, name)))
+    os.listdir = _empty(os.listdir)
+    builtins.input = _asked
+    type(os.environ).__getitem__ = _variable(type(os.environ).__getitem__)  # type: ignore[method-assign]
+    for name, functions in _PARSERS.items():
+        if name in sys.modules:
+            _guard(sys.modules[name], functions)
+    sys.meta_path.insert(0, _Guards())
+
+
+class _Text(io.StringIO):
+    name = ""
+
+
+class _Guards(importlib.abc.MetaPathFinder):
+    """Guards the parsers of a module once it is imported."""
+
+    def __init__(self) -> None:
+        self._open: set[str] = set()
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        if fullname not in _PARSERS or fullname in self._open:
+            return None
+        self._open.add(fullname)
+        spec = importlib.util.find_spec(fullname)
+        self._open.discard(fullname)
+        if spec is not None and spec.loader is not None:
+            execute = spec.loader.exec_module
+
+            def exec_module(module: Any) -> None:
+                execute(module)
+                _guard(module, _PARSERS[fullname])
+
+            spec.loader.exec_module = exec_module  # type: ignore[method-assign]
+        return spec
+
+
+def _guard(module: Any, names: Any) -> None:
+    for name in names:
+        function = getattr(module, name, None)
+        if callable(function):
+            setattr(module, name, _guarded(function, f"{module.__name__}.{name}()"))
+
+
+def _guarded(function: Any, name: str) -> Any:
+    @functools.wraps(function)
+    def called(*args: Any, **kwargs: Any) -> Any:
+        if any(map(_is_of_unknown, args)) or any(map(_is_of_unknown, kwargs.values())):
+            return Anything(name)
+        return function(*args, **kwargs)
+
+    return called
+
+
+def _is_of_unknown(value: Any) -> bool:
+    """Whether it is a path, a text, a file or a command line in which something is unknown."""
+    if isinstance(value, (str, Anything)):
+        return isinstance(value, Anything) or BEGIN in value
+    if isinstance(value, bytes):
+        return BEGIN.encode() in value
+    if isinstance(value, (list, tuple)):
+        return any(map(_is_of_unknown, value))
+    if isinstance(value, os.PathLike):
+        return is_unknown(os.fspath(value))
+    return is_unknown(getattr(value, "name", None))
+
+
+def _true(function: Callable[..., bool]) -> Any:
+    return _instead(function, lambda: True)
+
+
+def _empty(function: Any) -> Any:
+    return _instead(function, list)
+
+
+def _instead(function: Any, value: Callable[[], Any]) -> Any:
+    @functools.wraps(function)
+    def called(*args: Any, **kwargs: Any) -> Any:
+        return value() if args and _is_of_unknown(args[0]) else function(*args, **kwargs)
+
+    return called
+
+
+def _asked(prompt: Any = "") -> str:
+    """Nobody answers."""
+    RECORDER.unknown = True
+    return unknown_text("input()")
+
+
+def _variable(getitem: Any) -> Any:
+    def called(self: Any, key: Any) -> Any:
+        try:
+            return getitem(self, key)
+        except KeyError:
+            frame: Any = sys._getframe(1)
+            asks = frame.f_globals.get("__name__") in _MAPPINGS or frame.f_code.co_filename.startswith(OURS)
+            if asks or not isinstance(key, str) or provided_for(frame, ("KeyError", "LookupError")):
+                raise
+        RECORDER.miss("variable", key)
+        return unknown_text(f"the variable {key}")
+
+    return called

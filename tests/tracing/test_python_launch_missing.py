@@ -1,0 +1,204 @@
+"""Python launch files that use what is not installed here: they are run to the end, and what depends on it is
+unknown."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.evaluation.problems import PackageNotFound, PythonException, PythonImportFailed, UnsetVariable
+from preflight_analysis.evaluation.ros2 import unknown_text
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.tracing.agents import anything
+from support.python_launch_harness import PythonHarness
+
+pytestmark = pytest.mark.ros
+
+HEAD = """\
+import os
+from launch import LaunchDescription
+from launch.actions import *
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import *
+from launch_ros.actions import *
+from launch_ros.descriptions import ParameterValue
+from ament_index_python.packages import get_package_share_directory
+"""
+
+
+@pytest.fixture
+def harness(tmp_path: Path) -> PythonHarness:
+    return PythonHarness(tmp_path)
+
+
+def tree_of(harness: PythonHarness, text: str, **options: object) -> LaunchTree:
+    path = harness.write("launch/a.launch.py", HEAD + text)
+    return harness.launch(path, **options).tree  # type: ignore[arg-type]
+
+
+def names(tree: LaunchTree) -> list[str]:
+    return [node.name for node in tree.nodes]
+
+
+def test_marks_are_those_that_the_runs_make() -> None:
+    assert (unknown_text.BEGIN, unknown_text.END) == (anything.BEGIN, anything.END)
+    assert unknown_text.unknown_text("x") == anything.unknown_text("x")
+
+
+def test_what_depends_on_a_missing_module_is_unknown_and_the_rest_is_known(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+from robot_helpers.launch import Robot, things
+
+robot = Robot("arm").parameters(file="x.yaml")
+
+def generate_launch_description():
+    description = LaunchDescription([
+        Node(package="p", executable="x", name="one", parameters=[robot.all, {"rate": 5, "limit": robot.limit}],
+             remappings=[("scan", robot.scan), ("odom", "/odom")], arguments=["-a", robot.name]),
+        Node(package="p", executable="y", name="two", condition=IfCondition(robot.has_two)),
+        things(robot),
+        *robot.actions,
+        OpaqueFunction(function=lambda context: [Node(package="p", executable="z", name="three")]),
+    ])
+    description.add_action(robot.more())
+    return description
+""",
+    )
+    assert [p.kind for p in tree.problems] == [
+        PythonImportFailed("robot_helpers", "No module named 'robot_helpers'", stood_in_for=True)
+    ]
+    assert names(tree) == ["/one", "/three"], "whether there is a second one is not known"
+    one = tree.nodes[0]
+    assert [(param.name, param.value) for param in one.params] == [("rate", 5)]
+    assert [(remap.source, remap.target) for remap in one.remaps][-1] == ("odom", "/odom")
+    assert not tree.complete
+
+
+def test_a_package_that_is_missing_has_a_folder_that_is_not_known(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+import yaml
+SHARE = get_package_share_directory("missing_bringup")
+with open(os.path.join(SHARE, "config", "robot.yaml")) as file:
+    CONFIG = yaml.safe_load(file)
+with open(os.path.join(get_package_share_directory("missing_description"), "robot.urdf")) as file:
+    URDF = file.read()
+
+def generate_launch_description():
+    if not os.path.exists(SHARE):
+        raise RuntimeError("no folder")
+    return LaunchDescription([
+        DeclareLaunchArgument("params", default_value=os.path.join(SHARE, "params.yaml")),
+        IncludeLaunchDescription(PythonLaunchDescriptionSource([SHARE, "/launch/other.launch.py"])),
+        Node(package="p", executable="x", name="one", parameters=[LaunchConfiguration("params"), {"rate": 5}]),
+        Node(package="p", executable="y", name="two", parameters=[{"robot_description": URDF,
+             "of_config": CONFIG["robot"]["name"], "typed": ParameterValue(URDF, value_type=str)}]),
+    ])
+""",
+    )
+    assert {p.kind for p in tree.problems} == {
+        PackageNotFound("missing_bringup"),
+        PackageNotFound("missing_description"),
+    }
+    assert names(tree) == ["/one", "/two"]
+    assert [(param.name, param.value) for param in tree.nodes[0].params] == [("rate", 5)]
+    assert not tree.nodes[1].params
+
+
+def test_what_a_file_does_without_a_package_it_does(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+from ament_index_python.packages import PackageNotFoundError
+try:
+    get_package_share_directory("missing_bringup")
+    name = "there"
+except PackageNotFoundError:
+    name = "not_there"
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="p", executable="x", name=name)])
+""",
+    )
+    assert names(tree) == ["/not_there"]
+    assert tree.complete
+
+
+def test_a_variable_that_is_not_set_is_unknown(harness: PythonHarness) -> None:
+    text = """
+MODEL = os.environ["ROBOT_MODEL"]
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="p", executable="x", name="one", arguments=["--model", MODEL]),
+        Node(package="p", executable="x", name=os.environ.get("ROBOT_NAME", "two")),
+    ])
+"""
+    tree = tree_of(harness, text)
+    assert [p.kind for p in tree.problems] == [UnsetVariable("ROBOT_MODEL")]
+    assert names(tree) == ["/one", "/two"]
+    tree = tree_of(harness, text, variables={"ROBOT_MODEL": "burger"})
+    assert tree.complete
+    assert tree.nodes[0].args == "--model burger"
+
+
+def test_functions_run_with_what_is_configured_and_not_known(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+def start(context):
+    name = LaunchConfiguration("robot").perform(context)
+    return [
+        SetLaunchConfiguration("file", name + ".yaml"),
+        Node(package="p", executable="x", name="one", namespace=LaunchConfiguration("space").perform(context)),
+        Node(package="p", executable="y", name="two", arguments=[name]),
+    ]
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("robot"),
+        DeclareLaunchArgument("space", default_value="front"),
+        OpaqueFunction(function=start),
+    ])
+""",
+    )
+    assert names(tree) == ["/front/one", "/two"]
+
+
+def test_an_error_after_something_unknown_is_no_finding_but_one_of_an_action_is(harness: PythonHarness) -> None:
+    after = "def generate_launch_description():\n    return LaunchDescription([{}])\n"
+    tree = tree_of(harness, "import robot_helpers\nint(str(robot_helpers.count))\n" + after.format(""))
+    assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
+    assert not tree.complete
+    node = "Node(package='p', node_executable='x')"
+    tree = tree_of(harness, "import robot_helpers\n" + after.format(node))
+    assert [p.kind.error for p in tree.problems if isinstance(p.kind, PythonException)] == ["TypeError"]
+
+
+def test_modules_of_packages_that_are_only_source_are_imported(harness: PythonHarness) -> None:
+    other = harness.folder / "src" / "common"
+    for name, text in {
+        "package.xml": "<package format='3'><name>common</name></package>",
+        "CMakeLists.txt": "project(common)\nament_python_install_package(${PROJECT_NAME})\n",
+        "common/__init__.py": "",
+        "common/launch/__init__.py": "from .helpers import name_of\n",
+        "common/launch/helpers.py": "def name_of(x):\n    return 'of_' + x\n",
+    }.items():
+        path = other / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    tree = tree_of(
+        harness,
+        """
+from common.launch import name_of
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="p", executable="x", name=name_of("x"))])
+""",
+    )
+    assert names(tree) == ["/of_x"]
+    assert tree.complete
