@@ -118,7 +118,7 @@ def test_what_is_not_there_is_told(harness: PythonHarness) -> None:
     assert [f.rule for f in analysis.findings] == ["PKG001"]
     path = _described(harness, "Node(package='p', executable='x', name='n')", before="import no_such_module\n")
     analysis = harness.launch(path)
-    assert [(f.rule, f.severity) for f in analysis.findings if f.rule == "LCH032"] == [("LCH032", "info")]
+    assert [(f.rule, f.severity) for f in analysis.findings if f.rule == "LCH032"] == [("LCH032", "hint")]
     assert [node.name for node in analysis.tree.nodes] == ["/n"], "what does not need it is known"
     assert analysis.tree.complete
 

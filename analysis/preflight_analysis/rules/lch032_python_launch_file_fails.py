@@ -44,10 +44,12 @@ def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:
 
 
 def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros: bool) -> str:
-    """What is missing, and what to do about it; the rest of the file counts as far as its text tells."""
+    """What is missing, what that means for the rest of the file, and what to do about it."""
     said = failed.message
-    message = f"the launch file cannot be run here, so it counts as far as its text tells: {said}"
     module = failed.module.partition(".")[0]
+    message = f"the launch file cannot be run here, so it counts as far as its text tells: {said}"
+    if failed.stood_in_for:
+        message = f"what depends on module '{failed.module}' is unknown: {said}"
     if _LAUNCH.match(module):
         return f"{message}; {module} has it neither in Humble nor in Jazzy, Kilted or Rolling"
     if not said.startswith("No module named"):
