@@ -20,8 +20,8 @@ from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.resolve_commands import resolve_together
+from preflight_analysis.workspace.run_results import RunResults, node_keys, with_results
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -116,35 +116,31 @@ def run_nodes(
 
     Interrupting it stops the runs.
     """
-    analysis = project.analysis
-    nodes = analysis.tree.nodes
-    tracer = Tracer(project.environment, TraceCache(), disk=project.workspace.sources)
+    workspace, analysis = project.workspace, project.analysis
+    tracer = Tracer(project.environment, TraceCache(), disk=workspace.sources)
+    keys = node_keys(analysis.tree)
     requests = {
-        index: request
-        for index, request in enumerate(project.workspace.requests(analysis))
-        if request is not None and only in (None, nodes[index].name)
+        key: request
+        for key, request in zip(keys, workspace.requests(analysis), strict=True)
+        if request is not None and only in (None, key[0])
     }
-    found = {index: hit for index, request in requests.items() if (hit := tracer.lookup(request)) is not None}
-    missing = [index for index in requests if index not in found]
+    found = {key: hit for key, request in requests.items() if (hit := tracer.lookup(request)) is not None}
+    missing = [key for key in requests if key not in found]
     # Trying the sandbox starts processes: not where nothing is left to be run.
     why = _why_not(args.no_run) if missing or not found else None
-    if why is not None:
-        interfaces = [found.get(index) or not_run(node, why) for index, node in enumerate(nodes)]
-        return project.workspace.with_interfaces(analysis, interfaces, None if found else why)
-    cancel = threading.Event()
+    if why is None:
+        cancel = threading.Event()
 
-    def done(index: int, interface: Interface) -> None:
-        found[missing[index]] = interface
-        report(len(found), len(requests))
+        def done(index: int, interface: Interface) -> None:
+            found[missing[index]] = interface
+            report(len(found), len(requests))
 
-    try:
-        trace_all(tracer, [requests[index] for index in missing], workers=args.jobs, on_done=done, cancel=cancel)
-    except KeyboardInterrupt:
-        cancel.set()
-        raise
-    reason = project.workspace.cannot_run(analysis.tree) or "it was not asked for"
-    interfaces = [found.get(index) or not_run(node, reason) for index, node in enumerate(nodes)]
-    return project.workspace.with_interfaces(analysis, interfaces, None)
+        try:
+            trace_all(tracer, [requests[key] for key in missing], workers=args.jobs, on_done=done, cancel=cancel)
+        except KeyboardInterrupt:
+            cancel.set()
+            raise
+    return with_results(workspace, analysis, RunResults(found, why))
 
 
 def _why_not(no_run: bool) -> str | None:

@@ -9,22 +9,20 @@ import asyncio
 import contextlib
 import logging
 import threading
-from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
-from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.interface import PENDING, Interface
+from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import likeness, run_all
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.broken import Broken
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.not_run import not_run
+from preflight_analysis.workspace.run_results import NodeKey, RunResults, node_keys
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.command_runs import CommandRuns
@@ -36,9 +34,6 @@ if TYPE_CHECKING:
     from preflight_server.lsp.session import Session
 
 _log = logging.getLogger(__name__)
-
-NodeKey = tuple[str, int]
-"""A node's full name and, since names may clash, how many of that name come before it."""
 
 SWITCHED_OFF = "running nodes is switched off in the settings (rosPreflight.runNodes)"
 NOT_TRUSTED = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
@@ -83,36 +78,6 @@ class _Batch:
         self.cancelled.set()
         for job in self.jobs.values():
             job.cancel.set()
-
-
-def node_keys(tree: LaunchTree) -> list[NodeKey]:
-    """The keys of the nodes of a tree, in order."""
-    seen: Counter[str] = Counter()
-    keys = []
-    for node in tree.nodes:
-        keys.append((node.name, seen[node.name]))
-        seen[node.name] += 1
-    return keys
-
-
-def with_known(
-    workspace: Workspace,
-    static: Analysis,
-    known: Mapping[NodeKey, Interface],
-    why_not_run: str | None,
-    previous: Analysis | None = None,
-) -> Analysis:
-    """The analysis with what is known of its nodes. While the first runs are under way it says nothing of the graph.
-    `previous` is what was known of the same root before."""
-    keys = node_keys(static.tree)
-    nodes = zip(keys, static.tree.nodes, strict=True)
-    reason = why_not_run or workspace.cannot_run(static.tree) or PENDING
-    interfaces = [known.get(key) or not_run(node, reason) for key, node in nodes]
-    if why_not_run is None and not known and any(r is not None for r in workspace.requests(static)):
-        return static
-    if all(key in known for key in keys):
-        why_not_run = None
-    return workspace.with_interfaces(static, interfaces, why_not_run, previous)
 
 
 def report(
@@ -167,9 +132,10 @@ class Runs:
         """Whether the user trusts the workspace."""
         return self._trusted
 
-    def known(self, root: Root) -> dict[NodeKey, Interface]:
+    def results(self, root: Root) -> RunResults:
         """What is known of the nodes of a root."""
-        return {key: known.interface for key, known in self._known.get(root, {}).items()}
+        interfaces = {key: known.interface for key, known in self._known.get(root, {}).items()}
+        return RunResults(interfaces, self.why_not_run, pending=True)
 
     def set_trusted(self, trusted: bool) -> None:
         """The user's decision; without trust what runs is stopped."""

@@ -27,6 +27,7 @@ from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
+from preflight_analysis.workspace.run_results import RunResults, with_results
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -34,7 +35,7 @@ from preflight_server.lsp.buffers import Buffers
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
-from preflight_server.lsp.runs import Runs, with_known
+from preflight_server.lsp.runs import Runs
 from preflight_server.lsp.settings import Settings
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -488,7 +489,7 @@ class Session:
     async def _round(self, workspace: Workspace, root: Root | None) -> _Round | None:
         wanted = set(self._wanted())
         analyses = {root: analysis for root, analysis in self._analyses.items() if root in wanted}
-        known, why = (self.runs.known(root), self.runs.why_not_run) if root is not None else ({}, None)
+        results = self.runs.results(root) if root is not None else RunResults()
         stale = frozenset(self._dirty) - {root}
         explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)
         kept, before = Kept(self._kept), self._converter
@@ -501,7 +502,7 @@ class Session:
             if root is not None:
                 static = workspace.static(root.path, dict(root.args))
                 preliminary = root not in analyses and len(static.tree.nodes) >= LARGE
-                whole = static if preliminary else with_known(workspace, static, known, why, analyses.get(root))
+                whole = static if preliminary else with_results(workspace, static, results, analyses.get(root))
                 analyses[root] = whole
             merged = self._merge(analyses, stale, explicit, selected, kept, before)
             return replace(merged, preliminary=preliminary)
