@@ -33,6 +33,18 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
     assert "$(find rospy_tutorials)/x" in apply(text, find.fixes[0].edits)["/main.launch"]
 
 
+def test_another_word_is_no_slip() -> None:
+    (finding,) = check("""
+        <launch>
+          <node pkg="hsrb_bringup" type="base" name="n"/>
+                     ^^^^^^^^^^^^ warning[PKG001] no distribution has released it
+        </launch>
+        //- /hero_bringup/package.xml
+        <package/>
+    """)
+    assert finding.fixes == ()
+
+
 def test_a_package_that_its_folder_names_otherwise() -> None:
     text = """
         <launch>

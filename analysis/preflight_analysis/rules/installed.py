@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.nearest import is_slip, nearest
+from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
 from preflight_analysis.rules.rule import Context
 
 _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
@@ -59,7 +59,7 @@ def near_package(context: Context, name: str) -> str | None:
     if distributions_with(name, generation):
         return None
     near = nearest(name, context.environment.packages)
-    if near is not None and is_slip(name, near):
+    if near is not None and is_slip_of_words(name, near):
         return near
     released = nearest_released(name, generation, 1)
     return next((each for each in released if is_slip(name, each) and _differ_in_long_words(name, each)), None)
@@ -119,7 +119,7 @@ def lack_of_module(context: Context, module: str) -> Lack | None:
     if top in packages:
         return None if within and within not in ("msg", "srv", "action") else lack_of_build(context, top)
     near = nearest(top, packages)
-    return None if near is not None and is_slip(top, near) else Lack("module", top)
+    return None if near is not None and is_slip_of_words(top, near) else Lack("module", top)
 
 
 def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:

@@ -59,6 +59,15 @@ def is_slip(name: str, other: str) -> bool:
     return int(OSA.distance(_folded(name), _folded(other))) <= most
 
 
+def is_slip_of_words(name: str, other: str) -> bool:
+    """As `is_slip`, of names that are put together from words: `hsrb_bringup` is no slip of `hero_bringup`, as its word
+    is another one."""
+    words, others = _folded(name).split("_"), _folded(other).split("_")
+    if len(words) != len(others):
+        return is_slip(name, other)
+    return all(is_slip(word, one) for word, one in zip(words, others, strict=True))
+
+
 def did_you_mean(candidate: str | None) -> str:
     """The end of a message that names the candidate; empty without one."""
     return f"; did you mean '{candidate}'?" if candidate else ""
