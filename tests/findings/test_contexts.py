@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import pytest
-from preflight_analysis.findings.contexts import RootFindings, by_file, roots
+from preflight_analysis.findings.contexts import RootFindings, by_file, lacks_once, roots
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.lack import Lack
 from support.locations import location
 
 
@@ -77,3 +78,14 @@ def test_findings_are_in_the_order_of_the_text() -> None:
         "/a", frozenset({"/a"}), (finding("B", "/a", 9), finding("C", "/a", 1), finding("A", "/a", 9))
     )
     assert [rule for rule, _, _ in shown(report)["/a"]] == ["C", "A", "B"]
+
+
+def test_a_lack_shows_once_in_a_file() -> None:
+    nav, robot = Lack("package", "nav"), Lack("variable", "ROBOT")
+
+    def found(start: int, lack: Lack | None) -> Finding:
+        return Finding("ABC001", "n", "hint", "possible", "m", location("/a", start, start + 1), lack=lack)
+
+    given = tuple(found(at, lack) for at, lack in enumerate((nav, None, nav, robot, None, nav)))
+    assert lacks_once(given) == (given[0], given[1], given[3], given[4])
+    assert lacks_once(given[:2]) == given[:2]

@@ -59,7 +59,7 @@ export function activate(context: ExtensionContext): void {
     graph,
     command("restartServer", () => server.restart()),
     command("showOutput", () => log.show()),
-    command("showMenu", showMenu),
+    command("showMenu", () => showMenu(server.missing)),
     command("showNodeTree", () => commands.executeCommand("rosPreflight.nodes.focus")),
     command("showGraph", () => graph.show()),
     command("selectRoot", (uri?: string) => {

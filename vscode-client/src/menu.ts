@@ -1,4 +1,5 @@
 import { commands, type QuickPickItem, QuickPickItemKind, window, workspace } from "vscode";
+import type { ServerStatus } from "./serverStatus";
 
 interface Entry extends QuickPickItem {
   readonly command?: string;
@@ -66,17 +67,29 @@ const TRUST: Entry = {
   command: "workbench.trust.manage",
 };
 
-/** The menu of the status bar. */
-export async function showMenu(): Promise<void> {
+/** Written into a terminal and not entered: whether it is done is the user's decision. */
+const INSTALL = "rosPreflight.install";
+
+/** The menu of the status bar. `missing` is what the server misses on this machine. */
+export async function showMenu(missing: ServerStatus["missing"] | undefined): Promise<void> {
   const known = new Set(await commands.getCommands(true));
   const entries = ENTRIES.flatMap(([label, group]): Entry[] => [
     { label, kind: QuickPickItemKind.Separator },
     ...group.filter(({ command }) => known.has(command ?? "")),
   ]);
+  if (missing !== undefined && missing.lines.length > 0) {
+    entries.push({ label: "Missing on This Machine", kind: QuickPickItemKind.Separator });
+    entries.push(...missing.lines.map((label) => ({ label: `$(info) ${label}`, command: "rosPreflight.doctor" })));
+    entries.push(...missing.commands.map((detail) => ({ label: "$(terminal) Install", detail, command: INSTALL })));
+  }
   const choice = await window.showQuickPick<Entry>(workspace.isTrusted ? entries : [TRUST, ...entries], {
     title: "ROS Preflight",
   });
-  if (choice?.command !== undefined) {
+  if (choice?.command === INSTALL && choice.detail !== undefined) {
+    const terminal = window.createTerminal("ROS Preflight");
+    terminal.show();
+    terminal.sendText(choice.detail, false);
+  } else if (choice?.command !== undefined) {
     await commands.executeCommand(choice.command);
   }
 }

@@ -71,6 +71,11 @@ export class ServerSession {
     private readonly listener: Listener,
   ) {}
 
+  /** What the server misses on this machine, once it has looked. */
+  get missing(): ServerStatus["missing"] | undefined {
+    return this.status?.missing;
+  }
+
   /** Starts the server, stopping one that runs. Never rejects: what goes wrong is shown to the user. */
   restart(): Promise<void> {
     this.policy = new RestartPolicy();

@@ -8,6 +8,8 @@ export interface ServerStatus {
   readonly notRun: NotRun | null;
   /** The files, as URIs, with a syntax error that open files are launched with. */
   readonly broken: readonly string[];
+  /** What this machine does not have of all that open files need: a line for each kind, and how to install it. */
+  readonly missing: { readonly lines: readonly string[]; readonly commands: readonly string[] };
 }
 
 export interface NotRun {
@@ -66,9 +68,15 @@ function running(status: ServerStatus | undefined): Shown {
       return { text: `$(circle-slash) ${NAME}`, tooltip: `Nodes are not run: ${notRun.message}`, severity: "none" };
     default: // A workspace that is not trusted has a badge of its own.
       return status === undefined || status.broken.length === 0
-        ? { text: `$(check) ${NAME}`, tooltip: "Everything is up to date.", severity: "none" }
+        ? { text: `$(check) ${NAME}`, tooltip: upToDate(status?.missing.lines ?? []), severity: "none" }
         : broken(status.broken);
   }
+}
+
+/** What is missing on this machine is no fault of the launch files: the check mark stays. */
+function upToDate(missing: readonly string[]): string {
+  const lines = missing.length > 0 ? ["Missing on this machine:", ...missing] : [];
+  return ["Everything is up to date.", ...lines].join("\n");
 }
 
 function broken(files: readonly string[]): Shown {

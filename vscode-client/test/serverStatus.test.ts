@@ -3,7 +3,7 @@ import { describe, it } from "node:test";
 import { type Life, type NotRun, type ServerStatus, shown, showsTrustBadge } from "../src/serverStatus";
 
 const running: Life = { state: "running" };
-const idle: ServerStatus = { state: "idle", done: 0, total: 0, notRun: null, broken: [] };
+const idle: ServerStatus = { state: "idle", done: 0, total: 0, notRun: null, broken: [], missing: { lines: [], commands: [] } };
 const notRun = (kind: NotRun["kind"]): ServerStatus => ({ ...idle, notRun: { kind, message: "the reason" } });
 
 describe("the status bar", () => {
@@ -35,6 +35,16 @@ describe("the status bar", () => {
       /a\.launch and 1 more$/,
     );
     assert.match(shown(running, { ...notRun("off"), broken: ["file:///a.launch"] }).tooltip, /^Nodes are not run/);
+  });
+
+  it("tells what is missing on this machine, which is no fault", () => {
+    const missing = { lines: ["2 packages: amcl, map_server"], commands: [] };
+    assert.deepEqual(shown(running, { ...idle, missing }), {
+      text: "$(check) ROS Preflight",
+      tooltip: "Everything is up to date.\nMissing on this machine:\n2 packages: amcl, map_server",
+      severity: "none",
+    });
+    assert.equal(shown(running, idle).tooltip, "Everything is up to date.");
   });
 
   it("says that there is no server, and why", () => {

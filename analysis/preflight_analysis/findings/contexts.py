@@ -9,6 +9,7 @@ from operator import attrgetter
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.incremental.kept import Kept
 
 
@@ -54,6 +55,18 @@ def by_file(
         if shown := kept.get(_of_file, path, tuple(of_roots), reaching, speaking):
             made[path] = shown
     return made
+
+
+def lacks_once(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """The findings of a file, of those that show the same lack of this machine only the first."""
+    told: set[Lack] = set()
+    shown = []
+    for finding in findings:
+        if finding.lack is None or finding.lack not in told:
+            shown.append(finding)
+        if finding.lack is not None:
+            told.add(finding.lack)
+    return tuple(shown) if len(shown) < len(findings) else findings
 
 
 def _grouped(findings: Iterable[Finding]) -> dict[str, tuple[Finding, ...]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -24,6 +25,9 @@ _WORDS: Mapping[LackKind, tuple[str, str]] = {
 }
 """One of them and several, in words."""
 
+_PLAIN = re.compile(r"[\w./$-]+( --?[a-z-]+| \w[\w./$-]*| /[\w./$-]*)*", re.ASCII)
+"""A command of words in which a shell sees nothing but variables."""
+
 
 @dataclass(frozen=True, slots=True)
 class Lack:
@@ -33,7 +37,12 @@ class Lack:
     kind: LackKind
     name: str
     remedy: str | None = None
-    """The command that provides it, where one is known."""
+    """The command that provides it, where one is known: plain words only, as it may end in a shell, and names come from
+    files that are not ours."""
+
+    def __post_init__(self) -> None:
+        if self.remedy is not None and not _PLAIN.fullmatch(self.remedy):
+            object.__setattr__(self, "remedy", None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING, TypeVar
 from lsprotocol import types
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
-from preflight_analysis.findings.contexts import RootFindings, by_file, roots
+from preflight_analysis.findings.contexts import RootFindings, by_file, lacks_once, roots
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.lack import Missing, missing
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX
@@ -75,6 +76,7 @@ class _Round:
 
     analyses: Mapping[Root, Analysis]
     findings: Mapping[str, tuple[Finding, ...]]
+    missing: tuple[Missing, ...]
     diagnostics: Mapping[str, list[types.Diagnostic]]
     kept: Kept
     converter: Converter
@@ -108,6 +110,8 @@ class Session:
         self._workspace: Workspace | None = None
         self._analyses: dict[Root, Analysis] = {}
         self._findings: Mapping[str, tuple[Finding, ...]] = {}
+        self.missing: tuple[Missing, ...] = ()
+        """What of all that open files are launched with this machine does not have."""
         self._kept: Kept | None = None
         self._converter: Converter | None = None
         self._focus: list[str] = []
@@ -538,10 +542,12 @@ class Session:
         newest_last = sorted(counting, key=lambda root: root not in stale)
         documents = {path: document for root in newest_last for path, document in counting[root].documents.items()}
         converter = Converter(self._server.texts, documents, related=self._shows_related, before=before)
-        diagnostics = {path: converter.diagnostics(path, found) for path, found in findings.items()}
+        shown = {path: kept.get(lacks_once, path, found) for path, found in findings.items()}
+        diagnostics = {path: converter.diagnostics(path, found) for path, found in shown.items()}
+        lacks = missing((f.lack, f.location) for found in findings.values() for f in found if f.lack is not None)
         converter.end()
         kept.end()
-        return _Round(analyses, findings, diagnostics, kept, converter)
+        return _Round(analyses, shown, lacks, diagnostics, kept, converter)
 
     def _report(self, root: Root, analysis: Analysis, stale: bool) -> RootFindings:
         """The findings of one root. Those of an earlier text say nothing of files that changed since."""
@@ -558,7 +564,7 @@ class Session:
         wanted = set(self._wanted())
         self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
         self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
-        self._findings = round_.findings
+        self._findings, self.missing = round_.findings, round_.missing
         self._kept, self._converter = round_.kept, round_.converter
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}

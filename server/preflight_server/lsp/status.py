@@ -3,14 +3,18 @@
 A client that sets `"status": true` in the initialisation options gets two notifications of our own:
 
 - `rosPreflight/status`, `{"state": "idle" | "indexing" | "tracing", "done", "total", "notRun": null | {"kind": "off" |
-  "untrusted" | "cancelled" | "sandbox", "message"}, "broken": [URI]}`, whenever one of it changes. `broken` are the
-  files with a syntax error that open files are launched with: what the error touches is not run;
+  "untrusted" | "cancelled" | "sandbox", "message"}, "broken": [URI], "missing": {"lines": [text], "commands":
+  [text]}}`, whenever one of it changes. `broken` are the files with a syntax error that open files are launched with:
+  what the error touches is not run. `missing` is what this machine does not have of all that they need, a line for
+  each kind of thing, and the commands that install it;
 - `rosPreflight/analysed`, `{}`, when there is something newer to be shown: a tree, a graph.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
+
+from preflight_analysis.findings.lack import commands, in_words
 
 from preflight_server.lsp.text_store import to_uri
 
@@ -52,6 +56,7 @@ class Status:
         stopped = ({"kind": each.not_run_since, "message": each.why_not_run} for each in runs if each.not_run_since)
         not_run = next(stopped, None)
         now = {"state": state, "done": done, "total": total, "notRun": not_run, "broken": self._broken()}
+        now["missing"] = self._missing()
         if now != self._sent:
             self._sent = now
             self._server.protocol.notify(STATUS, now)
@@ -60,6 +65,10 @@ class Status:
         analyses = (analysis for session in self._server.sessions for analysis in session.roots())
         documents = (document for analysis in analyses for document in analysis.documents.values())
         return sorted({to_uri(document.path) for document in documents if document.problems})
+
+    def _missing(self) -> dict[str, list[str]]:
+        found = [each for session in self._server.sessions for each in session.missing]
+        return {"lines": list(in_words(found)), "commands": list(commands(found))}
 
     def _analysed(self) -> None:
         if self.wanted:

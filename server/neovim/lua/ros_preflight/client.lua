@@ -105,7 +105,12 @@ function M.broken(status)
   return #names > 0 and table.concat(names, ', ') or nil
 end
 
--- What a client's server told of itself last: `state`, `done`, `total`, `notRun`, `broken`.
+-- What this machine does not have of all that open files need, a line for each kind of thing.
+function M.missing(status)
+  return status.missing and status.missing.lines or {}
+end
+
+-- What a client's server told of itself last: `state`, `done`, `total`, `notRun`, `broken`, `missing`.
 function M.status(client)
   return client and status_of[client.id] or nil
 end

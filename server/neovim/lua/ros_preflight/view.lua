@@ -123,6 +123,9 @@ local function header(view)
   elseif client.broken(status) then
     say(('Syntax error in %s: what it touches is not run'):format(client.broken(status)), 'Warning')
   end
+  for _, line in ipairs(client.missing(status)) do
+    say('Missing on this machine: ' .. line, 'Quiet')
+  end
   return rows
 end
 
