@@ -22,6 +22,7 @@ from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.instances import together, with_others
 from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain, numbered_problems
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
@@ -164,14 +165,16 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
         contexts.setdefault(chain, {}).setdefault(finding.message, finding)
     ranks = {chain: max(SEVERITIES.index(f.severity) for f in said.values()) for chain, said in contexts.items()}
     lead = max(ranks, key=ranks.__getitem__)
-    first, *more = contexts.pop(lead).values()
-    reported = {first.message, *(finding.message for finding in more)}
+    said_first = contexts.pop(lead)
+    first, *more = together(said_first.values())
+    reported = set(said_first)
     others: list[Related] = []
     for chain, said in contexts.items():
         where = chain[0] if chain else place
         others += [Related(f"in another context: {message}", where) for message in said if message not in reported]
         reported.update(said)
-    yield replace(first, related=(*first.related, *others[:_MOST_CONTEXTS]))
+    elsewhere = [message for said in contexts.values() for message in said]
+    yield replace(with_others(first, elsewhere), related=(*first.related, *others[:_MOST_CONTEXTS]))
     yield from more
 
 

@@ -1,0 +1,52 @@
+"""One finding for what is said of several nodes at one place."""
+
+from __future__ import annotations
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import EndpointRef, Finding, Severity
+from preflight_analysis.rules.instances import regardless_of_node
+from preflight_analysis.rules.registry import unique
+from support.check import findings_of
+
+PLACE = Location.of_file("/a.launch")
+
+
+def said(message: str, severity: Severity = "warning", node: str = "/n") -> Finding:
+    end = EndpointRef("topic", "/t", node)
+    return Finding("ABC001", "n", severity, "certain", message, PLACE, endpoints=(end,))
+
+
+def test_the_same_of_several_nodes_is_said_once_with_their_number() -> None:
+    one, two, three = (said(f"/robot{n}/base ignores '/robot{n}/speed'", node=f"/robot{n}/base") for n in (1, 2, 3))
+    (found,) = unique([one, two, three])
+    assert found.message == "/robot1/base and 2 more ignores '/robot1/speed'"
+    assert [each.message for each in found.related] == [f"also: {two.message}", f"also: {three.message}"]
+    assert [end.node for end in found.endpoints] == ["/robot1/base", "/robot2/base", "/robot3/base"]
+
+
+def test_something_else_of_another_node_stays_a_finding() -> None:
+    given = [said("/robot1/base ignores 'speed'"), said("/robot2/base ignores 'sped'")]
+    assert unique(given) == given
+    given = [said("/robot1/base ignores 'speed'"), said("/robot2/base ignores 'speed'", "hint")]
+    assert unique(given) == given
+
+
+def test_files_are_no_nodes() -> None:
+    assert regardless_of_node("file '/a/b.yaml' does not exist") == "file '/a/b.yaml' does not exist"
+    assert regardless_of_node("see /a/b.yaml") == "see /a/b.yaml"
+
+
+def test_a_file_that_is_included_for_each_robot() -> None:
+    findings = findings_of("""
+        <launch>
+          <group ns="robot1"><include file="/robot.launch"/></group>
+          <group ns="robot2"><include file="/robot.launch"/></group>
+        </launch>
+        //- /robot.launch
+        <launch><node pkg="p" type="t" name="base"/></launch>
+        //- interfaces
+        {"/robot1/base": {"status": "crashed", "exit_code": 1}, "/robot2/base": {"status": "crashed", "exit_code": 1}}
+    """)
+    (crashed,) = [each for each in findings if each.rule == "TRC001"]
+    assert crashed.message == "/robot1/base and 1 more crashed when it was run: exit code 1"
+    assert crashed.related[-1].message == "in another context: /robot2/base crashed when it was run: exit code 1"
