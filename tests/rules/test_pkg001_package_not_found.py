@@ -33,16 +33,30 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
     assert "$(find rospy_tutorials)/x" in apply(text, find.fixes[0].edits)["/main.launch"]
 
 
-def test_another_word_is_no_slip() -> None:
+def test_a_name_from_before_a_rename() -> None:
     (finding,) = check("""
         <launch>
+          <include file="$(find create_tools)/launch/joy.launch"/>
+                         ^^^^^^^^^^^^^^^^^^^^ warning[PKG001] names it; did you mean 'ca_tools'?
+        </launch>
+        //- /ca_tools/package.xml
+        <package/>
+    """)
+    assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' by 'ca_tools'", False)]
+
+
+def test_who_uses_several_packages_that_nobody_knows_has_them_elsewhere() -> None:
+    findings = check("""
+        <launch>
           <node pkg="hsrb_bringup" type="base" name="n"/>
-                     ^^^^^^^^^^^^ warning[PKG001] no distribution has released it
+                     ^^^^^^^^^^^^ hint[PKG001] no distribution has released it
+          <node pkg="tmc_suction" type="base" name="m"/>
+                     ^^^^^^^^^^^ hint[PKG001] no distribution has released it
         </launch>
         //- /hero_bringup/package.xml
         <package/>
     """)
-    assert finding.fixes == ()
+    assert [finding.lack and finding.lack.name for finding in findings] == ["hsrb_bringup", "tmc_suction"]
 
 
 def test_a_package_that_its_folder_names_otherwise() -> None:
@@ -117,18 +131,18 @@ def test_a_slip_in_a_released_name_is_an_error_with_a_fix(launch: Path) -> None:
 
 def test_a_short_word_is_near_to_too_much(launch: Path) -> None:
     (finding,) = of_packages(launch, "arm_description")
-    assert (finding.severity, finding.fixes) == ("warning", ())
+    assert (finding.severity, finding.fixes) == ("info", ())
 
 
 def test_a_name_of_the_other_generation_is_none_of_this_one(launch: Path) -> None:
     (finding,) = of_packages(launch, "nav2_amcl", python="/usr/bin/python3")
-    assert (finding.severity, finding.lack) == ("warning", None)
+    assert (finding.severity, finding.lack) == ("info", None)
 
 
 @pytest.mark.parametrize("python", [None, "/usr/bin/python3"])
 def test_a_name_that_nobody_knows(launch: Path, python: str | None) -> None:
     (finding,) = of_packages(launch, "fancy_unheard_of", python=python)
-    assert (finding.severity, finding.confidence, finding.lack) == ("warning", "likely", None)
+    assert (finding.severity, finding.confidence, finding.lack) == ("info", "likely", None)
     assert "no distribution has released it, and no package.xml of the workspace names it" in finding.message
 
 
@@ -152,7 +166,7 @@ def test_processes_and_components_are_of_no_missing_package(tmp_path: Path) -> N
     )
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     findings = [f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001"]
-    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("warning", "package 'nowhere_known'")]
+    assert [(f.severity, f.message.partition(" is ")[0]) for f in findings] == [("info", "package 'nowhere_known'")]
 
 
 @pytest.mark.silent

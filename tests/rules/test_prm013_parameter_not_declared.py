@@ -47,8 +47,7 @@ def test_parameters_that_are_written_once_for_several_nodes() -> None:
           ros__parameters:
             speed: 1.0
             limt: 2.0
-            ^^^^ warning[PRM013] /left declares no parameter 'limt'
-            ^^^^ warning[PRM013] /right declares no parameter 'limt'
+            ^^^^ warning[PRM013] /left and 1 more declares no parameter 'limt'
         //- /some.yaml
         /**:
           ros__parameters:

@@ -122,7 +122,7 @@ def test_a_crash_for_want_of_a_private_value_that_is_reported_itself_is_a_conseq
     check("""
         <launch>
           <param name="~model" value="$(find nowhere)/m"/>
-                                      ^^^^^^^^^^^^^^^ warning[PKG001] package 'nowhere' is neither
+                                      ^^^^^^^^^^^^^^^ info[PKG001] package 'nowhere' is neither
           <node pkg="p" type="t" name="n"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/n/model', which has no value
         </launch>
@@ -135,7 +135,7 @@ def test_a_crash_for_another_reason_stays_a_warning_where_a_value_is_missing() -
     check("""
         <launch>
           <param name="robot_description" value="$(find nowhere)/m"/>
-                                                 ^^^^^^^^^^^^^^^ warning[PKG001] package 'nowhere' is neither
+                                                 ^^^^^^^^^^^^^^^ info[PKG001] package 'nowhere' is neither
           <param name="model" value="x"/>
           <node pkg="p" type="t" name="n"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] exit code 1

@@ -9,7 +9,8 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.problems import PackageNotFound
-from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.installed import debian_package_of, lack_of_package, near_package
 from preflight_analysis.rules.nearest import did_you_mean
@@ -24,13 +25,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, PackageNotFound):
         name, chain = problem.kind.name, include_chain(problem.origin)
         yield _finding(rule, context, name, meant(name), problem.location, chain, stops=problem.fatal)
+    for node in _nodes_without_package(context):
+        location, chain = attribute_location(context, node, "pkg"), include_chain(node.origin)
+        yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
+
+
+def _nodes_without_package(context: Context) -> Iterator[LaunchNode]:
     packages = context.environment.packages
     for node in context.tree.nodes:
         # A plain process is of no package, and a component has no executable in its one.
         there = node.resolved.package_path is not None or node.package in packages
         if node.package and not there and not node.unknowns and not was_removed(context, node):
-            location, chain = attribute_location(context, node, "pkg"), include_chain(node.origin)
-            yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
+            yield node
 
 
 def _meant(context: Context, name: str) -> tuple[Package | None, str | None]:
@@ -70,6 +76,8 @@ def _not_here(
     having = distributions_with(name, context.tree.generation)
     confidence: Confidence = "certain" if having else "likely"
     lack: Lack | None = lack_of_package(context, name)
+    severity: Severity | None = None
+    fixes: tuple[Fix, ...] = ()
     text = f"package '{name}' is neither installed here nor in the workspace"
     if having:
         package = debian_package_of(context, name)
@@ -79,16 +87,43 @@ def _not_here(
         text += ", and no distribution has released it"
     else:
         text += f"; no distribution has released it, and no {MANIFEST} of the workspace names it"
-        lack = None
+        # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
+        if context.once(_strangers) == {name}:
+            near = _of_like_words(context, name)
+            text += did_you_mean(near)
+            fixes = rename(context, location, name, near, preferred=False) if near is not None else ()
+            lack, severity = None, "info" if near is None else "warning"
     return rule.finding(
         text,
         location,
-        severity="warning",
+        severity=severity,
         confidence=confidence,
         related=related,
+        fixes=fixes,
         stops_launch=stops,
         lack=lack,
     )
+
+
+def _strangers(context: Context) -> frozenset[str]:
+    """The packages of the launch that nobody knows: not here, not released, named by no manifest."""
+    generation, named = context.tree.generation, context.once(_named_by_manifests)
+    names = {problem.kind.name for problem in problems_of(context, PackageNotFound)}
+    names.update(node.package for node in _nodes_without_package(context))
+    return frozenset(name for name in names if name not in named and not distributions_with(name, generation))
+
+
+def _of_like_words(context: Context, name: str) -> str | None:
+    """The one package of the workspace whose name differs in one word, or has some more: as before a rename."""
+    words = name.split("_")
+    here = []
+    for package in context.environment.packages.values():
+        others = package.name.split("_")
+        differing = sum(a != b for a, b in zip(words, others, strict=False))
+        one_word = len(words) == len(others) > 1 and differing == 1
+        if one_word or set(words) < set(others):
+            here.append(package.name)
+    return here[0] if len(here) == 1 else None
 
 
 def _named_by_manifests(context: Context) -> frozenset[str]:
@@ -112,7 +147,8 @@ RULE = Rule(
     "workspace, and names the nearest one, here or among those that ROS's distributions have released, or the one "
     "whose folder has that name and whose `package.xml` another. One that is released, or that a `package.xml` names, "
     "may just not be installed on this machine: that is a hint only, with the Debian package. One that nobody knows "
-    "and that nothing is near to is a warning.",
+    "is an information where the launch has no other such package, and a warning where the workspace has one of a like "
+    "name.",
     why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
     "command `ros-preflight doctor` shows where packages are looked for.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',
