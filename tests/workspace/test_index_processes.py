@@ -123,7 +123,7 @@ def test_what_is_typed_in_an_editor_counts(starts: Starts) -> None:
         "print('{}'); print('[]'); print('null'); print(1)",
         "import os; os.write(1, b'x' * 100_000)",
         "import os; os.close(0); os.close(1)",
-        'print(\'{"files": [[0, [0]]], "roots": [[]], "paths": [1], "observations": [[]]}\')',
+        'print(\'{"files": ["[[0, [0]]]"], "roots": ["[["], "paths": [""], "observations": []}\')',
     ],
 )
 def test_a_process_that_fails_costs_time_alone(

@@ -7,7 +7,8 @@ not times. What is not right, or not understood, is left out.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar, get_args
 
 from preflight_analysis.documents.disk import text_of
@@ -20,9 +21,10 @@ from preflight_analysis.workspace.workspace import Workspace
 
 T = TypeVar("T")
 _KINDS: tuple[Kind, ...] = get_args(Kind)
-_NOT_UNDERSTOOD = (KeyError, IndexError, TypeError, ValueError, AttributeError)
+_NOT_UNDERSTOOD = (KeyError, IndexError, TypeError, ValueError, AttributeError, RecursionError)
 _STEP = 32
-"""Entries that are read in one revision: an edit waits for so many at most."""
+"""Entries that are read in one revision: an edit waits for so many at most. They are one text, as all threads stand
+still while JSON is read or written."""
 
 
 def data_of_index(sources: Sources, index: WorkspaceIndex) -> dict[str, Any]:
@@ -72,8 +74,8 @@ class _Writer:
         files = [e for e in index.files.values() if self._is_right(e.observations, {e.path: e.version})]
         entries = [e for e in index.entries.values() if self._is_right(e.observations, e.inputs)]
         return {
-            "files": [self._facts(each, written.get(each.path, ())) for each in files],
-            "roots": [kept for each in entries if (kept := self._root(each)) is not None],
+            "files": _texts_of_steps([self._facts(each, written.get(each.path, ())) for each in files]),
+            "roots": _texts_of_steps([kept for each in entries if (kept := self._root(each)) is not None]),
             "paths": self._paths.all(),
             "observations": self._observations.all(),
         }
@@ -129,8 +131,8 @@ class _Reader:
 
     def __init__(self, workspace: Workspace, data: Mapping[str, Any]) -> None:
         self._sources = workspace.sources
-        self._files: Sequence[Sequence[Any]] = data["files"]
-        self._roots: Sequence[Sequence[Any]] = data["roots"]
+        self._files = _texts(data["files"])
+        self._roots = _texts(data["roots"])
         self._paths = _texts(data["paths"])
         self._observations = [
             Observation(_text(what), _text(name), _text(answer)) for what, name, answer in data["observations"]
@@ -146,16 +148,16 @@ class _Reader:
         facts: dict[str, FileFacts] = {}
         written: list[Inclusion] = []
         entries: dict[Root, RootEntry] = {}
-        for some in _steps(self._files):
+        for text in self._files:
             if cancelled():
                 break
-            for found, includes in self._in_one_revision(some, 1, self._file):
+            for found, includes in self._in_one_revision(json.loads(text), 1, self._file):
                 facts[found.path] = found
                 written += includes
-        for some in _steps(self._roots):
+        for text in self._roots:
             if cancelled():
                 break
-            entries.update((entry.root, entry) for entry in self._in_one_revision(some, 2, self._root))
+            entries.update((entry.root, entry) for entry in self._in_one_revision(json.loads(text), 2, self._root))
         return WorkspaceIndex(facts, entries, tuple(written))
 
     def _in_one_revision(
@@ -256,6 +258,5 @@ def _text_or_none(value: object) -> str | None:
     return None if value is None else _text(value)
 
 
-def _steps(entries: Sequence[T]) -> Iterator[Sequence[T]]:
-    for start in range(0, len(entries), _STEP):
-        yield entries[start : start + _STEP]
+def _texts_of_steps(entries: Sequence[object]) -> list[str]:
+    return [json.dumps(entries[start : start + _STEP]) for start in range(0, len(entries), _STEP)]

@@ -20,7 +20,7 @@ from preflight_analysis.workspace.index_processes import parts_by_processes
 from preflight_analysis.workspace.indexing import Report, build_index, launch_files
 from preflight_analysis.workspace.workspace import Workspace
 
-SCHEMA = "ros-preflight/index/1"
+SCHEMA = "ros-preflight/index/2"
 MAX_BYTES = 256 << 20
 MAX_ENTRY_BYTES = 64 << 20
 """Of one workspace. One of 1,000 launch files has some 4 MB."""

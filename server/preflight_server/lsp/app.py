@@ -27,6 +27,9 @@ from preflight_server.lsp.status import Status
 from preflight_server.lsp.text_store import TextStore, to_path
 
 _log = logging.getLogger(__name__)
+_SWITCH = 0.001
+"""Seconds after which a thread lets go of the interpreter where another wants it: each answer takes several turns, of
+which it waits for so long while something is analysed."""
 
 
 class PreflightServer(LanguageServer):
@@ -126,6 +129,7 @@ def serve() -> int:
     # a keystroke would go into looking for garbage that is not there. All threads stand still meanwhile, so the two
     # generations that are looked at often are small: a tenth of a second for both, and not one for the second.
     gc.set_threshold(25_000, 4, 2_000)
+    sys.setswitchinterval(_SWITCH)
     logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s")
     # At INFO pygls logs whole documents.
     logging.getLogger("pygls").setLevel(logging.ERROR)
