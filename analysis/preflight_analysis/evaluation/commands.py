@@ -100,13 +100,15 @@ EDITION = Input(_edition, durable=False)
 
 
 @query
-def _result(db: Database, commands: Commands, line: str) -> CommandResult | None:
+def result_of(db: Database, commands: Commands, line: str) -> CommandResult | None:
+    """The result of a command line, as `Commands.result`."""
     EDITION(db, commands)
     return commands.result(line)
 
 
 @query
-def _last_good(db: Database, commands: Commands, series: str) -> str | None:
+def last_good_of(db: Database, commands: Commands, series: str) -> str | None:
+    """The line of the last run of a series that went well."""
     EDITION(db, commands)
     return commands.last_good(series)
 
@@ -126,11 +128,11 @@ class QueriedCommands:
 
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line."""
-        return _result(self._db, self._commands, line)
+        return result_of(self._db, self._commands, line)
 
     def last_good(self, series: str) -> str | None:
         """The line of the last run that went well."""
-        return _last_good(self._db, self._commands, series)
+        return last_good_of(self._db, self._commands, series)
 
     def snapshot(self) -> Commands:
         """The results as they are now."""

@@ -53,6 +53,7 @@ def build_index(
     """
     known = previous if previous is not None and changed is not None else WorkspaceIndex()
     stale = frozenset(changed or ())
+    workspace.look_at_results()
     if paths is None:
         paths = launch_files(folder, workspace) if folder is not None else []
     maker = _Maker(workspace, known, stale, report, len(paths))
@@ -197,7 +198,7 @@ class _Maker:
                 self.left_out += 1
             else:
                 notes = Notes(self._workspace.sources)
-                entry = notes.of(lambda: entry_of(self._workspace.tree(root.path, dict(root.args), notes), root))
+                entry = notes.of(lambda: entry_of(self._workspace.tree(root.path, dict(root.args)), root))
                 entry = replace(entry, observations=notes.observations)
                 self._included += len(entry.inclusions)
         self.entries[root] = entry

@@ -3,13 +3,14 @@ made from it is right, in another process too."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
 from preflight_analysis.documents.disk import REAL_PATH, STATUS, data_of, mode_of, names_in, text_of
 from preflight_analysis.documents.reading import Text, Unreadable, digest
 from preflight_analysis.environment.secrets import is_secret
-from preflight_analysis.evaluation.commands import CommandResult, Commands
+from preflight_analysis.environment.variables import variable_of
+from preflight_analysis.evaluation.commands import CommandResult, Commands, last_good_of, result_of
 from preflight_analysis.workspace.sources import Sources
 
 T = TypeVar("T")
@@ -59,8 +60,10 @@ class Notes:
             self._noted.clear()
             with self._sources.db.observing() as read:
                 result = work()
-                for kind, key, value in read((*_OF_FILES, STATUS)):
-                    self._note_file(kind, str(key[0]), value)
+                kinds = (*_OF_FILES, *_OF_OTHERS, STATUS)
+                self._noted.update(
+                    (self._observation(kind, str(key[-1]), value), None) for kind, key, value in read(kinds)
+                )
             return result
 
         return self._sources.in_one_revision(observed, lambda _: self.files, likely=())
@@ -75,23 +78,11 @@ class Notes:
         """What was noted."""
         return tuple(self._noted)
 
-    def variables(self, variables: Mapping[str, str]) -> Mapping[str, str]:
-        """The same variables; those that are looked at are noted."""
-        return _Variables(variables, lambda name: self._note(_variable(variables, name)))
-
-    def commands(self, commands: Commands) -> Commands:
-        """The same results; those that are asked for are noted."""
-        return _Commands(commands, self._note)
-
-    def _note(self, observation: Observation) -> None:
-        self._noted[observation] = None
-
-    def _note_file(self, kind: object, path: str, value: object) -> None:
+    def _observation(self, kind: object, name: str, value: Any) -> Observation:
         if kind in _OF_FILES:
-            what, name = _OF_FILES[kind]
-            self._note(Observation(what, path, name(value)))
-        else:
-            self._note(_data(self._sources, path))
+            what, of = _OF_FILES[kind]
+            return Observation(what, name, of(value))
+        return _OF_OTHERS[kind](name, value) if kind in _OF_OTHERS else _data(self._sources, name)
 
 
 class World:
@@ -119,7 +110,7 @@ class World:
             case "data":
                 return _data(self._sources, name)
             case "variable":
-                return _variable(self._variables, name)
+                return _variable(name, self._variables.get(name))
             case "command":
                 return _result(name, self._commands.result(name))
             case "last-good":
@@ -133,8 +124,7 @@ def _data(sources: Sources, path: str) -> Observation:
     return Observation("data", path, f"{data.kind}: {data.reason}" if isinstance(data, Unreadable) else digest(data))
 
 
-def _variable(variables: Mapping[str, str], name: str) -> Observation:
-    value = variables.get(name)
+def _variable(name: str, value: str | None) -> Observation:
     if value is not None and is_secret(name, value):
         return Observation("variable", name, None)
     return Observation("variable", name, "" if value is None else digest(value))
@@ -148,63 +138,8 @@ def _last_good(series: str, line: str | None) -> Observation:
     return Observation("last-good", series, "" if line is None else digest(line))
 
 
-class _Variables(dict[str, str]):
-    """Variables of which it is noted which were asked for or set: what they were at first matters for both. Copies
-    note it too; whoever goes through all of them without a question sees none."""
-
-    def __init__(self, variables: Mapping[str, str], note: Callable[[str], None]) -> None:
-        super().__init__(variables)
-        self._note = note
-
-    def __copy__(self) -> _Variables:
-        return _Variables(self, self._note)
-
-    def __contains__(self, name: object) -> bool:
-        self._note(str(name))
-        return super().__contains__(name)
-
-    def __getitem__(self, name: str) -> str:
-        self._note(name)
-        return super().__getitem__(name)
-
-    def __setitem__(self, name: str, value: str) -> None:
-        self._note(name)
-        super().__setitem__(name, value)
-
-    def get(self, name: str, *default: Any) -> Any:
-        self._note(name)
-        return super().get(name, *default)
-
-    def pop(self, name: str, *default: Any) -> Any:
-        self._note(name)
-        return super().pop(name, *default)
-
-    def update(self, values: Mapping[str, str]) -> None:  # type: ignore[override]
-        for name, value in values.items():
-            self[name] = value
-
-
-class _Commands:
-    """Results of which it is noted which were asked for."""
-
-    def __init__(self, commands: Commands, note: Callable[[Observation], None]) -> None:
-        self.placeholder = commands.placeholder
-        self._commands = commands
-        self._note = note
-
-    @property
-    def edition(self) -> Hashable:
-        return self._commands.edition
-
-    def result(self, line: str) -> CommandResult | None:
-        found = self._commands.result(line)
-        self._note(_result(line, found))
-        return found
-
-    def last_good(self, series: str) -> str | None:
-        found = self._commands.last_good(series)
-        self._note(_last_good(series, found))
-        return found
-
-    def snapshot(self) -> Commands:
-        return self._commands.snapshot()
+_OF_OTHERS: Mapping[Any, Callable[[str, Any], Observation]] = {
+    variable_of: _variable,
+    result_of: _result,
+    last_good_of: _last_good,
+}

@@ -15,6 +15,7 @@ from preflight_analysis.documents.span import Place
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.launch import evaluate_launch
@@ -43,7 +44,6 @@ from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.observations import Notes
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
     from_settings,
@@ -127,7 +127,7 @@ class Workspace:
     @property
     def executables(self) -> ExecutableIndex:
         """Those that most launch files of the environment's generation see."""
-        return ExecutableIndex(self._common, self.sources)
+        return _executables(self.sources.db, self, self._common)
 
     @property
     def _common(self) -> Environment:
@@ -165,19 +165,22 @@ class Workspace:
         known = _static.last(db, self, path, given)
         looked_at = known.tree.inputs if known is not None else (path,)
         self.sources.look((*looked_at, *self._settings_files))
+        self.look_at_results()
+        return _static(db, self, path, given)
+
+    def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
+        """What `path` launched with `args` would start; not remembered. The results of commands are those of the last
+        `look_at_results`."""
+        within = _surroundings(self.sources.db, self, self.environment_of(path))
+        executables, environment, commands = within.executables, within.environment, within.commands
+        return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands)
+
+    def look_at_results(self) -> None:
+        """Notice results of commands that came."""
+        db = self.sources.db
         if db.is_outdated(EDITION, self.commands):
             with db.writing() as write:
                 write.reload(EDITION, self.commands)
-        return _static(db, self, path, given)
-
-    def tree(self, path: str, args: Mapping[str, str], notes: Notes | None = None) -> LaunchTree:
-        """What `path` launched with `args` would start; not remembered. `notes` are taken of what it is made from."""
-        environment, commands = self.environment_of(path), self.commands
-        executables = ExecutableIndex(environment, self.sources)
-        if notes is not None:
-            environment = replace(environment, variables=notes.variables(environment.variables))
-            commands = notes.commands(commands)
-        return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands)
 
     def refresh(self) -> bool:
         """Look at all of the disk that something depends on; whether anything has changed."""
@@ -322,7 +325,7 @@ class Workspace:
 
 @query
 def _of_generation(db: Database, environment: Environment, generation: int) -> Environment:
-    return of_generation(environment, generation)
+    return with_queried_variables(db, of_generation(environment, generation))
 
 
 @query
@@ -331,8 +334,13 @@ def _meaning(db: Database, environment: Environment, packages: tuple[Package, ..
 
 
 @query
+def _executables(db: Database, workspace: Workspace, environment: Environment) -> ExecutableIndex:
+    return ExecutableIndex(environment, workspace.sources)
+
+
+@query
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
-    executables, commands = ExecutableIndex(environment, workspace.sources), QueriedCommands(db, workspace.commands)
+    executables, commands = _executables(db, workspace, environment), QueriedCommands(db, workspace.commands)
     return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands)
 
 
@@ -347,7 +355,7 @@ def _static(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str
         tree = taken_over(tree, known.tree)
     documents, launch_files = workspace.texts_of(tree)
     kept = Kept(known.context.kept if known is not None else None)
-    index = ExecutableIndex(environment, workspace.sources)
+    index = _executables(db, workspace, environment)
     context = Context(path, tree, documents, launch_files, environment, index, workspace.sources, kept=kept)
     return Analysis(path, args, tree, documents, launch_files, environment, context, workspace.settings.severities)
 
