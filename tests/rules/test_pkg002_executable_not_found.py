@@ -91,3 +91,17 @@ def test_an_executable_of_another_package_of_the_launch(launch: Path) -> None:
         assert (finding.rule, finding.severity) == ("PKG002", "error")
         assert finding.message.endswith(hint)
         assert [edit.text for fix in finding.fixes for edit in fix.edits] == sorted(dependencies)
+
+
+def test_an_installed_package_without_its_executables_is_a_lack(tmp_path: Path) -> None:
+    share = tmp_path / "usr" / "share" / "tf"
+    share.mkdir(parents=True)
+    (share / "package.xml").write_text("<package/>")
+    launch = tmp_path / "ws" / "a.launch"
+    launch.parent.mkdir()
+    launch.write_text('<launch><node pkg="tf" type="tf_echo" name="n"/></launch>')
+    packages = {"tf": Package("tf", str(share), str(share / "package.xml"))}
+    for prefixes, severity in (((str(tmp_path / "usr"),), "hint"), ((), "error")):
+        environment = Environment(1, "noetic", {}, (str(tmp_path),), packages, {}, (), prefixes, None)
+        (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
+        assert (finding.rule, finding.severity, finding.lack is not None) == ("PKG002", severity, severity == "hint")

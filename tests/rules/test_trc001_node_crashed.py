@@ -192,3 +192,37 @@ def test_an_early_end_with_an_error() -> None:
         //- interfaces
         {"/failed": {"status": "exited", "exit_code": 3}}
     """)
+
+
+def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
+    text = """
+        <launch>
+          <include file="$(find {package})/launch/model.launch"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- /p/launch/model.launch
+        <launch/>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "params": {{"/robot_description": {{"access": "has"}}}},
+                  "stderr": ["RuntimeError: robot_description is required and not set"]}}}}
+    """
+    (found,) = [f for f in findings_of(text.format(package="panda_moveit_config")) if f.rule == "TRC001"]
+    assert (found.severity, found.confidence) == ("info", "possible")
+    assert "'/robot_description', which a part of the launch that is not known here may set" in found.message
+    (found,) = [f for f in findings_of(text.format(package="p")) if f.rule == "TRC001"]
+    assert "may set" not in found.message
+
+
+def test_a_message_that_is_not_here_is_a_lack() -> None:
+    (finding,) = [
+        f
+        for f in findings_of("""
+            <launch><node pkg="p" type="t" name="n"/></launch>
+            //- interfaces
+            {"/n": {"status": "crashed", "exit_code": 1, "stderr":
+                    ["If this is a valid message type, perhaps you need to type 'rosmake ackermann_msgs'"]}}
+        """)
+        if f.rule == "TRC001"
+    ]
+    assert finding.lack is not None
+    assert (finding.severity, finding.lack.kind, finding.lack.name) == ("hint", "package", "ackermann_msgs")

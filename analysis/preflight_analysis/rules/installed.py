@@ -23,6 +23,7 @@ _OF_MACHINE = re.compile(r"/(?:etc|home|media|mnt|opt|root|usr|var|Users)/")
 """Where a machine has its own files."""
 _NO_MODULE = re.compile(r"(?:ModuleNotFoundError|ImportError)?:? ?No module named '?([\w.]+)'?")
 _NO_PACKAGE = re.compile(
+    r"type 'rosmake ([\w-]+)'|"
     r"ResourceNotFound: ([\w-]+)|resource not found: ([\w-]+)|[Pp]ackage (?:not found: )?['\"]([\w-]+)['\"]"
     r" not found|[Pp]ackage not found: ['\"]?([\w-]+)"
 )

@@ -8,7 +8,7 @@ from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.installed import lack_of_build
+from preflight_analysis.rules.installed import lack_of_build, lack_of_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
@@ -41,6 +41,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         names = executables.names(node.package)
         if context.tree.ros.ament and not names:
             continue  # neither installed, nor with build files that say what it will have
+        if not names and not _is_of_workspace(context, node.package):
+            # Debian has the programs of a package apart from the rest of it.
+            yield rule.finding(
+                f"package '{node.package}' is installed in {found.package_path} without its executables",
+                location,
+                confidence="likely",
+                related=chain,
+                lack=lack_of_package(context, node.package),
+            )
+            continue
         holder = _other_package(context, executables, node)
         programs = [name for name in names if not name.endswith(_NO_PROGRAMS)]
         near = nearest(node.executable, programs) or nearest(node.executable, programs, key=_stem)
@@ -58,6 +68,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=chain,
             fixes=fixes,
         )
+
+
+def _is_of_workspace(context: Context, package: str) -> bool:
+    known = context.environment.packages.get(package)
+    return known is None or _is_own(context, known)
 
 
 def _other_package(context: Context, executables: ExecutableNames, node: LaunchNode) -> str | None:

@@ -1,5 +1,6 @@
 """TRC001: a node crashed when it was run."""
 
+import re
 from collections.abc import Iterator
 from itertools import compress
 
@@ -22,7 +23,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, interface in compress(zip(context.tree.nodes, processes, strict=True), failures):
         outcome, lost = interface.outcome, context.once(_LostParams)
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
-        lacking = next(filter(None, (lost.why(r) for r in context.graph.param_reads if r.node is node)), None)
+        reads = [read for read in context.graph.param_reads if read.node is node]
+        lacking = next(filter(None, map(lost.why, reads)), None)
+        lacking = lacking or next((why for read in reads if (why := lost.why_perhaps(read, outcome))), None)
         # Of a parameter that is missing another rule says more, as a warning.
         reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
@@ -57,6 +60,7 @@ class _LostParams:
         self._commands = {p.name for p in tree.params.values() if isinstance(p.value, CommandValue)}
         self._commands |= {c.param for c in tree.commands if c.result is None}
         self._set = tree.params.keys() - self._commands
+        self._complete = tree.complete
 
     def why(self, read: ParamRead) -> str | None:
         """`'/x', which has no value: ...` of one that is lost, None of any other."""
@@ -73,6 +77,15 @@ class _LostParams:
             if below or found:
                 return f"'{read.name}', which has no value: {reason}"
         return None
+
+    def why_perhaps(self, read: ParamRead, outcome: Outcome) -> str | None:
+        """The same of one that nobody sets and of which the node complained at its end, where not all of the launch is
+        known: an include of a package that is not here may set it."""
+        if self._complete or read.name in self._set or read.use.has_default:
+            return None
+        leaf = re.compile(rf"(?<!\w){re.escape(names.leaf(read.name))}(?!\w)")
+        said = any(leaf.search(line) for line in (outcome.reason or "", *outcome.stderr_tail))
+        return f"'{read.name}', which a part of the launch that is not known here may set" if said else None
 
 
 def _is_reported(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
