@@ -249,7 +249,8 @@ def _compared(
 
     def rate(seeker: Hashable, candidate: Hashable) -> Hit | None:
         """How well a channel fits an end."""
-        return min(_hits(consumers[seeker], candidate, channels), key=lambda hit: hit.rank, default=None)
+        hits = [*_hits(consumers[seeker], candidate, channels)]
+        return min(hits, key=lambda hit: hit.rank) if hits else None
 
     found_now = search(before, {seeker.key: seeker.pools for seeker in seekers}, pools, rate)
     best = found_now.best
@@ -448,20 +449,26 @@ def _partner(near: NearMiss, connection: Connection) -> Connection:
 def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, Evidence, int]]:
     """Which of the providers of the channel the consumer may have been meant for, how they are alike and how far they
     are apart."""
-    dangles = _dangles(channel)
-    if any(connection.node is consumer.node for connection in channel.consumers):
-        return  # it knows that name
-    alike: list[tuple[Literal["typo", "words"], int] | None] = []
+    # Most pairs have names that are not alike, and channels may have hundreds of ends: names are compared first.
+    dangles, mine = _dangles(channel), _known_type(consumer)
+    below = mine is not None and dangles and consumer.name.endswith(names.leaf(channel.name))
+    alike = likeness(consumer.name, channel.name)
+    if alike is None and not below:
+        return
+    for connection in channel.consumers:
+        if connection.node is consumer.node:
+            return  # it knows that name
+    says_enough = alike is not None and (alike[0] == "typo" or _says_enough(consumer.name, channel.name, mine or ""))
     for number, provider in enumerate(channel.providers):
         if provider.endpoint.builtin or provider.node is consumer.node:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
             continue
-        mine, theirs = _known_type(consumer), _known_type(provider)
+        theirs = _known_type(provider)
         known = mine is not None and theirs is not None
         if (known and mine != theirs) or not (known or dangles):
             continue
-        if known and dangles and consumer.name.endswith(names.leaf(channel.name)):
-            short, long = sorted((consumer, provider), key=lambda connection: len(connection.name))
+        if known and below:
+            short, long = (consumer, provider) if len(consumer.name) <= len(provider.name) else (provider, consumer)
             how_far = len(long.name) - len(short.name)
             if _is_slash(short, long):
                 yield number, "slash", how_far
@@ -469,14 +476,8 @@ def _candidates(consumer: Connection, channel: Channel) -> Iterator[tuple[int, E
             if _extra_level(short.name, long.name) is not None:
                 yield number, "level", how_far
                 continue
-        if not alike:
-            alike.append(likeness(consumer.name, channel.name))  # the same for all ends of the channel
-        if alike[0] is None:
-            continue
-        how, distance = alike[0]
-        if how == "words" and not (known and dangles and _says_enough(consumer.name, channel.name, mine or "")):
-            continue
-        yield number, how, distance
+        if alike is not None and says_enough and (alike[0] == "typo" or (known and dangles)):
+            yield number, *alike
 
 
 def _extra_level(short: str, long: str) -> str | None:
