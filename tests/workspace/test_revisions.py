@@ -90,6 +90,10 @@ def test_an_edit_meanwhile_begins_it_again(tmp_path: Path) -> None:
                 pass
         return found, read(sources, Path(second))
 
-    found = sources.in_one_revision(work, lambda _: [first, second], likely=())
+    pauses: list[bool] = []
+    found = sources.in_one_revision(
+        work, lambda _: [first, second], likely=(), pause=lambda: pauses.append(sources.db.is_reading)
+    )
     begun[0].join(PATIENCE)
+    assert pauses and not any(pauses), "who edits does not wait for it"
     assert found in (("two", "one"), ("two", "two"))

@@ -7,6 +7,7 @@ import os
 import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.installed_paths import installed_at, package_around
@@ -45,7 +46,8 @@ def build_index(
     report: Report = lambda done, total, path: None,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> WorkspaceIndex | None:
-    """The index of the launch files below `folder`; None when `cancelled()`.
+    """The index of the launch files below `folder`; None when `cancelled()`, which may wait: it is asked before each
+    piece of work, and before one begins again since a text changed meanwhile.
 
     `named` are the roots that the settings name, `paths` those launch files, where they are known. With `previous`,
     only what depends on the files in `changed` is looked at again (None: everything). Runs in a thread of its own for
@@ -56,7 +58,7 @@ def build_index(
     workspace.look_at_results()
     if paths is None:
         paths = launch_files(folder, workspace) if folder is not None else []
-    maker = _Maker(workspace, known, stale, report, len(paths))
+    maker = _Maker(workspace, known, stale, report, len(paths), cancelled)
     for path in paths:
         if cancelled():
             return None
@@ -156,11 +158,13 @@ class _Maker:
         stale: frozenset[str],
         report: Report,
         total: int,
+        pause: Callable[[], object] = lambda: None,
     ) -> None:
         self._workspace = workspace
         self._known = known
         self._stale = stale
         self._report = report
+        self._pause = pause
         self._total = total
         self._written_before: dict[str, list[Inclusion]] = {}
         for inclusion in known.written:
@@ -181,7 +185,7 @@ class _Maker:
             self.written += self._written_before.get(path, ())
             return
         notes = Notes(self._workspace.sources)
-        found = notes.of(lambda: self._workspace.sources.launch_file(path))
+        found = notes.of(lambda: self._workspace.sources.launch_file(path), self._pause)
         if isinstance(found, Unreadable) or found.root is None:
             return
         self.files[path] = replace(facts_of(found), observations=notes.observations)
@@ -198,7 +202,8 @@ class _Maker:
                 self.left_out += 1
             else:
                 notes = Notes(self._workspace.sources)
-                entry = notes.of(lambda: entry_of(self._workspace.tree(root.path, dict(root.args)), root))
+                launch = partial(self._workspace.tree, root.path, dict(root.args))
+                entry = notes.of(lambda: entry_of(launch(), root), self._pause)
                 entry = replace(entry, observations=notes.observations)
                 self._included += len(entry.inclusions)
         self.entries[root] = entry

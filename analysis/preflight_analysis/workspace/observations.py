@@ -53,8 +53,9 @@ class Notes:
         self._sources = sources
         self._noted: dict[Observation, None] = {}
 
-    def of(self, work: Callable[[], T]) -> T:
-        """What `work` gives, in one revision of the files, which are noted. It may be called several times."""
+    def of(self, work: Callable[[], T], pause: Callable[[], object] = lambda: None) -> T:
+        """What `work` gives, in one revision of the files, which are noted. It may be called several times, where texts
+        change meanwhile, after a `pause`."""
 
         def observed() -> T:
             self._noted.clear()
@@ -66,7 +67,7 @@ class Notes:
                 )
             return result
 
-        return self._sources.in_one_revision(observed, lambda _: self.files, likely=())
+        return self._sources.in_one_revision(observed, lambda _: self.files, likely=(), pause=pause)
 
     @property
     def files(self) -> list[str]:

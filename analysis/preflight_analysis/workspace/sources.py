@@ -71,15 +71,23 @@ class Sources(Files):
         """The launch file at `path`, read as that generation of ROS reads it; None: as the file looks."""
         return launch_file_of(self.db, self._looked_at(os.path.normpath(path)), generation)
 
-    def in_one_revision(self, work: Callable[[], T], files: Callable[[T], Iterable[str]], likely: Iterable[str]) -> T:
+    def in_one_revision(
+        self,
+        work: Callable[[], T],
+        files: Callable[[T], Iterable[str]],
+        likely: Iterable[str],
+        pause: Callable[[], object] = lambda: None,
+    ) -> T:
         """What `work` gives while no text changes, with the files that it read, `files(result)`, as they are on the
-        disk now. It begins again where one changes meanwhile; `likely` are those that it probably reads."""
+        disk now. It begins again where one changes meanwhile, after a `pause`; `likely` are those that it probably
+        reads."""
         self.look(likely)
         for _ in range(_TRIES):
             while True:
                 with suppress(Cancelled), self.db.reading():
                     result = work()
                     break
+                pause()
             if not self.look(files(result)):
                 break
         return result

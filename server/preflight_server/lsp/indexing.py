@@ -105,12 +105,18 @@ class Indexing:
                     loop.call_soon_threadsafe(progress.report, done, total, os.path.basename(path))
 
         def work() -> WorkspaceIndex | None:
-            folder, named, cancelled = self._session.folder, self.named, self._gives_way
+            folder, named = self._session.folder, self.named
             if folder is None or changed is not None:
                 return build_index(
-                    workspace, folder, named, previous=self.index, changed=changed, report=report, cancelled=cancelled
+                    workspace,
+                    folder,
+                    named,
+                    previous=self.index,
+                    changed=changed,
+                    report=report,
+                    cancelled=self._gives_way_to_edits,
                 )
-            return build_from_kept(self._store, workspace, folder, named, report=report, cancelled=cancelled)
+            return build_from_kept(self._store, workspace, folder, named, report=report, cancelled=self._gives_way)
 
         index = None
         try:
@@ -126,6 +132,14 @@ class Indexing:
         """Wait while something is analysed that the user looks at. Whether to stop altogether."""
         self._session.calm.wait(_AT_MOST)
         return self._cancel.is_set()
+
+    def _gives_way_to_edits(self) -> bool:
+        """As `_gives_way`, and wait until the user pauses: what an edit interrupts begins again, and takes its turns at
+        the interpreter while the edit is analysed."""
+        until = time.monotonic() + _AT_MOST
+        while (pause := min(until - time.monotonic(), self._session.quiet_for)) > 0 and not self._cancel.wait(pause):
+            pass
+        return self._gives_way()
 
     async def _read_settings(self) -> None:
         if (folder := self._session.folder) is None:

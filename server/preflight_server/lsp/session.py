@@ -10,6 +10,7 @@ import asyncio
 import contextlib
 import logging
 import threading
+import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -130,7 +131,7 @@ class Session:
         """Whether files changed on the disk."""
         self._remerge = False
         self._quiet_at = 0.0
-        """When the user will have stopped typing, in the time of the event loop."""
+        """When the user will have stopped typing, by `time.monotonic`."""
         self._detecting: asyncio.Task[None] | None = None
         self._closed = False
         self._edited: str | None = None
@@ -315,8 +316,13 @@ class Session:
 
     async def quiet(self) -> None:
         """Wait until the user has not typed for a moment."""
-        while (pause := self._quiet_at - asyncio.get_running_loop().time()) > 0:  # noqa: ASYNC110
+        while (pause := self.quiet_for) > 0:  # noqa: ASYNC110
             await asyncio.sleep(pause)
+
+    @property
+    def quiet_for(self) -> float:
+        """In how many seconds the user will have paused, if no further edit comes; in any thread."""
+        return self._quiet_at - time.monotonic()
 
     def roots(self) -> list[Analysis]:
         """The analyses of the roots that reach open files, those that files are shown in first."""
@@ -413,7 +419,7 @@ class Session:
                 self._dirty[root] = self._edits
         self._touched = None if touched is None or self._touched is None else self._touched | touched
         self._remerge = True
-        self._quiet_at = asyncio.get_running_loop().time() + quiet
+        self._quiet_at = time.monotonic() + quiet
         self.runs.hold(quiet)
         if touched is not None:
             self.indexing.changed(touched)
@@ -443,7 +449,7 @@ class Session:
                     root = next((r for r in self._wanted() if self._is_due(r)), None)
                     if root is None and has_looked:
                         break
-                    if (pause := self._quiet_at - asyncio.get_running_loop().time()) > 0:
+                    if (pause := self.quiet_for) > 0:
                         with contextlib.suppress(asyncio.TimeoutError):
                             await asyncio.wait_for(self._news.wait(), pause)
                         continue
