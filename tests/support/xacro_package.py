@@ -1,4 +1,4 @@
-"""A package path with the real xacro of ROS 1, and a robot that is described with it in several files."""
+"""A package path with a real xacro, and a robot that is described with it in several files."""
 
 from __future__ import annotations
 
@@ -11,9 +11,12 @@ from pathlib import Path
 XACRO = """#!/usr/bin/env python3
 import os, sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
-import xacro, yaml
-yaml.load = lambda file: yaml.SafeLoader(file).get_data()  # this xacro is older than PyYAML 6
+import xacro
 xacro.main()
+"""
+PACKAGES = """import rospkg
+def get_package_share_directory(name):
+    return rospkg.RosPack().get_path(name)
 """
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="side" default="left"/>
@@ -36,11 +39,15 @@ LAUNCH = """<launch>
 def create_robot(folder: Path) -> Path:
     """Make `folder` a catkin workspace with packages `xacro` and `arm`, all of yesterday. Its launch file."""
     (spec,) = [importlib.util.find_spec("xacro")]
-    assert spec is not None, "xacro is missing: pip install --group dev"
+    assert spec is not None, "xacro is missing: pip install --editable ."
     assert spec.origin is not None
     xacro, arm = folder / "xacro", folder / "arm"
     shutil.copytree(Path(spec.origin).parent, xacro / "lib/xacro", ignore=shutil.ignore_patterns("__pycache__"))
     (xacro / "xacro").write_text(XACRO)
+    # The xacro of today asks ROS 2's index of packages.
+    (xacro / "lib/ament_index_python").mkdir()
+    (xacro / "lib/ament_index_python/__init__.py").touch()
+    (xacro / "lib/ament_index_python/packages.py").write_text(PACKAGES)
     (xacro / "xacro").chmod(0o755)
     (arm / "urdf").mkdir(parents=True)
     (arm / "urdf/sizes.yaml").write_text("thumb: 0.25\n")

@@ -104,7 +104,7 @@ def test_failures_are_told_with_the_last_lines(harness: Harness) -> None:
 
 
 def test_a_missing_program_is_found_without_a_run(harness: Harness) -> None:
-    for line in ("xacro robot.xacro", "./make", "/nowhere/xacro", str(harness.file("plain", ""))):
+    for line in ("xacro.py robot.xacro", "./make", "/nowhere/xacro", str(harness.file("plain", ""))):
         assert harness.run(line).status == "missing", line
     assert harness.starts == 0
 

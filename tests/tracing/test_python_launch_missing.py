@@ -202,3 +202,47 @@ def generate_launch_description():
     )
     assert names(tree) == ["/of_x"]
     assert tree.complete
+
+
+ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="side" default="left"/>
+  <xacro:include filename="$(find {})/urdf/parts.xacro"/>
+  <link name="$(arg side)"/>
+</robot>
+"""
+
+
+def test_xacro_is_there_without_ros(harness: PythonHarness) -> None:
+    harness.write("urdf/parts.xacro", '<robot><link name="wheel"/></robot>')
+    harness.write("urdf/robot.xacro", ROBOT.format("p"))
+    harness.write("urdf/broken.xacro", ROBOT.format("missing_parts"))
+    tree = tree_of(
+        harness,
+        """
+import xacro
+URDF = os.path.join(get_package_share_directory("p"), "urdf")
+
+def start(context):
+    text = Command(["xacro ", URDF + "/robot.xacro", " side:=", "right"]).perform(context)
+    return [Node(package="p", executable="x", name="three", parameters=[{"robot_description": text}])]
+
+def generate_launch_description():
+    one = xacro.process_file(URDF + "/robot.xacro", mappings={"side": "front"}).toxml()
+    two = ParameterValue(Command([FindExecutable(name="xacro"), " ", URDF + "/robot.xacro"]), value_type=str)
+    four = ParameterValue(Command(["xacro ", URDF + "/broken.xacro"]), value_type=str)
+    return LaunchDescription([
+        Node(package="p", executable="x", name="one", parameters=[{"robot_description": one}]),
+        Node(package="p", executable="x", name="two", parameters=[{"robot_description": two}]),
+        OpaqueFunction(function=start),
+        Node(package="p", executable="x", name="four", parameters=[{"robot_description": four, "rate": 5}]),
+        Node(package="p", executable="x", name="five", parameters=[
+            {"robot_description": xacro.process_file(URDF + "/broken.xacro").toxml()}]),
+    ])
+""",
+    )
+    values = {node.name: str([param.value for param in node.params]) for node in tree.nodes}
+    for name, side in {"/one": "front", "/two": "left", "/three": "right"}.items():
+        assert '"wheel"' in values[name]
+        assert f'"{side}"' in values[name]
+    assert (values["/four"], values["/five"]) == ("[5]", "[]")
+    assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]

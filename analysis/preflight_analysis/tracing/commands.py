@@ -26,11 +26,12 @@ from typing import Any
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.own_programs import OWN_PROGRAMS
 from preflight_analysis.environment.view import of_generation
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
-from preflight_analysis.tracing import compiled, launch_files, ros1_recipe, ros2_recipe, run, sandbox
+from preflight_analysis.tracing import compiled, launch_files, own_xacro, ros1_recipe, ros2_recipe, run, sandbox
 from preflight_analysis.tracing import expressions as evaluated
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
@@ -196,6 +197,8 @@ class CommandRunner:
         program = os.path.join(self.cwd, words[0]) if "/" in words[0] else words[0]
         path = _VARIABLES[self.environment.generation](self.environment, ())["PATH"]
         executable = shutil.which(program, path=path)
+        if executable is None and words[0] in OWN_PROGRAMS:
+            return self._asked(own_xacro.make(self.environment, words[1:], self.cwd), *_files_of(words[1:], self.cwd))
         if executable is None:
             return CommandResult("missing", reason=f"there is no program {words[0]}")
         python = self.environment.interpreter(self.environment.generation)
@@ -255,6 +258,9 @@ class CommandRunner:
                     f"{done.result.reason} in the sandbox by {status.backend}, which refuses more than bubblewrap would"
                 )
                 return CommandResult("not-run", reason=why, stderr_tail=done.result.stderr_tail)
+            missing = own_xacro.missing_package(done.result.stderr_tail)
+            if missing is not None:
+                return CommandResult("not-run", reason=f"package '{missing}' is not installed here")
             return _sandbox_to_blame(done.result, job, done.ended) or done.result
         return self._kept(line, job, done)
 

@@ -16,6 +16,8 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+import xacro  # type: ignore[import-untyped]
+
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS
 from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
@@ -44,6 +46,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
         "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
         "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
+        "own_xacro": os.path.dirname(xacro.__file__),
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()
     words = [data[start : start + _WORD] for start in range(0, len(data), _WORD)]

@@ -12,6 +12,7 @@ from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.environment.own_programs import OWN_PROGRAMS
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.problems import (
@@ -169,6 +170,8 @@ class Performer:
     def _executable(self, part: Substitution) -> str:
         name = self._word(part, 0)
         found = shutil.which(name, path=self.context.environment.get("PATH", ""))
+        if found is None and name in OWN_PROGRAMS:
+            return name
         if found is None:
             self.state.note_unknown(part.text, f"'{name}' is not on the PATH", self._at(part))
             raise _Failure

@@ -31,6 +31,8 @@ class Recorder:
         self.packages: dict[str, str] = {}
         self.positions: dict[Any, list[tuple[Any, ...]]] = {}
         self.missed: dict[tuple[str, str], Any] = {}
+        self.own_xacro = ""
+        """The folder of the module that is used where ROS has none."""
         self.unknown = False
         """Whether something that the file is given is not known."""
 

@@ -37,7 +37,7 @@ def main() -> None:
     job = json.loads(zlib.decompress(base64.b64decode("".join(sys.argv[1:]))))
     output = os.dup(1)
     os.dup2(2, 1)
-    RECORDER.file, RECORDER.packages = job["file"], job["packages"]
+    RECORDER.file, RECORDER.packages, RECORDER.own_xacro = job["file"], job["packages"], job["own_xacro"]
     for name, value in job.get("given", {}).items():
         os.environ.setdefault(name, value)  # what the sandbox sets itself, such as HOME, is so in it
     os.environ.update(job["env"])

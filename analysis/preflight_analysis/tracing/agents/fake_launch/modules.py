@@ -127,11 +127,22 @@ class _PackageFinder(importlib.abc.MetaPathFinder):
             yield found[1].replace('"', "").split()
 
 
+class _OwnXacro(importlib.abc.MetaPathFinder):
+    """The module that the analysis has, where the launch file's Python has none."""
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        if fullname != "xacro":
+            return None
+        folder = RECORDER.own_xacro
+        init = os.path.join(folder, "__init__.py")
+        return importlib.util.spec_from_file_location(fullname, init, submodule_search_locations=[folder])
+
+
 def install() -> None:
     """From now on these modules are ours."""
     sys.meta_path.insert(0, _Finder(TABLE))
     missing = MissingModules(lambda name, file, line: RECORDER.miss("module", name))
-    found: list[Any] = [_PackageFinder(), _Finder(FALLBACK), missing]
+    found: list[Any] = [_PackageFinder(), _Finder(FALLBACK), _OwnXacro(), missing]
     sys.meta_path.extend(found)
     # `import launch; launch.actions.Node`: launch itself imports these.
     for name in ("actions", "conditions", "descriptions", "events", "frontend", "logging", "substitutions"):

@@ -1,0 +1,37 @@
+"""xacro, where ROS has none: the one from PyPI, with `$(find)` by the packages that the host knows."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import sys
+import types
+
+from .variables import SHARES
+
+MISSING = "not installed here: package "
+
+
+class PackageNotFoundError(KeyError):
+    """As that of `ament_index_python`."""
+
+
+def main() -> None:
+    """The program, with its arguments in those of the process."""
+    sys.argv[0] = "xacro"
+    shares = json.loads(os.environ.get(SHARES, "{}"))
+
+    def get_package_share_directory(package_name: str) -> str:
+        if package_name in shares:
+            return str(shares[package_name])
+        sys.exit(MISSING + package_name)
+
+    for name in ("ament_index_python", "ament_index_python.packages"):
+        module = types.ModuleType(name)
+        vars(module).update(
+            get_package_share_directory=get_package_share_directory, PackageNotFoundError=PackageNotFoundError
+        )
+        module.__path__ = []
+        sys.modules[name] = module
+    importlib.import_module("xacro").main()
