@@ -144,7 +144,9 @@ def test_two_nodes_of_one_executable_are_cached_side_by_side(harness: Harness) -
 def test_a_crash_is_cached_until_the_missing_module_turns_up(tmp_path: Path) -> None:
     package = tmp_path / "pkg"
     package.mkdir()
-    script = write_node(package, "import rospy, missing\n")
+    script = write_node(
+        package, "try:\n    import rospy, missing\nexcept ImportError as error:\n    assert not error\n"
+    )
     os.utime(script, (0, 0))
     tracer = Tracer(environment(package), TraceCache(tmp_path / "cache"))
     first = tracer.trace(request(script), threading.Event())

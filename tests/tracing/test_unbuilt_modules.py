@@ -107,28 +107,28 @@ def test_what_is_installed_is_found_before_the_source(tmp_path: Path) -> None:
     assert run(tmp_path, NODE.format("q")).outcome.status == "spinning"
 
 
-def test_messages_that_were_not_generated_are_no_crash(tmp_path: Path) -> None:
+def test_messages_that_were_not_generated_are_made_of_their_definitions(tmp_path: Path) -> None:
     package(tmp_path, "arm_msgs", lists="")
     (tmp_path / "arm_msgs" / "msg").mkdir()
     (tmp_path / "arm_msgs" / "msg" / "Joint.msg").write_text("float64 angle\n")
-    for module in ("arm_msgs.msg", "arm_msgs"):
-        interface = run(tmp_path, f"import rospy\nfrom {module} import Joint\nrospy.init_node('n')\nrospy.spin()\n")
-        assert (interface.source, interface.outcome.status) == ("none", "not-run")
-        reason = "it imports arm_msgs, which is not built yet: package 'arm_msgs' of the workspace makes it"
-        assert interface.outcome.reason == reason
+    node = (
+        "import rospy\nfrom arm_msgs.msg import Joint\nrospy.init_node('n')\nassert Joint().angle == 0\nrospy.spin()\n"
+    )
+    interface = run(tmp_path, node)
+    assert (interface.source, interface.outcome.status, interface.stand_ins) == ("trace", "spinning", ("arm_msgs",))
 
 
-def test_messages_beside_python_modules_that_were_not_generated_are_no_crash(tmp_path: Path) -> None:
+def test_services_beside_python_modules_that_were_not_generated_are_made_of_their_definitions(tmp_path: Path) -> None:
     setup = SETUP.format("packages=['arm'], package_dir={'': 'src'}", "")
     share = package(tmp_path, "arm", setup=setup, files={"src/arm/__init__.py": ""})
     (share / "srv").mkdir()
     (share / "srv" / "Move.srv").write_text("---\n")
-    interface = run(tmp_path, "import rospy\nfrom arm.srv import Move\n")
-    reason = "it imports arm.srv, which is not built yet: package 'arm' of the workspace makes it"
-    assert interface.outcome.reason == reason
+    interface = run(tmp_path, "import rospy\nfrom arm.srv import Move, MoveRequest\nMoveRequest()\n")
+    assert (interface.outcome.status, interface.stand_ins) == ("exited", ("arm",))
 
 
-def test_a_module_that_no_build_makes_is_a_crash(tmp_path: Path) -> None:
+def test_what_a_build_of_the_workspace_does_not_make_is_a_crash(tmp_path: Path) -> None:
     package(tmp_path, "arm", lists="")
-    for module in ("arm", "arm.msg", "nowhere.msg"):
-        assert run(tmp_path, f"import rospy\nimport {module}\n").outcome.status == "crashed"
+    (tmp_path / "arm" / "msg").mkdir()
+    (tmp_path / "arm" / "msg" / "Joint.msg").write_text("float64 angle\n")
+    assert run(tmp_path, "import rospy\nfrom arm.msg import Hand\n").outcome.status == "crashed"

@@ -456,7 +456,7 @@ def _installation_problems(variables: Mapping[str, str], python: _Python | None)
         problems.append(f"ROS 2 {name.capitalize()} is sourced here; launch files of ROS 1 are analysed without it.")
     if python is None:
         problems.append(
-            "rospy was not found, so launch files are checked and no node is run. Install it: on Debian "
+            "rospy was not found, so nodes in Python are run with a stand-in for it. Install it: on Debian "
             "`apt install python3-rospy`, on Ubuntu 20.04 `apt install ros-noetic-ros-base` and "
             "`source /opt/ros/noetic/setup.bash`."
         )

@@ -27,7 +27,7 @@ from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, digest_of, fingerprint, listing
 
-SCHEMA = "ros-preflight/trace-cache/5"
+SCHEMA = "ros-preflight/trace-cache/6"
 MAX_ENTRY_BYTES = 4 << 20
 MOST_OF_ONE_EXECUTABLE = 64
 """How many traces of an executable are looked at for a similar one, the last used."""
@@ -289,4 +289,5 @@ def _decode(data: Mapping[str, Any]) -> Interface:
         frames=tuple(Frame(**frame) for frame in data["frames"]),
         nodes=tuple(MadeNode(**node) for node in data["nodes"]),
         looks=bool(data["looks"]),
+        stand_ins=tuple(map(str, data["stand_ins"])),
     )

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from preflight_analysis.tracing import run
-from preflight_analysis.tracing.agents.compiling import FOLDERS
+from preflight_analysis.tracing.agents.compiling import TOPS
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 
@@ -92,7 +92,13 @@ def _keep(record: object, made: Path) -> bool:
     path: Any = record.get("path")
     folder, _, name = str(path).rpartition("/__pycache__/")
     source = name.partition(".")[0] + ".py"
-    if folder not in FOLDERS or "/" in name or not name.endswith(".pyc") or not (made / folder / source).is_file():
+    if (
+        ".." in folder
+        or not folder.startswith(TOPS)
+        or "/" in name
+        or not name.endswith(".pyc")
+        or not (made / folder / source).is_file()
+    ):
         raise ValueError(f"{str(path)[:100]!r} is none of our modules")
     (made / folder / "__pycache__" / name).write_bytes(base64.b64decode(str(record.get("data")), validate=True))
     return True
@@ -105,9 +111,9 @@ def _within(place: Path) -> Agents:
 def _sources() -> list[tuple[str, Path]]:
     """Our modules, each with the folder of the copy that it goes to."""
     ours, woven = AGENTS.library, AGENTS.aspectlib
-    fake_launch = sorted((ours / "fake_launch").glob("*.py"))
-    paths = (sorted(ours.glob("*.py")), fake_launch, sorted(woven.glob("*.py")), [AGENTS.site / "sitecustomize.py"])
-    return [(name, path) for name, found in zip(FOLDERS, paths, strict=True) for path in found]
+    agents = [(str(Path(TOPS[0], path.parent.relative_to(ours))), path) for path in sorted(ours.rglob("*.py"))]
+    aspectlib = [(TOPS[1], path) for path in sorted(woven.glob("*.py"))]
+    return [*agents, *aspectlib, (TOPS[2], AGENTS.site / "sitecustomize.py")]
 
 
 def _digest(interpreter: str) -> str:

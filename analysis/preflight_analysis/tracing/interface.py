@@ -218,6 +218,8 @@ class Interface:
     looks: bool = False
     """ROS 2: whether it asked which nodes, topics or services there are. There were none, and it may do more, or
     something else, where there are."""
+    stand_ins: tuple[str, ...] = ()
+    """Python modules that it imports and this machine does not have, sorted: others stood in for them."""
     elsewhere: Elsewhere | None = None
     """Where what is `similar` was seen."""
 

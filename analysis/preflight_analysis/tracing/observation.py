@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, cast
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.tracing import stand_ins
 from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, Outcome, ParamUse, Role
 from preflight_analysis.tracing.outcome import NOT_LOADED, outcome_of, seconds_of, stderr_tail
 from preflight_analysis.tracing.recipe import Recipe
@@ -39,6 +40,8 @@ class Dependencies:
     files: tuple[str, ...] = ()
     params: tuple[ParamDependency, ...] = ()
     asked: frozenset[str] = frozenset()
+    searched: tuple[str, ...] = ()
+    """Folders in which a module could turn up that had a stand-in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,15 +114,16 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         asked |= {"name", "remaps"} if recipe.remapped else {"name"}
     interface = Interface(
         "trace",
-        outcome,
+        stand_ins.explained(outcome, found),
         endpoints,
         params,
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),
         nodes=nodes,
         looks=found.looked,
+        stand_ins=tuple(sorted(found.stand_ins)),
     )
-    dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked))
+    dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked), tuple(found.searched))
     lasting = not raw.killed and not raw.cancelled and not _was_held_up(outcome, found.end)
     return Observation(interface, dependencies, lasting, tuple(found.wrote))
 

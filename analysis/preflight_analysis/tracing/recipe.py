@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +18,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.agents.variables import STAND_INS
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -24,7 +26,7 @@ ROS_HOME = "/tmp/ros_home"  # noqa: S108
 LOG_FOLDER = "/tmp/ros_log"  # noqa: S108
 MASTER_URI = "http://127.0.0.1:11311/"
 
-OURS = ("HOME", "ROS_HOME", "ROS_LOG_DIR", "TMPDIR", "PREFLIGHT_EVENTS")
+OURS = ("HOME", "ROS_HOME", "ROS_LOG_DIR", "TMPDIR", "PREFLIGHT_EVENTS", STAND_INS)
 """The variables that name folders and files of the sandbox's own."""
 
 _SEARCH_PATHS = ("PYTHONPATH", "LD_LIBRARY_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH", "GAZEBO_PLUGIN_PATH")
@@ -80,6 +82,16 @@ def inside(stable: Mapping[str, str]) -> dict[str, str]:
     return env
 
 
+def any_python(environment: Environment) -> str:
+    """The interpreter of nodes where their client library is not installed, and has a stand-in: the first `python3` of
+    the PATH that is no script of a version manager, or our own."""
+    for folder in environment.variables.get("PATH", _DEFAULT_PATH).split(os.pathsep):
+        python = os.path.join(folder, "python3")
+        if os.path.isabs(folder) and os.access(python, os.X_OK) and not _shebang(python):
+            return python
+    return sys.executable
+
+
 def visible_paths(environment: Environment) -> list[str]:
     """What nodes of this environment need to see below the masked folders, as far as it may be shown."""
     paths = [*environment.package_path, *environment.devel_spaces, *environment.system_prefixes]
@@ -88,8 +100,8 @@ def visible_paths(environment: Environment) -> list[str]:
     for variable in _SEARCH_PATHS:
         paths += environment.variables.get(variable, "").split(os.pathsep)
     paths += environment.ament_prefixes
-    for python in (environment.python, environment.ros2_python):
-        paths += reach.interpreter_paths(python) if python else ()
+    for python in (environment.python, environment.ros2_python, None):
+        paths += reach.interpreter_paths(python or any_python(environment))
     own = [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
     return sandbox.needs_binding([*_allowed(environment, paths), *own])
 

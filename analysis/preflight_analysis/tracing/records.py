@@ -21,6 +21,7 @@ MAX_FRAMES = 500
 MAX_NODES = 100
 MAX_FILES = 10_000
 MAX_ANSWERS = 20
+MAX_STAND_INS = 200
 MAX_DEPTH = 20
 """Of a default value."""
 _ROLES = ("publisher", "subscriber", "service", "client", "action_server", "action_client")
@@ -30,6 +31,7 @@ NAME = re.compile(r"[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{1,300}\Z")
 _FULL_NAME = re.compile(r"/[\w/]{1,300}\Z", re.ASCII)
 _FILE = re.compile(r"/[^\x00-\x1f\x7f-\x9f\ud800-\udfff]{0,4095}\Z")
 _TYPE = re.compile(r"(\*|[A-Za-z]\w*/((msg|srv|action)/)?[A-Za-z]\w*)\Z")
+_MODULE = re.compile(r"[^\W\d]\w{0,100}\Z")
 _MD5 = re.compile(r"(\*|[0-9a-f]{32})\Z")
 _PARAM_TYPE = re.compile(r"(bool|integer|double|string|byte)( array)?\Z")
 _MOST = 1e308
@@ -89,6 +91,12 @@ class Gathered:
     """Whether it asked which nodes, topics or services there are."""
     declared: dict[tuple[str, str | None], str] = field(default_factory=dict)
     """Parameters of ROS 2 by name and node, with their keys in `params`."""
+    stand_ins: set[str] = field(default_factory=set)
+    """Modules that were missing."""
+    searched: dict[str, None] = field(default_factory=dict)
+    """Where they could turn up."""
+    unknown: bool = False
+    """Whether it used a value that a stand-in has in the place of one that is not known."""
     end: Mapping[str, Any] | None = None
     dropped: int = 0
 
@@ -114,6 +122,14 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
             found.nodes[MadeNode(name, given, space, record.get("renamed") is True, full=full)] = None
         case "asked" if record.get("what") == "graph":
             found.looked = True
+        case "asked" if record.get("what") == "stand-in":
+            found.unknown = True
+        case "stood-in":
+            name = checked_text(record.get("name"), _MODULE)
+            if name is None or len(found.stand_ins) >= MAX_STAND_INS:
+                return False
+            found.stand_ins.add(name)
+            found.searched.update((path, None) for path in list(paths(record.get("paths")))[:MAX_STAND_INS])
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":

@@ -24,7 +24,8 @@ def make(
     """The recipe of a request of generation 1. Reads the executable's first line; an unreadable one is left for exec
     to complain of. `preload` is the library for the executable, if it is a program that one can be loaded into."""
     stable = recipes.variables(environment, request.env)
-    interpreter, python = recipes.shebang_interpreter(environment.python, request.executable, stable["PATH"])
+    user_python = environment.python or recipes.any_python(environment)
+    interpreter, python = recipes.shebang_interpreter(user_python, request.executable, stable["PATH"])
     if python:
         stable |= _unbuilt(modules)
     argv = [*interpreter, request.executable, *request.args]

@@ -46,7 +46,7 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     Python."""
     stable = variables(environment, request.env)
     stable["PYTHONPATH"] = _joined([*_roots(request), *_split(stable, "PYTHONPATH")])
-    python = environment.ros2_python or sys.executable
+    python = environment.ros2_python or recipes.any_python(environment)
     if request.entry_point is not None:
         argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]
     else:

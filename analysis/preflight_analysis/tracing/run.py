@@ -186,7 +186,8 @@ def _process(recipe: recipes.Recipe, start: sandbox.Start) -> dict[str, Any]:
 
     env = dict(recipe.env)
     for name in recipes.OURS:
-        env[name] = place(env[name])
+        if name in env:
+            env[name] = place(env[name])
     entries = env["PYTHONPATH"].split(os.pathsep)
     env["PYTHONPATH"] = os.pathsep.join(place(entry) if entry == sandbox.SITE else entry for entry in entries)
     log = "__log:=" + recipes.LOG_FOLDER

@@ -7,7 +7,6 @@ import hashlib
 import logging
 import os
 import re
-import sys
 import threading
 from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
@@ -17,7 +16,17 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import compiled, limits, node_recipe, nodelets, preload, run, sandbox, x_server
+from preflight_analysis.tracing import (
+    compiled,
+    limits,
+    node_recipe,
+    nodelets,
+    preload,
+    run,
+    sandbox,
+    stand_ins,
+    x_server,
+)
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.cache import TraceCache
@@ -140,12 +149,12 @@ class Tracer:
         built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
         if not request.ros.has_master and built.reason is not None:
             return _not_run(built.reason)
-        recipe = self._recipe(request, built.path)
+        recipe = stand_ins.admitted(self._recipe(request, built.path), self.environment, request.generation)
         visible = sorted({*self._visible, *recipes.request_paths(self.environment, request, recipe)})
         hidden = recipes.out_of_reach(recipe, request.executable, visible)
         if hidden is not None:
             return _not_run(_OUT_OF_REACH.format(hidden))
-        interpreter = self.environment.interpreter(request.generation) or sys.executable
+        interpreter = self.environment.interpreter(request.generation) or recipes.any_python(self.environment)
         shown = Visible(tuple(visible), self._repositories)
         agents = compiled.copies().of(interpreter, shown)
         raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents)
@@ -175,7 +184,7 @@ class Tracer:
                 request,
                 observed.interface,
                 replace(observed.dependencies, files=_files(observed, recipe, visible)),
-                listings=_searched(observed, recipe, request),
+                listings={*_searched(observed, recipe, request), *observed.dependencies.searched},
                 started=raw.started,
             )
         return observed.interface

@@ -39,6 +39,7 @@ def _node(node: LaunchNode, interface: Interface) -> dict[str, Any]:
         "params": [_param(use) for use in interface.params],
         "notes": list(interface.notes),
         **({"looks": True} if interface.looks else {}),
+        **({"stand_ins": list(interface.stand_ins)} if interface.stand_ins else {}),
     }
 
 

@@ -46,7 +46,7 @@ def with_results(
     if results.pending and why is None and not known and any(r is not None for r in workspace.requests(static)):
         return static
     tree = static.tree
-    reason = why or workspace.cannot_run(tree) or (PENDING if results.pending else NOT_ASKED_FOR)
+    reason = why or (PENDING if results.pending else NOT_ASKED_FOR)
     keys = node_keys(tree)
     interfaces = [known.get(key) or not_run(node, reason) for key, node in zip(keys, tree.nodes, strict=True)]
     # Where earlier runs tell of some, those that were not run say so themselves.

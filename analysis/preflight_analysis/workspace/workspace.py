@@ -198,20 +198,12 @@ class Workspace:
         params = SharedParams({p.name: p.value for p in values if not isinstance(p.value, CommandValue)})
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
-    def cannot_run(self, tree: LaunchTree) -> str | None:
-        """What the environment lacks for running any node of the tree."""
-        lacks = tree.ros.needs_rclpy and self.environment.ros2_python is None
-        return "there is no rclpy to run it with; ros-preflight doctor shows where it was looked for" if lacks else None
-
     def _ros2_request(self, node: LaunchNode, documents: Mapping[str, Document]) -> TraceRequest | None:
-        """How to run a node of ROS 2: one that is written in Python, where there is a rclpy for it, or a program."""
+        """How to run a node of ROS 2: one that is written in Python, or a program."""
         path = node.resolved.path
         if path is None or node.unknowns or node.kind not in ("node", "lifecycle"):
             return None
-        if node.resolved.entry_point is not None or is_python(path):
-            if self.environment.ros2_python is None:
-                return None
-        elif not preload.applies(path):
+        if node.resolved.entry_point is None and not is_python(path) and not preload.applies(path):
             return None
         return TraceRequest(
             node.name,

@@ -11,7 +11,7 @@ import builtins
 import dis
 import sys
 import types
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator
 
 BEGIN, END = "\ufdd0", "\ufdd1"
 """Around what a text that is not known stands for: noncharacters, which no file has, and YAML and XML allow."""
@@ -30,6 +30,16 @@ def unknown_text(name: str) -> str:
 def is_unknown(text: Any) -> bool:
     """Whether some of a text is not known."""
     return isinstance(text, str) and BEGIN in text
+
+
+on_use: list[Callable[[], None]] = []
+"""Called, once, when a program does something with a stand-in, and what it does from then on may depend on it."""
+
+
+def used() -> None:
+    """A value that is not known takes part in what the program does."""
+    while on_use:
+        on_use.pop()()
 
 
 class AnyBase:
@@ -63,9 +73,11 @@ class Anything:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
+        used()
         return member(self._preflight_made, self._preflight_name, name)
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        used()
         if len(args) == 1 and not kwargs and isinstance(args[0], _FUNCTIONS):
             return args[0]  # as a decorator it leaves what it is given as it is
         return Anything(self._preflight_name if self._preflight_name.endswith(")") else self._preflight_name + "()")
@@ -86,6 +98,7 @@ class Anything:
     # As a text
 
     def __str__(self) -> str:
+        used()
         return unknown_text(self._preflight_name)
 
     __repr__ = __fspath__ = __str__
@@ -99,17 +112,20 @@ class Anything:
     # As a number
 
     def __bool__(self) -> bool:
+        used()
         frame = sys._getframe(1)
         place = (frame.f_code, frame.f_lasti)
         _asked[place] = _asked.get(place, 0) + 1
         return _asked[place] <= MAX_TRUE
 
     def __int__(self) -> int:
+        used()
         return 1
 
     __index__ = __trunc__ = __floor__ = __ceil__ = __len__ = __int__
 
     def __float__(self) -> float:
+        used()
         return 1.0
 
     def __complex__(self) -> complex:
@@ -119,6 +135,7 @@ class Anything:
         return 1 if digits is None else self
 
     def __lt__(self, other: Any) -> bool:
+        used()
         return False
 
     __le__ = __gt__ = __ge__ = __lt__
@@ -138,6 +155,7 @@ class Anything:
         return self[0]
 
     def __getitem__(self, key: Any) -> Any:
+        used()
         return Anything(self._preflight_name if self._preflight_name.endswith("]") else self._preflight_name + "[...]")
 
     def __setitem__(self, key: Any, value: Any) -> None:
@@ -146,6 +164,7 @@ class Anything:
     __delitem__ = __setitem__
 
     def __contains__(self, item: Any) -> bool:
+        used()
         return False
 
     def keys(self) -> list[str]:
@@ -156,6 +175,7 @@ class Anything:
     # In `with` and `await`
 
     def __enter__(self) -> Any:
+        used()
         return Anything(self._preflight_name)
 
     def __exit__(self, *args: Any) -> None:
@@ -200,6 +220,7 @@ _asked: dict[Any, int] = {}
 
 
 def _same_kind(self: Any, *args: Any) -> Any:
+    used()
     return Anything(self._preflight_name)
 
 
@@ -262,16 +283,9 @@ def importer() -> Any:
     """The frame that imports something, from within the import; None where no program does."""
     frame: Any = sys._getframe(1)
     while frame is not None:
-        file = frame.f_code.co_filename
-        if (
-            file != __file__
-            and not file.startswith("<frozen importlib")
-            and frame.f_globals.get("__name__")
-            not in (
-                "importlib",
-                f"{__package__}.missing_modules",
-            )
-        ):
+        name = str(frame.f_globals.get("__name__"))
+        ours = name.startswith(f"{__package__}.") and not name.startswith(f"{__package__}.fake_launch.")
+        if not ours and not frame.f_code.co_filename.startswith("<frozen importlib") and name != "importlib":
             return frame
         frame = frame.f_back
     return None

@@ -6,17 +6,17 @@ import base64
 import os
 import py_compile
 import sys
-from typing import Any, Callable
+from typing import Any, Callable, Iterator
 
-FOLDERS = ("lib/preflight_agents", "lib/preflight_agents/fake_launch", "lib/aspectlib", "site")
+TOPS = ("lib/preflight_agents", "lib/aspectlib", "site")
 
 
 def report(root: str, temporary: str, emit: Callable[[dict[str, Any]], Any]) -> None:
     """`emit` each module below `root` as `{"ev": "compiled", "path": ..., "data": base64}`. `temporary` is a folder to
     write to."""
     made = os.path.join(temporary, "made.pyc")
-    for folder in FOLDERS:
-        for name in sorted(os.listdir(os.path.join(root, folder))):
+    for folder, names in _folders(root):
+        for name in sorted(names):
             if name.endswith(".py"):
                 source = os.path.join(root, folder, name)
                 # The host knows a copy by the digest of what it was made from; times would not match there.
@@ -25,3 +25,10 @@ def report(root: str, temporary: str, emit: Callable[[dict[str, Any]], Any]) -> 
                 path = f"{folder}/__pycache__/{name[:-3]}.{sys.implementation.cache_tag}.pyc"
                 with open(made, "rb") as file:
                     emit({"own": {"ev": "compiled", "path": path, "data": base64.b64encode(file.read()).decode()}})
+
+
+def _folders(root: str) -> Iterator[tuple[str, list[str]]]:
+    for top in TOPS:
+        for at, below, names in os.walk(os.path.join(root, top)):
+            below[:] = sorted(set(below) - {"__pycache__"} if top == TOPS[0] else ())
+            yield os.path.relpath(at, root), names

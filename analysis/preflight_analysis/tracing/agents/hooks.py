@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any, Optional, Sequence
 
 from . import channel, genpy_weave
-from .variables import SOURCES
+from .variables import AGAIN, SOURCES, STAND_INS
 
 WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer", genpy_weave.NAME)
 RCLPY = (
@@ -154,6 +154,27 @@ class _Finder(MetaPathFinder):
         return None
 
 
+class _StandInsLater(MetaPathFinder):
+    """Most nodes miss nothing: what stands in is imported when the first module is missing."""
+
+    def find_spec(
+        self, fullname: str, path: Optional[Sequence[str]], target: Optional[ModuleType] = None
+    ) -> Optional[ModuleSpec]:
+        sys.meta_path.remove(self)
+        try:
+            from .stand_ins import finder  # noqa: PLC0415
+
+            finder.install()
+        except Exception as error:
+            channel.send("weave-failed", message=repr(error))
+            return None
+        for each in sys.meta_path[-2:]:
+            spec: Optional[ModuleSpec] = each.find_spec(fullname, path, target)
+            if spec is not None:
+                return spec
+        return None
+
+
 def install(library: str) -> None:
     """Watch this process. `library` is the folder that holds aspectlib."""
     files = Files()
@@ -164,3 +185,9 @@ def install(library: str) -> None:
     atexit.register(files.flush)
     # Last of all: what is built or installed is found first.
     sys.path.extend(folder for folder in os.environ.get(SOURCES, "").split(os.pathsep) if folder)
+    if AGAIN in os.environ:
+        from .stand_ins import finder  # noqa: PLC0415
+
+        finder.install()
+    elif STAND_INS in os.environ:
+        sys.meta_path.append(_StandInsLater())

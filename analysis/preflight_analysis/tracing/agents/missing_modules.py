@@ -7,9 +7,11 @@ does what only asks whether a module is there.
 from __future__ import annotations
 
 import ast
+import dis
 import importlib.abc
 import importlib.machinery
 import linecache
+import os
 import sys
 from typing import Any, Callable, Optional, Sequence
 
@@ -17,8 +19,9 @@ from .anything import AnyModule, importer
 
 GENERATED = ("msg", "srv", "action")
 """Below a package that is only source: what building it makes."""
-_CATCHES = ("ImportError", "ModuleNotFoundError")
+IMPORTS = ("ImportError", "ModuleNotFoundError")
 _ALL = ("Exception", "BaseException")
+_STANDARD_LIBRARY = os.path.dirname(os.path.abspath(os.__file__)) + os.sep
 _ENDS = ("exit", "_exit", "quit", "abort")
 
 Note = Callable[[str, str, int], None]
@@ -41,7 +44,7 @@ class MissingModules(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         if not above and fullname in getattr(sys, "stdlib_module_names", ()):
             return None  # another system's
         frame = importer()
-        if frame is None or _only_asks() or provided_for(frame, _CATCHES):
+        if frame is None or not _imports(frame, fullname) or _only_asks() or provided_for(frame, IMPORTS):
             return None
         if not within and fullname not in self.noted:
             self.noted[fullname] = None
@@ -53,6 +56,21 @@ class MissingModules(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
     def exec_module(self, module: Any) -> None:
         return None
+
+
+def _imports(frame: Any, fullname: str) -> bool:
+    """Whether it is a program that imports it, and not the standard library or an extension that the program loads."""
+    file = frame.f_code.co_filename
+    if file.startswith("<frozen") or (file.startswith(_STANDARD_LIBRARY) and "-packages" + os.sep not in file):
+        return False
+    code, at = frame.f_code.co_code, frame.f_lasti
+    if not 0 <= at < len(code) - 1 or dis.opname[code[at]] != "IMPORT_NAME":
+        return True
+    argument, before = code[at + 1], at - 2
+    while before >= 0 and dis.opname[code[before]] == "EXTENDED_ARG":
+        argument, before = argument | code[before + 1] << 8 * (at - before) // 2, before - 2
+    name = frame.f_code.co_names[argument]
+    return "." in fullname or name.partition(".")[0] == fullname
 
 
 def _only_asks() -> bool:

@@ -32,6 +32,7 @@ EVENTS = frozenset(
         "state",
         "files",
         "wrote",
+        "stood-in",
         "woven",
         "weave-failed",
     )

@@ -8,3 +8,8 @@ SHARES = "PREFLIGHT_SHARES"
 """The environment variable with the folders of packages that are there as source only, a JSON object."""
 SOURCES = "PREFLIGHT_SOURCES"
 """The environment variable with the folders of Python modules of a workspace that may not be built."""
+STAND_INS = "PREFLIGHT_STAND_INS"
+"""The environment variable with a file by which what a node imports and is not there has stand-ins: a JSON object with
+the `generation` of ROS and the `packages` that are known, name to folder."""
+AGAIN = "PREFLIGHT_AGAIN"
+"""The environment variable of a program that was started again in its own place, for rclpy's stand-in."""

@@ -1,0 +1,5 @@
+"""What actionlib raises."""
+
+
+class ActionException(Exception):
+    """A type is no action."""

@@ -1,0 +1,5 @@
+"""What is common to both ends of services."""
+
+
+class ServiceException(Exception):
+    """A call failed."""

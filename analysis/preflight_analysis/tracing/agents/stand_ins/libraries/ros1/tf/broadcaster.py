@@ -1,0 +1,5 @@
+"""What tells transforms."""
+
+from . import TransformBroadcaster
+
+__all__ = ["TransformBroadcaster"]

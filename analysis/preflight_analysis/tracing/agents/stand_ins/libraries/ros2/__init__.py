@@ -1,0 +1,1 @@
+"""Stand-ins of libraries of ROS 2."""

@@ -1,0 +1,5 @@
+"""Kinds of clocks."""
+
+from .clock import ClockType
+
+__all__ = ["ClockType"]

@@ -1,0 +1,5 @@
+"""What takes part in transitions."""
+
+from . import ManagedEntity, SimpleManagedEntity
+
+__all__ = ["ManagedEntity", "SimpleManagedEntity"]

@@ -1,0 +1,5 @@
+"""As the real library has it."""
+
+from . import StaticTransformBroadcaster
+
+__all__ = ["StaticTransformBroadcaster"]

@@ -1,0 +1,43 @@
+"""What stands in for Python modules that a node imports and this machine does not have: where it may, and what it
+means for the node's end.
+
+`agents/stand_ins/` are the modules, which are found inside of the sandbox only, after all that is there.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing import recipe as recipes
+from preflight_analysis.tracing.agents.variables import STAND_INS
+from preflight_analysis.tracing.interface import Outcome
+from preflight_analysis.tracing.records import Gathered
+
+_FILE = f"{recipes.ROS_HOME}/stand_ins.json"
+_MOST_NAMED = 3
+_OURS = re.compile(r"(Attribute|Type|Import|ModuleNotFound|NotImplemented|Recursion)Error\b")
+"""What a stand-in that is not like the real thing would make a node end for."""
+
+
+def admitted(recipe: recipes.Recipe, environment: Environment, generation: int) -> recipes.Recipe:
+    """The recipe with stand-ins, where it is that of a program in Python."""
+    if not recipe.python:
+        return recipe
+    packages = {p.name: p.share for p in environment.packages.values() if p.generation == generation}
+    job = json.dumps({"generation": generation, "packages": packages})
+    return replace(recipe, env={**recipe.env, STAND_INS: _FILE}, files={**recipe.files, _FILE: job})
+
+
+def explained(outcome: Outcome, found: Gathered) -> Outcome:
+    """With what a node lacked here that ended after it had used a stand-in: it says nothing of the robot."""
+    failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
+    ours = found.unknown or _OURS.search(outcome.reason or "") is not None
+    if not failed or not found.stand_ins or not ours:
+        return outcome
+    modules = sorted(found.stand_ins)
+    more = f" and {len(modules) - _MOST_NAMED} more" if len(modules) > _MOST_NAMED else ""
+    plural = "s" if len(modules) > 1 else ""
+    return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")

@@ -1,0 +1,406 @@
+"""Nodes without what they import: they do the same with the stand-ins as with the real libraries."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import textwrap
+import threading
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.model import Package, Packages
+from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.trace import Tracer
+from support.ros2_harness import Ros2Harness, checked, node_of
+from support.stand_in_harness import bare_python, both_of_ros1, both_of_ros2, seen, without_rclpy, without_rospy
+from support.tracing_harness import ROS1_FIXTURES, environment, own, request, write_node
+
+pytestmark = pytest.mark.ros
+
+TUTORIALS = sorted((ROS1_FIXTURES / "tutorials" / "scripts").glob("*.py"))
+
+
+def trace_without(script: Path, **more: object) -> Interface:
+    return Tracer(without_rospy(script.parent), None).trace(request(script), threading.Event())
+
+
+@pytest.mark.parametrize("script", TUTORIALS, ids=lambda path: path.stem)
+def test_a_tutorial_does_the_same(script: Path) -> None:
+    real, stood_in = both_of_ros1(script)
+    assert seen(stood_in) == seen(real)
+    assert (real.stand_ins, "rospy" in stood_in.stand_ins) == ((), True)
+
+
+ROS1_NODES = {
+    "ends": """
+        import rospy
+        from std_msgs.msg import String, Header
+        from std_srvs.srv import Trigger, TriggerResponse
+        rospy.init_node('n', anonymous=True)
+        rospy.Publisher('~state', String, queue_size=3, latch=True)
+        rospy.Subscriber('/scan', rospy.AnyMsg, print)
+        rospy.Service('reset', Trigger, lambda r: TriggerResponse(success=True))
+        rospy.ServiceProxy('~load', Trigger)
+        gone = rospy.Publisher('gone', String, queue_size=1)
+        gone.unregister()
+        rospy.Timer(rospy.Duration(0.1), lambda event: rospy.get_param('~late', 3))
+        rospy.loginfo('%s at %s', rospy.get_name(), rospy.Time.now() - rospy.Duration(1))
+        rospy.spin()
+    """,
+    "parameters": """
+        import rospy
+        rospy.init_node('n')
+        rospy.get_param('~rate', 10), rospy.get_param('/camera', {}), rospy.has_param('x'), rospy.search_param('y')
+        rospy.set_param('~made', [1, 2.5, 'x'])
+        assert rospy.get_param('~made') == [1, 2.5, 'x'] and rospy.get_param('~given') == 7
+        assert rospy.get_param_names()
+        rospy.delete_param('~made')
+        rospy.get_param('~required')
+    """,
+    "waits": """
+        import rospy
+        from std_msgs.msg import String
+        from std_srvs.srv import Trigger
+        rospy.init_node('n')
+        rospy.wait_for_message('first', String)
+        rospy.wait_for_service('start')
+        assert rospy.ServiceProxy('start', Trigger)().success
+        rospy.Publisher('after', String, queue_size=1)
+        rate = rospy.Rate(20)
+        while not rospy.is_shutdown():
+            rate.sleep()
+    """,
+    "polls": """
+        import rospy
+        from std_msgs.msg import String
+        rospy.init_node('n')
+        heard = []
+        rospy.Subscriber('words', String, heard.append)
+        rate = rospy.Rate(20)
+        while not rospy.is_shutdown() and not heard:
+            rate.sleep()
+        rospy.Publisher('echo', String, queue_size=1)
+        rospy.spin()
+    """,
+    "action": """
+        import rospy, actionlib
+        from actionlib_tutorials.msg import FibonacciAction, FibonacciGoal
+        rospy.init_node('n')
+        server = actionlib.SimpleActionServer('offered', FibonacciAction, lambda goal: None, auto_start=False)
+        server.start()
+        client = actionlib.SimpleActionClient('used', FibonacciAction)
+        client.wait_for_server()
+        client.send_goal(FibonacciGoal(order=3))
+        rospy.spin()
+    """,
+    "transforms": """
+        import rospy, tf2_ros
+        from geometry_msgs.msg import TransformStamped
+        rospy.init_node('n')
+        buffer = tf2_ros.Buffer()
+        listener = tf2_ros.TransformListener(buffer)
+        sent = TransformStamped()
+        sent.header.frame_id, sent.child_frame_id, sent.transform.rotation.w = 'odom', 'base', 1.0
+        tf2_ros.TransformBroadcaster().sendTransform(sent)
+        tf2_ros.StaticTransformBroadcaster().sendTransform(sent)
+        while not rospy.is_shutdown():
+            try:
+                buffer.lookup_transform('map', 'base', rospy.Time(0))
+                break
+            except tf2_ros.TransformException:
+                rospy.sleep(0.05)
+        rospy.Publisher('found', rospy.Header, queue_size=1) if False else rospy.spin()
+    """,
+}
+
+
+@pytest.mark.parametrize("name", ROS1_NODES)
+def test_a_node_of_rospy_does_the_same(name: str, tmp_path: Path) -> None:
+    script = write_node(tmp_path, ROS1_NODES[name])
+    params = {"/robot/node/given": 7, "/robot/node/other": 1}
+    real, stood_in = both_of_ros1(script, node="/robot/node", params=params, remaps=(("scan", "/laser"),))
+    assert own(real) or name == "parameters"
+    assert seen(stood_in) == seen(real)
+
+
+ROS2_NODES = {
+    "ends": node_of(
+        """
+        self.create_publisher(String, 'chatter', 10)
+        self.create_publisher(String, '~/state', QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL,
+                              deadline=Duration(seconds=2)))
+        self.create_publisher(String, 'tuned', 3,
+                              qos_overriding_options=QoSOverridingOptions.with_default_policies())
+        self.create_subscription(String, '/scan', print, qos_profile_sensor_data)
+        self.create_service(Empty, 'reset', print)
+        self.create_client(Empty, '/map/load')
+        self.create_timer(0.1, print)
+        self.get_logger().info(f'{self.get_clock().now() - Time(clock_type=ClockType.ROS_TIME)}')
+        """,
+        "from rclpy.clock import ClockType",
+        "from rclpy.duration import Duration",
+        "from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data",
+        "from rclpy.qos_overriding_options import QoSOverridingOptions",
+        "from rclpy.time import Time",
+        "from std_srvs.srv import Empty",
+    ),
+    "parameters": node_of(
+        """
+        assert self.declare_parameter('rate', 10.0).value == 5.0
+        ranged = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10, step=2)], read_only=True)
+        self.declare_parameter('size', 4, ranged)
+        self.declare_parameters('a', [('b', True), ('c', ['x']), ('d', Parameter.Type.STRING)])
+        self.declare_parameter('any', None, ParameterDescriptor(dynamic_typing=True))
+        self.add_on_set_parameters_callback(lambda params: SetParametersResult(successful=True))
+        assert self.set_parameters([Parameter('a.b', value=False)])[0].successful
+        assert not self.get_parameter('a.b').get_parameter_value().bool_value
+        """,
+        "from rcl_interfaces.msg import IntegerRange, ParameterDescriptor, SetParametersResult",
+        "from rclpy.parameter import Parameter",
+    ),
+    "refuses": node_of("self.declare_parameter('rate', 1)"),
+    "unset": node_of(
+        "self.declare_parameter('name', Parameter.Type.STRING)\nself.get_parameter('name')",
+        "from rclpy.parameter import Parameter",
+    ),
+    "waits": node_of(
+        """
+        client = self.create_client(Trigger, 'start')
+        client.wait_for_service()
+        future = client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(self, future)
+        assert future.result().success
+        self.create_publisher(String, 'after', 1)
+        """,
+        "from std_srvs.srv import Trigger",
+    ),
+    "several": textwrap.dedent("""
+        import rclpy
+        from rclpy.executors import MultiThreadedExecutor
+        from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+        from std_msgs.msg import String
+
+        class Managed(LifecycleNode):
+            def on_configure(self, state):
+                self.out = self.create_lifecycle_publisher(String, 'managed', 1)
+                return TransitionCallbackReturn.SUCCESS
+
+        def main():
+            rclpy.init()
+            executor = MultiThreadedExecutor()
+            executor.add_node(Managed('managed'))
+            executor.add_node(rclpy.create_node('other', namespace='deep'))
+            executor.spin()
+    """),
+}
+
+
+@pytest.mark.parametrize("name", [each for each in ROS2_NODES if each != "several"])
+def test_a_node_of_rclpy_does_the_same(name: str, tmp_path: Path) -> None:
+    harness = Ros2Harness(tmp_path, **ROS2_NODES)
+    real, stood_in = both_of_ros2(harness, name, "<param name='rate' value='5.0'/>")
+    assert seen(stood_in) == seen(real)
+    assert "rclpy" in stood_in.stand_ins
+
+
+def test_lifecycle_nodes_are_activated(tmp_path: Path) -> None:
+    """The wheels have no lifecycle_msgs, so there is no real one to compare with."""
+    harness = Ros2Harness(tmp_path, several=ROS2_NODES["several"])
+    _, stood_in = both_of_ros2(harness, "several")
+    assert stood_in.outcome.status == "spinning"
+    assert ("publisher", "managed", "std_msgs/msg/String") in own(stood_in) or (
+        "publisher",
+        "/robot/managed",
+        "std_msgs/msg/String",
+    ) in own(stood_in)
+
+
+def test_actions_of_ros2_have_their_type(tmp_path: Path) -> None:
+    body = node_of(
+        "ActionServer(self, Fibonacci, 'offered', print)\nActionClient(self, Fibonacci, 'used').wait_for_server()\n"
+        "assert Fibonacci.Goal(order=3).order == 3",
+        "from example_interfaces.action import Fibonacci",
+        "from rclpy.action import ActionClient, ActionServer",
+    )
+    harness = Ros2Harness(tmp_path, act=body)
+    _, stood_in = both_of_ros2(harness, "act")
+    assert own(stood_in) == {
+        ("action_server", "offered", "example_interfaces/action/Fibonacci"),
+        ("action_client", "used", "example_interfaces/action/Fibonacci"),
+    }
+
+
+# Messages
+
+
+def test_messages_of_the_workspace_are_made_of_their_definitions(tmp_path: Path) -> None:
+    share = tmp_path / "robot_msgs"
+    (share / "scripts").mkdir(parents=True)
+    (share / "msg").mkdir()
+    (share / "srv").mkdir()
+    (share / "msg" / "State.msg").write_text("uint8 IDLE=1  # no motion\nHeader header\nPart[2] parts\nstring name\n")
+    (share / "msg" / "Part.msg").write_text("float64[3] at\nbool ok\n")
+    (share / "srv" / "Ask.srv").write_text("int32 a\n---\nState state\n")
+    script = write_node(
+        share / "scripts",
+        """
+        import rospy
+        from robot_msgs.msg import State
+        from robot_msgs.srv import Ask, AskRequest
+        state = State(name='x')
+        assert (State.IDLE, state.header.frame_id, len(state.parts), state.parts[0].at) == (1, '', 2, [0.0] * 3)
+        assert AskRequest(3).a == 3
+        rospy.init_node('n')
+        rospy.Publisher('state', State, queue_size=1).publish(state)
+        rospy.Service('ask', Ask, lambda request: None)
+        rospy.spin()
+    """,
+    )
+    package = Package("robot_msgs", str(share), str(share / "package.xml"))
+    for machine in (without_rospy(tmp_path), environment(tmp_path)):
+        tracer = Tracer(dataclasses.replace(machine, packages=Packages({"robot_msgs": package})), None)
+        found = tracer.trace(request(script), threading.Event())
+        assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+        assert own(found) == {
+            ("publisher", "state", "robot_msgs/State"),
+            ("service", "ask", "robot_msgs/Ask"),
+        }
+        assert "robot_msgs" in found.stand_ins
+
+
+def test_messages_that_nobody_knows_have_any_field(tmp_path: Path) -> None:
+    """With the real rospy as without it."""
+    body = """
+        import rospy
+        from far_msgs.msg import Reading, MoveAction
+        from far_msgs.srv import Ask, AskResponse
+        rospy.init_node('n')
+        made = Reading(name='x')
+        made.pose.position.x = 3.0
+        made.list.append(1)
+        made.status = Reading.STATUS_OK
+        rospy.Publisher('reading', Reading, queue_size=1).publish(made)
+        rospy.Subscriber('goal', type(MoveAction().action_goal), print)
+        rospy.Service('ask', Ask, lambda request: AskResponse(ok=True))
+        rospy.spin()
+    """
+    script = write_node(tmp_path, body)
+    real, stood_in = both_of_ros1(script)
+    expected = {
+        ("publisher", "reading", "far_msgs/Reading"),
+        ("subscriber", "goal", "far_msgs/MoveActionGoal"),
+        ("service", "ask", "far_msgs/Ask"),
+    }
+    assert (own(real), own(stood_in)) == (expected, expected)
+    assert real.stand_ins == ("far_msgs",)
+
+
+@pytest.mark.parametrize("order", ["rclpy first", "messages first"])
+def test_messages_that_are_missing_beside_the_real_rclpy(order: str, tmp_path: Path) -> None:
+    """rclpy takes no classes but generated ones, so the stand-in takes its place."""
+    messages = "from far_msgs.msg import Reading"
+    body = node_of("self.create_publisher(Reading, 'reading', 7)\nself.create_publisher(String, 'text', 7)")
+    body = f"{messages}\n{body}" if order == "messages first" else body.replace("class Own", f"{messages}\nclass Own")
+    harness = Ros2Harness(tmp_path, mixed=body)
+    found = harness.trace("mixed")
+    assert found.outcome.status == "spinning"
+    assert own(found) == {
+        ("publisher", "reading", "far_msgs/msg/Reading"),
+        ("publisher", "text", "std_msgs/msg/String"),
+    }
+    assert found.stand_ins[0] == "far_msgs"
+    assert "std_msgs" not in found.stand_ins
+
+
+# Other modules
+
+
+def test_other_modules_give_themselves_for_anything(tmp_path: Path) -> None:
+    script = write_node(
+        tmp_path,
+        """
+        import rospy
+        import far_vision as vision
+        from far_serial import Serial
+        from std_msgs.msg import String
+        rospy.init_node('n')
+        out = rospy.Publisher('out', String, queue_size=1)
+        camera = vision.Camera(0)
+        width, height = camera.size
+        port = Serial('/dev/ttyUSB0', 9600)
+        with port as opened:
+            out.publish(str(opened.read(3)))
+        rospy.spin()
+    """,
+    )
+    found = Tracer(environment(tmp_path), None).trace(request(script), threading.Event())
+    assert (found.outcome.status, own(found)) == ("spinning", {("publisher", "out", "std_msgs/String")})
+    assert found.stand_ins == ("far_serial", "far_vision")
+    assert found.complete
+
+
+def test_an_import_that_the_node_can_do_without_fails_as_it_does_outside(tmp_path: Path) -> None:
+    script = write_node(
+        tmp_path,
+        """
+        import rospy
+        try:
+            import far_vision
+        except ImportError:
+            far_vision = None
+        rospy.init_node('n')
+        rospy.Publisher('seeing' if far_vision else 'blind', rospy.msg.AnyMsg, queue_size=1)
+        rospy.spin()
+    """,
+    )
+    found = Tracer(environment(tmp_path), None).trace(request(script), threading.Event())
+    assert {name for _, name, _ in own(found)} == {"blind"}
+    assert found.stand_ins == ()
+
+
+def test_a_crash_after_a_value_that_is_not_known_lacks_the_module(tmp_path: Path) -> None:
+    script = write_node(tmp_path, "import rospy, far_vision\nrospy.init_node('n')\n{}[far_vision.key()]\n")
+    found = Tracer(environment(tmp_path), None).trace(request(script), threading.Event())
+    assert (found.outcome.status, found.outcome.lacks) == ("crashed", "the Python module far_vision")
+
+
+def test_a_crash_of_another_cause_is_the_nodes_own(tmp_path: Path) -> None:
+    script = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nopen('/nowhere/model.json')\n")
+    found = trace_without(script)
+    assert (found.outcome.status, found.outcome.lacks) == ("crashed", None)
+    assert found.outcome.reason is not None and "FileNotFoundError" in found.outcome.reason
+
+
+# The real thing
+
+
+def test_a_trace_is_replaced_once_the_real_module_is_there(tmp_path: Path) -> None:
+    package = tmp_path / "pkg"
+    package.mkdir()
+    script = write_node(package, "import rospy, far_vision\nrospy.init_node('n')\nrospy.spin()\n")
+    os.utime(script, (0, 0))
+    tracer = Tracer(environment(package), TraceCache(tmp_path / "cache"))
+    assert tracer.trace(request(script), threading.Event()).stand_ins == ("far_vision",)
+    kept = tracer.lookup(request(script))
+    assert kept is not None and kept.stand_ins == ("far_vision",)
+    (package / "far_vision.py").write_text("")
+    assert tracer.lookup(request(script)) is None
+    assert tracer.trace(request(script), threading.Event()).stand_ins == ()
+
+
+def test_nodes_are_run_where_no_client_library_is_installed(tmp_path: Path) -> None:
+    """By the first interpreter of the PATH."""
+    harness = Ros2Harness(tmp_path, talker=node_of("self.create_publisher(String, 'chatter', 10)"))
+    launch = harness.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='talker'/></launch>")
+    machine = dataclasses.replace(without_rclpy(harness), ros2_python=None)
+    graph = checked(launch, machine, None).graph
+    assert graph is not None
+    assert own(graph.processes[0]) == {("publisher", "chatter", "std_msgs/msg/String")}
+    script = write_node(tmp_path, ROS1_NODES["polls"])
+    alone = Tracer(dataclasses.replace(without_rospy(tmp_path), python=None), None)
+    path = os.pathsep.join((str(bare_python()), "/usr/bin", "/bin"))
+    alone.environment.variables["PATH"] = path  # type: ignore[index]
+    found = alone.trace(request(script), threading.Event())
+    assert own(found) == {("subscriber", "words", "std_msgs/String"), ("publisher", "echo", "std_msgs/String")}
