@@ -314,6 +314,24 @@ def test_messages_that_are_missing_beside_the_real_rclpy(order: str, tmp_path: P
     assert "std_msgs" not in found.stand_ins
 
 
+def test_messages_of_common_packages_have_their_fields(tmp_path: Path) -> None:
+    script = write_node(
+        tmp_path,
+        """
+        import rospy
+        from geometry_msgs.msg import PoseStamped, Twist
+        from sensor_msgs.msg import JointState, PointField
+        assert Twist().linear.x == 0.0 and PoseStamped().header.stamp.is_zero() and PointField.FLOAT32 == 7
+        assert JointState(name=['a']).position == []
+        rospy.init_node('n')
+        rospy.Publisher('cmd', Twist, queue_size=1).publish(Twist())
+        rospy.spin()
+    """,
+    )
+    found = trace_without(script)
+    assert (found.outcome.status, own(found)) == ("spinning", {("publisher", "cmd", "geometry_msgs/Twist")})
+
+
 # Other modules
 
 

@@ -62,6 +62,8 @@ class Copies:
                 for name, path in _sources():
                     (made / name / "__pycache__").mkdir(parents=True, exist_ok=True)
                     shutil.copy(path, made / name)
+                for name, path in _data():
+                    shutil.copy(path, made / name)
                 raw = run.compile_agents(interpreter, visible, _within(made))
                 kept = sum(_keep(record.get("own"), made) for record in raw.records)
                 if kept != len(_sources()):
@@ -116,11 +118,17 @@ def _sources() -> list[tuple[str, Path]]:
     return [*agents, *aspectlib, (TOPS[2], AGENTS.site / "sitecustomize.py")]
 
 
+def _data() -> list[tuple[str, Path]]:
+    """What our modules read, likewise."""
+    ours = AGENTS.library
+    return [(str(Path(TOPS[0], path.parent.relative_to(ours))), path) for path in sorted(ours.rglob("*.json"))]
+
+
 def _digest(interpreter: str) -> str:
     """Of our sources and of which interpreter it is."""
     where = os.path.realpath(interpreter)
     info = os.stat(where)
     digest = hashlib.sha256(f"{where}\0{info.st_size}\0{info.st_mtime_ns}".encode(errors="surrogatepass"))
-    for name, path in _sources():
+    for name, path in (*_sources(), *_data()):
         digest.update(f"{name}/{path.name}".encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()[:32]
