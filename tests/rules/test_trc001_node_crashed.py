@@ -1,5 +1,7 @@
 """TRC001: a node crashed when it was run."""
 
+import json
+
 import pytest
 from preflight_analysis.findings.lack import Lack
 from support.check import check, findings_of
@@ -213,16 +215,26 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
     assert "may set" not in found.message
 
 
-def test_a_message_that_is_not_here_is_a_lack() -> None:
-    (finding,) = [
-        f
-        for f in findings_of("""
-            <launch><node pkg="p" type="t" name="n"/></launch>
-            //- interfaces
-            {"/n": {"status": "crashed", "exit_code": 1, "stderr":
-                    ["If this is a valid message type, perhaps you need to type 'rosmake ackermann_msgs'"]}}
-        """)
-        if f.rule == "TRC001"
-    ]
-    assert finding.lack is not None
-    assert (finding.severity, finding.lack.kind, finding.lack.name) == ("hint", "package", "ackermann_msgs")
+@pytest.mark.parametrize(
+    ("said", "lack"),
+    [
+        (
+            "If this is a valid message type, perhaps you need to type 'rosmake ackermann_msgs'",
+            ("package", "ackermann_msgs"),
+        ),
+        ("/a/b.sh: line 5: v4l2-ctl: command not found", ("program", "v4l2-ctl")),
+        ("/a/b.sh: line 5: pyhton: command not found", None),
+        ("RLException: [x.launch] is neither a launch file in package [elsewhere] nor is", ("package", "elsewhere")),
+        ("Could not find library corresponding to plugin p/Logger. Make sure that", ("build", "p")),
+    ],
+)
+def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | None) -> None:
+    interface = {"status": "crashed", "exit_code": 1, "stderr": [said]}
+    found = findings_of(f"""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {json.dumps({"/n": interface})}
+    """)
+    (finding,) = [each for each in found if each.rule == "TRC001"]
+    assert (finding.lack and (finding.lack.kind, finding.lack.name)) == lack
+    assert finding.severity == ("hint" if lack else "warning")

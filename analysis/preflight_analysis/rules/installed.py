@@ -23,11 +23,18 @@ _OF_MACHINE = re.compile(r"/(?:etc|home|media|mnt|opt|root|usr|var|Users)/")
 """Where a machine has its own files."""
 _NO_MODULE = re.compile(r"(?:ModuleNotFoundError|ImportError)?:? ?No module named '?([\w.]+)'?")
 _NO_PACKAGE = re.compile(
-    r"type 'rosmake ([\w-]+)'|"
+    r"type 'rosmake ([\w-]+)'|neither a launch file in package \[([\w-]+)\]|"
     r"ResourceNotFound: ([\w-]+)|resource not found: ([\w-]+)|[Pp]ackage (?:not found: )?['\"]([\w-]+)['\"]"
     r" not found|[Pp]ackage not found: ['\"]?([\w-]+)"
 )
 """How rospkg, roslib, xacro and ament_index say that a package is not there."""
+_NO_PROGRAM = re.compile(
+    r"there is no '([\w.+-]+)'(?: on the PATH)?, which its first line names\Z|line \d+: ([\w.+-]+): command not found\Z"
+)
+"""How `env` and shells say it of a program."""
+_NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
+"""How pluginlib says it of a package that has not been built."""
+_INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
 _LONG = 5
 """Letters of a word."""
 
@@ -126,6 +133,13 @@ def lack_of_module(context: Context, module: str) -> Lack | None:
 def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
     """What a program lacked, by what it printed before it ended."""
     for line in lines:
+        if found := _NO_PROGRAM.search(line):
+            program = found[1] or found[2]
+            near = nearest(program, _INTERPRETERS)
+            slip = program not in _INTERPRETERS and near is not None and is_slip(program, near)
+            return None if slip else lack_of_program(context, program)
+        if (found := _NOT_BUILT.search(line)) and found[1] in context.environment.packages:
+            return lack_of_build(context, found[1])
         if found := _NO_MODULE.search(line):
             return lack_of_module(context, found[1])
         if found := _NO_PACKAGE.search(line):

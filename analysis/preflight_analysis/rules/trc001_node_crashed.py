@@ -41,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity="info" if ours or reported else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
-            lack=lack_said(context, (telling_line(outcome.stderr_tail),)),
+            lack=lack_said(context, (outcome.reason or "", telling_line(outcome.stderr_tail))),
         )
 
 
