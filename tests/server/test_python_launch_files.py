@@ -109,7 +109,7 @@ def made(context):
 def generate_launch_description():
     return LaunchDescription([
         Node(package='nowhere', executable='first', name='first'),
-        *[Node(package='nowhere', executable=name, name=name) for name in ('second', 'third')],
+        *[Node(package='nowhere_too', executable=name, name=name) for name in ('second', 'third')],
         OpaqueFunction(function=made),
         Node(package='elsewhere', executable='last', name='last'),
     ])
@@ -128,7 +128,7 @@ async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(harness: 
     path = outer.parent / "own.launch.py"
     async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(path, RUN, language="python")
-        packages = [("PKG001", name) for name in ("elsewhere", "made", "nowhere", "nowhere")]
+        packages = [("PKG001", name) for name in ("elsewhere", "made", "nowhere", "nowhere_too")]
         whole = await editor.until(lambda: (found := said(editor, path)) and found == packages and found)
         seen = len(editor.history)
 
