@@ -261,21 +261,21 @@ def test_what_ros_1_has_by_that_name_tells_nothing_of_ros_2(harness: Harness) ->
     harness.script.unlink()
     (node,) = harness.analyse("works.launch", WORKS, run=False).tree.nodes
     similar = SimilarTraces(harness.cache, harness.environment)
-    assert similar.looking({})(asked(node, 1)) is not None
-    assert similar.looking({})(asked(node, 2)) is None
+    assert similar.each([asked(node, 1)], {})[0] is not None
+    assert similar.each([asked(node, 2)], {})[0] is None
 
 
 def test_what_is_remembered_of_runs_is_as_the_cache_has_it(harness: Harness) -> None:
     (node,) = harness.analyse("works.launch", WORKS).tree.nodes
     similar = SimilarTraces(harness.cache, harness.environment, Sources())
-    first = similar.looking({})(asked(node, 1))
+    first = similar.each([asked(node, 1)], {})[0]
     assert first is not None
-    assert similar.looking({})(asked(node, 1)) is first
+    assert similar.each([asked(node, 1)], {})[0] is first
     shutil.rmtree(harness.cache.folder)
-    assert similar.looking({})(asked(node, 1)) is None
+    assert similar.each([asked(node, 1)], {})[0] is None
     harness.tracer = Tracer(harness.environment, harness.cache)
     harness.analyse("works.launch", WORKS)
-    again = similar.looking({})(asked(node, 1))
+    again = similar.each([asked(node, 1)], {})[0]
     assert again is not None
     assert told(again) == told(first)
 

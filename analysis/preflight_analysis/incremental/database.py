@@ -343,6 +343,14 @@ class Database:
                     self._readers -= 1
                     self._condition.notify_all()
 
+    def in_one_revision(self, work: Callable[[], V]) -> V:
+        """What `work` gives within `reading`; it begins again where somebody writes meanwhile."""
+        if self.is_reading:
+            return work()
+        while True:
+            with suppress(Cancelled), self.reading():
+                return work()
+
     @contextmanager
     def writing(self) -> Iterator[Write]:
         """Change inputs: readers are cancelled, and waited for. No query may be asked meanwhile."""
@@ -426,9 +434,7 @@ class Database:
         if thread.reads:
             raise RuntimeError("a query cannot answer another one")
         if not thread.readings:
-            while True:
-                with suppress(Cancelled), self.reading():
-                    return self.read_answered(kind, keys, answers)
+            return self.in_one_revision(lambda: self.read_answered(kind, keys, answers))
         return [self._answered_value(kind, key, answers) for key in keys]
 
     def _answered_value(self, kind: Query[Any, Any], key: Key, answers: Answers) -> object:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain
-from operator import is_
+from itertools import chain, compress
+from operator import is_, is_not
 from typing import Any, Literal
 
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
@@ -36,11 +36,11 @@ class Fallback:
             return tuple(interfaces)
         of_nodes = kept.each(_values_of_node, tree.nodes)
         params = kept.patched(_launch_params, "", tree.all_params, tuple(of_nodes))
-        similar = self._similar.looking(params.values) if self._similar is not None else None
         as_asked, keys = kept.each(asked, tree.nodes, tree.generation), kept.each(source_key, tree.nodes)
         found: dict[int, Interface | SourceInterface | None] = {at: None for at, gap in enumerate(gaps) if gap}
-        if similar is not None:
-            found.update((at, similar(as_asked[at])) for at in found if gaps[at] == "all")
+        if self._similar is not None:
+            unknown = [at for at in found if gaps[at] == "all"]
+            found.update(zip(unknown, self._similar.each([as_asked[at] for at in unknown], params.values), strict=True))
         of_source = [at for at, each in found.items() if each is None]
         found.update(zip(of_source, self._sources.read_each([keys[at] for at in of_source], params), strict=True))
         columns = (tree.nodes, interfaces, map(found.get, range(len(gaps))), gaps)
@@ -78,7 +78,7 @@ def _launch_params(
     if before is not None:
         (old_params, old_of_nodes), known = before
         if all(map(is_, old_of_nodes, of_nodes)) and list(map(len, before[0])) == [len(params), len(of_nodes)]:
-            changed = [pair for pair in zip(old_params, params, strict=True) if pair[0] is not pair[1]]
+            changed = [*compress(zip(old_params, params, strict=True), map(is_not, old_params, params))]
             return known.changed((old.name for old, _ in changed), _plain(new for _, new in changed))
     return LaunchParams({**_plain(params), **dict(chain.from_iterable(each.items() for each in of_nodes))})
 

@@ -10,7 +10,7 @@ parameters and that this node is not given are left out: nobody knows what it ha
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -72,37 +72,44 @@ class SimilarTraces:
         self.folders = frozenset((*environment.workspace_folders, *environment.named_folders))
         self._disk = disk or Disk()
 
-    def looking(self, params: Mapping[str, Any]) -> Callable[[Asked], Interface | None]:
-        """What the executable of a node did in the most similar run; None where none is known. `params` is the
+    def each(self, nodes: Sequence[Asked], params: Mapping[str, Any]) -> list[Interface | None]:
+        """What the executable of each node did in the most similar run; None where none is known. `params` is the
         parameter server of the launch. The names are as the node would give them, everything is marked `similar`.
 
-        For the nodes of one launch, each as `asked` has it: the disk is asked once for each executable.
+        The disk is asked once for each executable.
         """
         db = self._disk.db
-        said: list[frozenset[str]] = []
-        looked_at = set[tuple[str, _Key]]()
+        self._look(nodes)
 
-        def of(node: Asked) -> Interface | None:
-            if (where := (node.path, node.traces)) not in looked_at:
-                looked_at.add(where)
-                self._look(*where)
-            best = _best(db, self, node)
-            if best is None:
-                return None
-            if best.given and not said:
-                said.append(frozenset(map(bare, texts(params))))
-            return _similar(db, self, node, best.given - said[0] if best.given else best.given)
+        def work() -> list[Interface | None]:
+            known = {traces for traces in {node.traces for node in nodes} if _traces(db, self.cache, traces)}
+            said: list[frozenset[str]] = []
+            return [self._of(node, params, said) if node.traces in known else None for node in nodes]
 
-        return of
+        return db.in_one_revision(work)
 
-    def _look(self, path: str, traces: _Key) -> None:
-        """Notice another build, and what runs have told since."""
+    def _of(self, node: Asked, params: Mapping[str, Any], said: list[frozenset[str]]) -> Interface | None:
+        """`said` are the texts of the parameters, gathered for the first node that needs them."""
         db = self._disk.db
-        if not db.is_reading:
-            self._disk.look([path])
-            if db.is_outdated(_STATE, self.cache, traces):
-                with db.writing() as write:
-                    write.reload(_STATE, self.cache, traces)
+        best = _best(db, self, node)
+        if best is None:
+            return None
+        if best.given and not said:
+            said.append(frozenset(map(bare, texts(params))))
+        return _similar(db, self, node, best.given - said[0] if best.given else best.given)
+
+    def _look(self, nodes: Iterable[Asked]) -> None:
+        """Notice other builds, and what runs have told since."""
+        db = self._disk.db
+        if db.is_reading:
+            return
+        nodes = [*nodes]
+        self._disk.look({node.path for node in nodes})
+        outdated = db.outdated(_STATE, [(self.cache, traces) for traces in {node.traces for node in nodes}])
+        if outdated:
+            with db.writing() as write:
+                for key in outdated:
+                    write.reload(_STATE, *key)
 
 
 def _state(cache: TraceCache, key: _Key) -> object:
