@@ -15,6 +15,22 @@ def test_notes_of_a_run() -> None:
     """)
 
 
+def test_what_stood_in_for_a_module_is_a_lack() -> None:
+    findings = check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs what is built of package 'p', which
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs module 'cv2', which is not here
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs package 'rospy', which is not here
+        </launch>
+        //- interfaces
+        {"/n": {"stand_ins": ["cv2", "p.msg", "p.srv", "rospy"]}}
+    """)
+    assert {each.lack and (each.lack.kind, each.lack.name) for each in findings} == {
+        *(("build", "p"), ("module", "cv2"), ("package", "rospy"))
+    }
+
+
 @pytest.mark.silent
 def test_a_run_without_notes() -> None:
     check("""

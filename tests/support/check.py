@@ -255,7 +255,15 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     )
     source = "none" if outcome.status == "not-run" else "trace"
     nodes = tuple(MadeNode(**node) for node in data.get("nodes", ()))
-    return Interface(source, outcome, tuple(endpoints), tuple(params), notes=tuple(data.get("notes", ())), nodes=nodes)
+    return Interface(
+        source,
+        outcome,
+        tuple(endpoints),
+        tuple(params),
+        notes=tuple(data.get("notes", ())),
+        nodes=nodes,
+        stand_ins=tuple(data.get("stand_ins", ())),
+    )
 
 
 def _described(data: Mapping[str, Any], name: str) -> dict[str, Any]:

@@ -35,6 +35,8 @@ _NO_PROGRAM = re.compile(
 _NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
 """How pluginlib says it of a package that has not been built."""
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
+_MADE = ("msg", "srv", "action", "cfg")
+"""Modules of a package that its build makes."""
 _LONG = 5
 """Letters of a word."""
 
@@ -125,7 +127,9 @@ def lack_of_module(context: Context, module: str) -> Lack | None:
     top, _, within = module.partition(".")
     packages = context.environment.packages
     if top in packages:
-        return None if within and within not in ("msg", "srv", "action") else lack_of_build(context, top)
+        return None if within and within.partition(".")[0] not in _MADE else lack_of_build(context, top)
+    if distributions_with(top, context.tree.generation):
+        return lack_of_package(context, top)
     near = nearest(top, packages)
     return None if near is not None and is_slip_of_words(top, near) else Lack("module", top)
 

@@ -3,8 +3,11 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.installed import lack_of_module
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+
+_WHAT = {"module": "module", "package": "package", "build": "what is built of package"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -13,6 +16,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         for note in interface.notes:
             yield rule.finding(f"{node.name}: {note}", node.location, related=include_chain(node.origin))
+        for lack in dict.fromkeys(filter(None, (lack_of_module(context, each) for each in interface.stand_ins))):
+            message = f"{node.name} needs {_WHAT[lack.kind]} '{lack.name}', which is not here: a stand-in was used"
+            yield rule.finding(message, node.location, related=include_chain(node.origin), lack=lack)
 
 
 RULE = Rule(
@@ -20,7 +26,8 @@ RULE = Rule(
     name="run-notes",
     severity="info",
     what="Tells what was noticed of a node when it was run in the sandbox: it tried to write where it may not, did not "
-    "end when asked to, wrote more than is read, waited for something and got a made-up answer, or the like.",
+    "end when asked to, wrote more than is read, waited for something and got a made-up answer, or the like. That it "
+    "imports what is not on this machine, and ran with a stand-in, is a hint.",
     why="Nothing of that reached the machine, but on the robot it would; and what the node did after a refusal or a "
     "made-up answer may differ from what it does there.",
     example="open('/home/me/.calibration', 'w')",
