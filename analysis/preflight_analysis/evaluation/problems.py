@@ -137,12 +137,16 @@ class PythonImportFailed(ProblemKind):
     """A Python launch file imports what is not there. `stood_in_for`: it was run all the same, and what depends on the
     module is not known."""
 
-    leaves_out = True
     usually_fatal = False
 
     module: str
     message: str
     stood_in_for: bool = False
+
+    @property
+    def leaves_out(self) -> bool:
+        """Not where the run went on with a stand-in."""
+        return not self.stood_in_for
 
 
 @dataclass(frozen=True, slots=True)

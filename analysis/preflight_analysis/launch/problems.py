@@ -22,8 +22,11 @@ class ProblemKind:
 
     usually_fatal: ClassVar[bool] = True
     """Whether the launcher stops there where nothing else is said."""
-    leaves_out: ClassVar[bool] = False
-    """Whether something of the file is not evaluated for it."""
+
+    @property
+    def leaves_out(self) -> bool:
+        """Whether something of the file is not evaluated for it."""
+        return False
 
     @property
     def subject(self) -> object:
