@@ -44,6 +44,7 @@ _FROM = {
     "source": "what its source says",
     "settings": "what the settings say",
     "nodl": "its NoDL document",
+    "catalogue": "what the catalogue says",
 }
 
 

@@ -51,6 +51,7 @@ _SOURCES = {
     "nodl": "from its NoDL document",
     "source": "from its source code",
     "similar": "from a run of the same executable elsewhere",
+    "catalogue": "from the catalogue",
 }
 _OUTCOMES = {
     "spinning": "reached its event loop",

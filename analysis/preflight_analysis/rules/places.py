@@ -67,4 +67,6 @@ def related_param_read(read: ParamRead) -> Related:
 def _how_known(what: Endpoint | ParamUse) -> str:
     if what.similar:
         return ", by a run elsewhere"
+    if what.catalogued:
+        return f", by {what.catalogued}"
     return ", by its source" if what.inferred else ""

@@ -57,6 +57,8 @@ def _misfits(channel: Channel) -> tuple[_Misfit, ...]:
         for provider in providers.values():
             if consumer.action is not None and provider.action is not None:
                 continue  # said once of the action, not of each of its topics
+            if consumer.node is provider.node and consumer.endpoint.catalogued and provider.endpoint.catalogued:
+                continue  # within a node of others, as move_base's footprints
             difference = _difference(consumer, provider)
             if difference is not None and (provider.endpoint.type, difference) not in reported:
                 reported.add((provider.endpoint.type, difference))

@@ -28,7 +28,7 @@ _STAMP = re.compile(r"\A\[ *[A-Z]+\] \[[\d., ]+\]: ")
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
 _THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
 _WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
-Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "none"]
+Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "catalogue", "none"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +59,8 @@ class Endpoint:
     node: str | None = None
     """ROS 2, of a process that makes several nodes: the full name that the one had which made it. None for the node of
     the launch file."""
+    catalogued: str = ""
+    """Of what the catalogue says: which one, with the commit that it was read at."""
 
     @property
     def assumed(self) -> bool:
@@ -114,6 +116,8 @@ class ParamUse:
     """As of an endpoint."""
     refused: str | None = None
     """ROS 2: what the node said of the value, or of there being none, when it ended for that."""
+    catalogued: str = ""
+    """As of an endpoint."""
 
     @property
     def assumed(self) -> bool:

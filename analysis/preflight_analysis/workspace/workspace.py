@@ -31,6 +31,7 @@ from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
@@ -279,7 +280,9 @@ class Workspace:
         environment = self.environment_of(tree.file)
         interfaces = from_settings(tree, interfaces, project.nodes)
         interfaces = NodlFiles(environment, self.sources).fill_in(tree, interfaces, kept)
-        return Fallback(SourceAnalysis(environment, self.sources), self._similar).fill_in(tree, interfaces, kept)
+        sources = SourceAnalysis(environment, self.sources)
+        interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
+        return from_catalogue(tree, interfaces, environment, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

@@ -9,12 +9,11 @@ from pathlib import Path, PurePosixPath
 from preflight_analysis.environment.packages import MANIFEST
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, SOURCES
+from tools.catalogue.sources import GENERATIONS, OF_TESTS, SOURCES
 
 DEFINITIONS = Path("analysis/preflight_analysis/tracing/agents/stand_ins/definitions.json")
 KINDS = ("msg", "srv", "action")
 _NAME = re.compile(r"<name>\s*([\w-]+)\s*</name>")
-_OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking)(?:\b|_)")
 _MEMBER = re.compile(r"[A-Za-z][\w/]*(?:<=\d+)?(?:\[(?:<=)?\d*\])?\s+[A-Za-z]\w*(?:\s*=\s*\S.*|\s+\S.*)?\Z")
 _TEXT = re.compile(r"(w?string(?:<=\d+)?)\s+([A-Za-z]\w*)\s*=\s*(.*)\Z")
 
@@ -54,7 +53,7 @@ def definitions_of(snapshot: Snapshot) -> dict[str, str]:
                 match = _NAME.search(snapshot.text(str(PurePosixPath(folder) / MANIFEST)))
                 names[folder] = match[1] if match is not None else ""
             package = names[folder]
-            if package and not _OF_TESTS.search(package):
+            if package and not OF_TESTS.search(package):
                 found[f"{package}/{kind}/{path.stem}"] = plain(snapshot.text(str(path)))
     return found
 

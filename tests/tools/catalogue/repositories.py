@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import io
+import os
+import re
 import subprocess
-import tarfile
 from dataclasses import dataclass
 from pathlib import Path
 
 from typing_extensions import Self
+
+_NO_SOURCE = re.compile(
+    r"\.(?:png|jpe?g|gif|svg|stl|dae|obj|mtl|bag|db3|pgm|pdf|mp4|webm|zip|gz|pcd|ply|bin|so|a|js)\Z", re.I
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,12 +49,28 @@ class Snapshot:
         return _git(self.git, "ls-tree", "-r", "--name-only", "-z", self.commit).decode().split("\0")[:-1]
 
     def unpack(self, into: Path) -> None:
-        """Write its files below a folder, which is made."""
-        into.mkdir(parents=True, exist_ok=True)
-        with tarfile.open(fileobj=io.BytesIO(_git(self.git, "archive", self.commit))) as archive:
-            archive.extractall(into, filter="data")
+        """Write its files below a folder, which is made: those that launch, build or are source. A snapshot may lack
+        large files, which are left out."""
+        rows = [
+            row.split("\t", 1) for row in _git(self.git, "ls-tree", "-r", "-z", self.commit).decode().split("\0")[:-1]
+        ]
+        wanted = [(*about.split(), path) for about, path in rows if not _NO_SOURCE.search(path)]
+        files = [(mode, name, path) for mode, kind, name, path in wanted if kind == "blob" and mode != "120000"]
+        asked = "".join(f"{name}\n" for _, name, _ in files).encode()
+        answers = io.BytesIO(_git(self.git, "cat-file", "--batch", input_=asked, check=False))
+        for mode, _, path in files:
+            head = answers.readline().split()
+            if len(head) < 3:
+                continue
+            place = into / path
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(answers.read(int(head[2])))
+            answers.read(1)
+            if mode == "100755":
+                place.chmod(0o755)
 
 
-def _git(git: Path, *arguments: str, check: bool = True) -> bytes:
-    done = subprocess.run(["git", "--git-dir", git, *arguments], capture_output=True, check=check)
-    return done.stdout
+def _git(git: Path, *arguments: str, check: bool = True, input_: bytes | None = None) -> bytes:
+    environment = {**os.environ, "GIT_NO_LAZY_FETCH": "1"}
+    words = ["git", "--git-dir", str(git), *arguments]
+    return subprocess.run(words, capture_output=True, check=check, input=input_, env=environment).stdout

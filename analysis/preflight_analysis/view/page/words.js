@@ -44,13 +44,14 @@ const qosShown = (qos) =>
     .map(([policy, value]) => `${policy} ${typeof value === "string" ? value : JSON.stringify(value)}`)
     .join(", ");
 
+/** @type {Record<string, string>} */
+const KNOWN_BY = { similar: "a similar run", catalogue: "the catalogue" };
+
 /** @param {GraphNode} node */
 function nodeShown(node) {
   const what = [node.package, node.executable].filter(Boolean).join("/");
   const how =
-    node.source === "none"
-      ? "what it does is not known"
-      : `known by ${node.source === "similar" ? "a similar run" : `its ${node.source}`}`;
+    node.source === "none" ? "what it does is not known" : `known by ${KNOWN_BY[node.source] ?? `its ${node.source}`}`;
   return [
     make("p", { className: "dim" }, `${node.kind} ${what}, from ${state.graph.files[node.file].shown}`),
     make("p", { className: "dim" }, `${how}; ${node.outcome}${node.reason ? `: ${node.reason}` : ""}`),

@@ -1,0 +1,38 @@
+"""What is known of packages: a file for each of a distribution."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+DATA = Path(__file__).with_name("data")
+INTERFACES = DATA / "interfaces"
+"""`DISTRIBUTION/PACKAGE.json`: what the executables, components and nodelets of a package do."""
+_KNOWN: Mapping[int, tuple[str, ...]] = {1: ("noetic",), 2: ("jazzy",)}
+"""The distributions of each generation of which packages are known. The first stands for those that are not."""
+_NAME = re.compile(r"\w[\w-]*\Z")
+_KEPT = 256
+
+
+def distribution_of(generation: int, distro: str | None) -> str:
+    """The distribution whose packages stand for those of `distro`."""
+    known = _KNOWN[generation]
+    return distro if distro is not None and distro in known else known[0]
+
+
+@lru_cache(maxsize=_KEPT)
+def interfaces_of(package: str, distro: str) -> Mapping[str, Any]:
+    """What is known of the nodes of a package: `source` (repository, commit, date), and by name `executables`,
+    `components` and `nodelets`; empty where nothing is."""
+    if not _NAME.match(package):
+        return {}
+    try:
+        text = (INTERFACES / distro / f"{package}.json").read_text()
+    except OSError:
+        return {}
+    found: Mapping[str, Any] = json.loads(text)
+    return found

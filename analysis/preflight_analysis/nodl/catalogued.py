@@ -1,0 +1,118 @@
+"""What the catalogue says of nodes of which nothing else is known: their package is not here, or has no source.
+
+It has them as the analysis read their source at the commit that it names, with no parameter set: the version that runs
+on the robot may be another, and do what those that are given to it decide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range, Role
+
+GROUPS: Mapping[Role, str] = {
+    "publisher": "publishers",
+    "subscriber": "subscriptions",
+    "service": "service_servers",
+    "client": "service_clients",
+    "action_server": "action_servers",
+    "action_client": "action_clients",
+}
+"""Where each kind of ends stands, as in NoDL."""
+_KEPT = 1024
+
+
+@dataclass(frozen=True, slots=True)
+class Catalogued:
+    """What a node does, and where that is from, in words."""
+
+    endpoints: tuple[Endpoint, ...]
+    params: tuple[ParamUse, ...]
+    nodes: tuple[MadeNode, ...]
+    evidence: str
+
+
+def from_catalogue(
+    tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment, kept: Kept
+) -> Sequence[Interface]:
+    """The interfaces of the nodes of `tree`, in order: of those that nothing is known of, what the catalogue says. A
+    package of the workspace is what it is there, whatever others of its name do."""
+    if all(interface.known for interface in interfaces):
+        return interfaces
+    distro = distribution_of(tree.generation, environment.distro)
+    return tuple(kept.each_row(_filled_in, (tree.nodes, interfaces), environment, distro))
+
+
+def _filled_in(node: LaunchNode, interface: Interface, environment: Environment, distro: str) -> Interface:
+    if interface.known or interface.pending or not node.package or read_annotation(node.action)[0] is not None:
+        return interface
+    package, kind, name = _place(node)
+    here, workspace = environment.packages.get(package), environment.workspace
+    if here is not None and workspace is not None and here.share.startswith(f"{workspace.rstrip('/')}/"):
+        return interface
+    found = catalogued(package, kind, name, distro)
+    if found is None:
+        return interface
+    whole = interface.with_more("catalogue", found.endpoints, found.params, found.nodes)
+    not_here = "its package is not installed here" if here is None else None
+    reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
+    return replace(whole, outcome=replace(whole.outcome, reason=reason))
+
+
+def _place(node: LaunchNode) -> tuple[str, str, str]:
+    """Package, kind and name under which the catalogue has a node."""
+    if node.plugin is not None:
+        return node.package, "components", node.plugin.removeprefix("::")
+    if node.package == "nodelet" and node.executable == "nodelet":
+        words = node.args.split()
+        if len(words) > 1 and words[0] in ("load", "standalone"):
+            # By convention the name begins with that of the package.
+            return words[1].partition("/")[0], "nodelets", words[1]
+    return node.package, "executables", node.executable
+
+
+@lru_cache(maxsize=_KEPT)
+def catalogued(package: str, kind: str, name: str, distro: str) -> Catalogued | None:
+    """What is known of a node; None where nothing is."""
+    of_package = interfaces_of(package, distro)
+    found = of_package.get(kind, {}).get(name)
+    if found is None:
+        return None
+    repository, commit, _ = of_package["source"]
+    evidence = f"the catalogue of {distro} ({repository} at {commit[:7]})"
+    return Catalogued(
+        tuple(
+            Endpoint(
+                role, each["name"], each.get("type"), None, each.get("qos", {}), inferred=True, catalogued=evidence
+            )
+            for role, group in GROUPS.items()
+            for each in found.get(group, ())
+        ),
+        tuple(_param(name, about, evidence) for name, about in found.get("parameters", {}).items()),
+        tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
+        evidence,
+    )
+
+
+def _param(name: str, about: Mapping[str, Any], evidence: str) -> ParamUse:
+    return ParamUse(
+        name,
+        about.get("access", "get"),
+        about.get("default_value"),
+        "default_value" in about or "has_default" in about,
+        "mandatory" in about,
+        inferred=True,
+        type=about.get("type"),
+        dynamic="dynamic" in about,
+        read_only="read_only" in about,
+        range=Range(*about["range"]) if "range" in about else None,
+        catalogued=evidence,
+    )

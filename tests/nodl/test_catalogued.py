@@ -1,0 +1,174 @@
+"""What the catalogue says of nodes whose package is not here."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.catalogue import packages
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.nodl import catalogued
+from preflight_analysis.tracing.interface import NOT_RUN, ParamUse, Range
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+COMMIT = "0123456789abcdef0123456789abcdef01234567"
+SCANNER = {
+    "publishers": [{"name": "scan", "type": "sensor_msgs/LaserScan", "qos": {"queue_size": 5}}],
+    "service_servers": [{"name": "~reset", "type": "std_srvs/Empty"}],
+    "parameters": {
+        "~rate": {"type": "double", "default_value": 10.0, "range": [0, 50, 0]},
+        "~port": {"mandatory": True},
+        "frame": {"access": "has"},
+    },
+}
+DATA = {
+    "source": ["makers/scanner", COMMIT, "2024-01-01"],
+    "executables": {"scan_node": SCANNER},
+    "nodelets": {"scanner/Scan": SCANNER},
+    "components": {"scanner::Scan": {"nodes": [["scanner", "", True]], **SCANNER}},
+}
+
+
+@pytest.fixture(autouse=True)
+def catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "catalogue"
+    for distro in ("noetic", "jazzy"):
+        (folder / distro).mkdir(parents=True)
+        (folder / distro / "scanner.json").write_text(json.dumps(DATA))
+    monkeypatch.setattr(packages, "INTERFACES", folder)
+    packages.interfaces_of.cache_clear()
+    catalogued.catalogued.cache_clear()
+
+
+def graph_of(tmp_path: Path, text: str, name: str = "a.launch", **files: str) -> Graph:
+    graph = analysed(tmp_path, text, name, **files).graph
+    assert graph is not None
+    return graph
+
+
+def analysed(tmp_path: Path, text: str, name: str = "a.launch", **files: str) -> Analysis:
+    folder = tmp_path / "ws" / "src" / "robot"
+    folder.mkdir(parents=True)
+    for path, content in {"package.xml": "<package><name>robot</name></package>", name: text, **files}.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(content)
+    environment = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path / "nowhere"))
+    workspace = Workspace(environment, Sources(), str(tmp_path / "ws"))
+    analysis = workspace.static(str(folder / name))
+    return workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), None)
+
+
+def known(graph: Graph) -> list[tuple[Any, ...]]:
+    return [(interface.source, len(interface.endpoints), len(interface.params)) for interface in graph.interfaces]
+
+
+def test_a_node_of_a_package_that_is_not_here(tmp_path: Path) -> None:
+    graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>')
+    (interface,) = graph.interfaces
+    evidence = "the catalogue of noetic (makers/scanner at 0123456)"
+    assert (interface.source, interface.outcome.status) == ("catalogue", "not-run")
+    assert interface.outcome.reason == f"its package is not installed here; known by {evidence}"
+    assert {(e.role, e.name, e.inferred, e.catalogued) for e in interface.endpoints} == {
+        ("publisher", "scan", True, evidence),
+        ("service", "~reset", True, evidence),
+    }
+    assert not interface.complete
+    assert interface.params[0] == ParamUse(
+        "~rate", "get", 10.0, True, inferred=True, type="double", range=Range(0, 50), catalogued=evidence
+    )
+    assert [(use.name, use.access, use.mandatory) for use in interface.params[1:]] == [
+        ("~port", "get", True),
+        ("frame", "has", False),
+    ]
+
+
+def test_nodelets_and_components(tmp_path: Path) -> None:
+    nodelets = graph_of(
+        tmp_path / "1",
+        '<launch><node pkg="nodelet" type="nodelet" name="m" args="manager"/>'
+        '<node pkg="nodelet" type="nodelet" name="s" args="load scanner/Scan m"/></launch>',
+    )
+    assert known(nodelets)[1] == ("catalogue", 2, 3)
+    components = graph_of(
+        tmp_path / "2",
+        '<launch><node_container pkg="rclcpp_components" exec="component_container" name="c">'
+        '<composable_node pkg="scanner" plugin="scanner::Scan" name="s"/></node_container></launch>',
+        "a.launch.xml",
+    )
+    found = [interface for interface in components.interfaces if interface.source == "catalogue"]
+    assert [[made.name for made in interface.nodes] for interface in found] == [["scanner"]]
+
+
+@pytest.mark.parametrize(("listener", "said"), [("scanner", []), ("hearer", ["TOP003"])])
+def test_types_that_differ_within_one_node_are_its_own_affair(tmp_path: Path, listener: str, said: list[str]) -> None:
+    other = {"subscriptions": [{"name": "scan", "type": "sensor_msgs/Image"}]}
+    scanner = {**SCANNER, **other} if listener == "scanner" else SCANNER
+    hearer = {} if listener == "scanner" else other
+    nodes = {"scan_node": scanner, "hear_node": hearer}
+    (packages.INTERFACES / "noetic" / "scanner.json").write_text(json.dumps({**DATA, "executables": nodes}))
+    text = "".join(f'<node pkg="scanner" type="{name}" name="{name}"/>' for name in nodes)
+    analysis = analysed(tmp_path, f"<launch>{text}</launch>")
+    assert [finding.rule for finding in analysis.findings if finding.rule == "TOP003"] == said
+
+
+def test_what_it_does_not_know_stays_unknown(tmp_path: Path) -> None:
+    graph = graph_of(
+        tmp_path,
+        '<launch><node pkg="scanner" type="other" name="a"/><node pkg="../scanner" type="scan_node" name="b"/>'
+        '<node pkg="somebody" type="scan_node" name="c"/></launch>',
+    )
+    assert known(graph) == [("none", 0, 0)] * 3
+
+
+def test_a_package_of_the_workspace_is_what_it_is_there(tmp_path: Path) -> None:
+    graph = graph_of(
+        tmp_path,
+        '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>',
+        **{"../scanner/package.xml": "<package><name>scanner</name></package>"},
+    )
+    assert known(graph) == [("none", 0, 0)]
+
+
+def test_an_annotation_is_the_user_s_word_for_all_of_it(tmp_path: Path) -> None:
+    graph = graph_of(
+        tmp_path,
+        '<launch><node pkg="scanner" type="scan_node" name="s"><!-- <topics><topic name="x" type="std_msgs/String" '
+        'class="pub"/></topics> --></node></launch>',
+    )
+    assert [(i.source, [e.name for e in i.endpoints]) for i in graph.interfaces] == [("annotation", ["x"])]
+
+
+def test_the_real_data_is_read_in_little_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(packages, "INTERFACES", packages.DATA / "interfaces")
+    files = sorted(packages.INTERFACES.rglob("*.json"), key=lambda path: path.stat().st_size)
+    assert len(files) > 100
+    for path in files:
+        for kind in ("executables", "components", "nodelets"):
+            for name in packages.interfaces_of(path.stem, path.parent.name).get(kind, {}):
+                assert catalogued.catalogued(path.stem, kind, name, path.parent.name) is not None
+    took = []
+    largest = files[-1]
+    for _ in range(5):
+        packages.interfaces_of.cache_clear()
+        begin = time.perf_counter()
+        packages.interfaces_of(largest.stem, largest.parent.name)
+        took.append(time.perf_counter() - begin)
+    assert min(took) < 0.02
+
+
+@pytest.mark.parametrize(
+    ("package", "executable", "ends"),
+    [("amcl", "amcl", {"initialpose", "scan", "static_map"}), ("map_server", "map_server", {"map"})],
+)
+def test_the_real_data_knows_the_common_nodes(
+    monkeypatch: pytest.MonkeyPatch, package: str, executable: str, ends: set[str]
+) -> None:
+    monkeypatch.setattr(packages, "INTERFACES", packages.DATA / "interfaces")
+    found = catalogued.catalogued(package, "executables", executable, "noetic")
+    assert found is not None
+    assert ends <= {end.name for end in found.endpoints}

@@ -1,0 +1,196 @@
+"""What the executables, components and nodelets of packages do, as this project's analysis reads their source."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+from preflight_analysis.catalogue.packages import INTERFACES
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Environment, Package, Packages
+from preflight_analysis.nodl.catalogued import GROUPS
+from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, SourceKey
+from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.tracing.interface import Endpoint
+
+from tools.catalogue.repositories import Snapshot
+from tools.catalogue.sources import GENERATIONS, OF_TESTS, SOURCES
+
+_LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
+_ARGUMENTS = ("preflight_first", "preflight_second")
+_OF_ALL = ("/rosout", "/clock", "~get_loggers", "~set_logger_level")
+_IN_TESTS = re.compile(r"/(?:tests?|examples?/tests?)/")
+_NO_NODES = re.compile(r"\.(?:h|hh|hpp|c|cc|cpp|cxx|txt|md|rst|xml|yaml|sh|bash|rviz|launch)\Z|\Atest_|_test\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Laid:
+    """Snapshots of one distribution's repositories, laid out as a workspace. `sources` has repository, commit and date
+    by the folder of each."""
+
+    distro: str
+    folder: Path
+    environment: Environment
+    sources: Mapping[str, tuple[str, str, str]]
+
+    def source_of(self, package: Package) -> tuple[str, str, str]:
+        """Repository, commit and date."""
+        return self.sources[self.folder_of(package)]
+
+    def folder_of(self, package: Package) -> str:
+        """The folder of its repository."""
+        return Path(package.share).relative_to(self.folder / "src").parts[0]
+
+
+def write_interfaces(sources: Path) -> None:
+    """Write the data of all packages anew."""
+    shutil.rmtree(INTERFACES, ignore_errors=True)
+    for distro in GENERATIONS:
+        with tempfile.TemporaryDirectory() as folder, ProcessPoolExecutor(2) as pool:
+            laid = lay_out(sources, distro, Path(folder))
+            repositories = sorted(laid.sources)
+            done = pool.map(_of_repository, [laid] * len(repositories), repositories)
+            count = sum(_write(laid, package, found) for found_all in done for package, found in found_all)
+            print(f"{distro}: {count} nodes", flush=True)
+
+
+def lay_out(sources: Path, distro: str, folder: Path) -> Laid:
+    """The workspace, below a folder."""
+    of: dict[str, tuple[str, str, str]] = {}
+    for repository, branches in SOURCES.items():
+        if distro in branches:
+            snapshot = Snapshot.of(sources, repository, branches[distro])
+            name = repository.replace("/", "+")
+            snapshot.unpack(folder / "src" / name)
+            of[name] = (repository, snapshot.commit, snapshot.date)
+    environment = detect_environment(str(folder), {"ROS_DISTRO": distro}, root=str(folder / "nowhere"))
+    return Laid(distro, folder, environment, of)
+
+
+def _write(laid: Laid, package: Package, found: Mapping[str, Mapping[str, Any]]) -> int:
+    if not any(found.values()):
+        return 0
+    repository, commit, date = laid.source_of(package)
+    lines = [f'"source": {json.dumps([repository, commit, date])}']
+    for kind, nodes in found.items():
+        rows = (f"{json.dumps(name)}: {json.dumps(node)}" for name, node in sorted(nodes.items()))
+        lines += [f'"{kind}": {{\n' + ",\n".join(rows) + "\n}"] if nodes else []
+    path = INTERFACES / laid.distro / f"{package.name}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("{" + ",\n".join(lines) + "}\n")
+    return sum(map(len, found.values()))
+
+
+def _of_repository(laid: Laid, name: str) -> list[tuple[Package, dict[str, dict[str, Any]]]]:
+    """What is known of the packages of a repository. The client libraries, and what others build on them, are known to
+    the analysis by their calls: it does not follow them into their source."""
+    everywhere = laid.environment.packages.items()
+    own = {key: package for key, package in everywhere if laid.folder_of(package) == name and key not in _LIBRARIES}
+    messages = {key: package for key, package in everywhere if key.endswith(("_msgs", "_interfaces"))}
+    environment, disk = replace(laid.environment, packages=Packages({**messages, **own})), Disk()
+    wanted = [package for key, package in sorted(own.items()) if not OF_TESTS.search(key)]
+    return [(package, _of_package(environment, disk, package)) for package in wanted]
+
+
+def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[str, dict[str, Any]]:
+    analysis, index = SourceAnalysis(environment, disk), ExecutableIndex(environment, disk)
+    executables, components, nodelets = {}, {}, {}
+    for name in index.names(package.name):
+        found = index.find(package.name, name)
+        path = found.path or next(iter(found.not_executable), None)
+        if _NO_NODES.search(name) or (path is not None and _IN_TESTS.search(path.removeprefix(package.share))):
+            continue
+        key = SourceKey(path, found.entry_point, package.name, name, None, "/node", "", ())
+        said = _read(analysis, [key, *(key._replace(args=" ".join(_ARGUMENTS[:count])) for count in (1, 2))])
+        if said is not None:
+            executables[name] = said
+    for cls in index.components(package.name):
+        said = _read(analysis, [SourceKey(None, None, package.name, "", cls, "/node", "", ())])
+        if said is not None:
+            components[cls] = said
+    for plugin in _nodelets(package) if not package.is_ament else ():
+        said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, "/node", f"standalone {plugin}", ())])
+        if said is not None:
+            nodelets[plugin] = said
+    return {"executables": executables, "components": components, "nodelets": nodelets}
+
+
+def _nodelets(package: Package) -> Iterator[str]:
+    """The names of those that the package exports."""
+    try:
+        manifest = etree.parse(package.manifest)
+    except (OSError, etree.XMLSyntaxError):
+        return
+    for export in manifest.iterfind("./export/nodelet"):
+        path = (export.get("plugin") or "").replace("${prefix}", package.share)
+        try:
+            text = Path(path).read_bytes()
+            root = etree.fromstring(b"<all>" + re.sub(rb"<\?xml[^>]*\?>", b"", text) + b"</all>")
+        except (OSError, etree.XMLSyntaxError):
+            continue
+        for each in root.iter("class"):
+            if each.get("base_class_type") == "nodelet::Nodelet":
+                yield str(each.get("name") or (each.get("type") or "").replace("::", "/"))
+
+
+def _read(analysis: SourceAnalysis, keys: Sequence[SourceKey]) -> dict[str, Any] | None:
+    """The facts of the first that has any: a program may need arguments. What is named by them is nobody's fact."""
+    for said in analysis.read_each(keys, LaunchParams({})):
+        if said is not None:
+            facts = _facts(said)
+            if not facts.keys() <= {"nodes"}:
+                return facts
+    return None
+
+
+def _facts(said: SourceInterface) -> dict[str, Any]:
+    """The facts of an interface, in the groups of NoDL."""
+    facts: dict[str, Any] = {}
+    for role, group in GROUPS.items():
+        ends = [e for e in said.endpoints if e.role == role and not _is_common(e)]
+        rows = [
+            {"name": e.name, **({"type": e.type} if e.type else {}), **({"qos": dict(e.qos)} if e.qos else {})}
+            for e in ends
+        ]
+        if rows:
+            facts[group] = rows
+    params: dict[str, Any] = {}
+    for use in said.params:
+        if use.builtin:
+            continue
+        about = {
+            **({"access": use.access} if use.access != "get" else {}),
+            **({"type": use.type} if use.type else {}),
+            **({"default_value": use.default} if use.has_default and _is_fact(use.default) else {}),
+            **({"has_default": True} if use.has_default and not _is_fact(use.default) else {}),
+            **{flag: True for flag in ("mandatory", "dynamic", "read_only") if getattr(use, flag)},
+            **({"range": [use.range.low, use.range.high, use.range.step]} if use.range is not None else {}),
+        }
+        params.setdefault(use.name, about)
+    if params:
+        facts["parameters"] = params
+    if said.nodes:
+        facts["nodes"] = [[made.given, made.space, made.renamed] for made in said.nodes]
+    return facts
+
+
+def _is_common(end: Endpoint) -> bool:
+    """Whether each node has it, or it is named by an argument."""
+    return end.builtin or end.name in _OF_ALL or any(argument in end.name for argument in _ARGUMENTS)
+
+
+def _is_fact(value: Any) -> bool:
+    """Whether a default is a plain value, and short: a text of others is none."""
+    if isinstance(value, list):
+        return len(value) <= 64 and all(map(_is_fact, value))
+    return isinstance(value, (bool, int, float)) or (isinstance(value, str) and len(value) <= 100 and "\n" not in value)
