@@ -226,10 +226,20 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
         ("/a/b.sh: line 5: pyhton: command not found", None),
         ("RLException: [x.launch] is neither a launch file in package [elsewhere] nor is", ("package", "elsewhere")),
         ("Could not find library corresponding to plugin p/Logger. Make sure that", ("build", "p")),
+        (
+            "  File \"/usr/lib/python3.11/os.py\", in __getitem__, os.environ\nKeyError: 'ROS_DISTRO'",
+            ("variable", "ROS_DISTRO"),
+        ),
+        ("KeyError: 'ROS_DISTRO'", None),
+        (
+            "  subprocess.run(['sudo'])\nFileNotFoundError: [Errno 2] No such file or directory: 'sudo'",
+            ("program", "sudo"),
+        ),
+        ("FileNotFoundError: [Errno 2] No such file or directory: 'model'", None),
     ],
 )
 def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | None) -> None:
-    interface = {"status": "crashed", "exit_code": 1, "stderr": [said]}
+    interface = {"status": "crashed", "exit_code": 1, "stderr": said.splitlines()}
     found = findings_of(f"""
         <launch><node pkg="p" type="t" name="n"/></launch>
         //- interfaces

@@ -35,6 +35,8 @@ _NO_PROGRAM = re.compile(
 _NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
 """How pluginlib says it of a package that has not been built."""
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
+_NO_KEY = re.compile(r"KeyError: '(\w+)'")
+_NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
 _MADE = ("msg", "srv", "action", "cfg")
 """Modules of a package that its build makes."""
 _LONG = 5
@@ -132,6 +134,17 @@ def lack_of_module(context: Context, module: str) -> Lack | None:
         return lack_of_package(context, top)
     near = nearest(top, packages)
     return None if near is not None and is_slip_of_words(top, near) else Lack("module", top)
+
+
+def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lack | None:
+    """What a program in Python lacked, by the last line of its traceback and the rest of it: a variable of the
+    environment, a program that it starts."""
+    whole = "\n".join(traceback)
+    if (found := _NO_KEY.fullmatch(last)) and "environ" in whole:
+        return lack_of_variable(context, found[1])
+    if (found := _NOT_STARTED.fullmatch(last)) and "subprocess" in whole:
+        return lack_of_program(context, found[1])
+    return None
 
 
 def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:

@@ -19,6 +19,9 @@ from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, Rule
 
+_GENERIC = frozenset(("cpp", "driver", "msgs", "node", "py", "ros", "ros2", "srvs"))
+"""Words that packages of all kinds have in their names."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     meant = cache(partial(_meant, context))
@@ -115,13 +118,16 @@ def _strangers(context: Context) -> frozenset[str]:
 
 def _of_like_words(context: Context, name: str) -> str | None:
     """The one package of the workspace whose name differs in one word, or has some more: as before a rename."""
-    words = name.split("_")
+    words, environment = name.split("_"), context.environment
+    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     here = []
-    for package in context.environment.packages.values():
+    for package in environment.packages.values():
+        if package.share.startswith(installed):
+            continue
         others = package.name.split("_")
         differing = sum(a != b for a, b in zip(words, others, strict=False))
         one_word = len(words) == len(others) > 1 and differing == 1
-        if one_word or set(words) < set(others):
+        if (one_word or set(words) < set(others)) and not _GENERIC.issuperset(set(words) & set(others)):
             here.append(package.name)
     return here[0] if len(here) == 1 else None
 

@@ -7,8 +7,9 @@ from itertools import compress
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.installed import lack_said
+from preflight_analysis.rules.installed import lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -41,8 +42,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity="info" if ours or reported else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
-            lack=lack_said(context, (outcome.reason or "", telling_line(outcome.stderr_tail))),
+            lack=_lack(context, outcome),
         )
+
+
+def _lack(context: Context, outcome: Outcome) -> Lack | None:
+    telling = telling_line(outcome.stderr_tail)
+    said = lack_said(context, (outcome.reason or "", telling))
+    return said if said is not None else lack_of_python(context, telling, outcome.stderr_tail)
 
 
 def _failed(interface: Interface) -> bool:
