@@ -246,3 +246,101 @@ def generate_launch_description():
         assert f'"{side}"' in values[name]
     assert (values["/four"], values["/five"]) == ("[5]", "[]")
     assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
+
+
+def test_helpers_of_navigation_that_are_not_here_have_their_behaviour(harness: PythonHarness) -> None:
+    harness.write(
+        "params.yaml",
+        """
+        amcl:
+          ros__parameters:
+            use_sim_time: false
+            scan_topic: <robot>/scan
+            limits: {speed: 0.5}
+        """,
+    )
+    tree = tree_of(
+        harness,
+        """
+from nav2_common.launch import HasNodeParams, LaunchConfigAsBool, ReplaceString, RewrittenYaml
+
+def generate_launch_description():
+    file = os.path.join(get_package_share_directory("p"), "params.yaml")
+    rewritten = RewrittenYaml(
+        source_file=ReplaceString(source_file=file, replacements={"<robot>": LaunchConfiguration("robot")}),
+        root_key=LaunchConfiguration("robot"),
+        param_rewrites={"use_sim_time": LaunchConfiguration("sim"), "amcl.ros__parameters.limits.speed": "0.25",
+                        "amcl.ros__parameters.added": "1"},
+        convert_types=True,
+    )
+    return LaunchDescription([
+        DeclareLaunchArgument("robot", default_value="r1"),
+        DeclareLaunchArgument("sim", default_value="True"),
+        Node(package="p", executable="x", name="amcl", namespace="r1", parameters=[rewritten],
+             condition=IfCondition(LaunchConfigAsBool("sim"))),
+        Node(package="p", executable="x", name="other", condition=IfCondition(HasNodeParams(file, "other"))),
+    ])
+""",
+    )
+    assert names(tree) == ["/r1/amcl"]
+    values = {param.name: param.value for param in tree.nodes[0].params}
+    assert values == {"use_sim_time": True, "scan_topic": "r1/scan", "limits.speed": 0.25, "added": 1}
+    assert tree.complete
+
+
+def test_helpers_of_moveit_that_are_not_here_have_their_behaviour(harness: PythonHarness) -> None:
+    harness.write("config/arm.urdf.xacro", '<robot name="arm"><link name="base"/></robot>')
+    harness.write("config/arm.srdf", '<robot name="arm"><virtual_joint parent_frame="map" child_link="base"/></robot>')
+    harness.write("config/moveit_controllers.yaml", "moveit_simple_controller_manager:\n  controller_names: [one]\n")
+    harness.write(
+        "launch/rsp.launch.py",
+        "from launch import *\ndef generate_launch_description():\n    return LaunchDescription([])\n",
+    )
+    tree = tree_of(
+        harness,
+        """
+from moveit_configs_utils import MoveItConfigsBuilder
+from moveit_configs_utils.launches import *
+
+def generate_launch_description():
+    config = MoveItConfigsBuilder("arm", package_name="p").to_moveit_configs()
+    return LaunchDescription([
+        generate_rsp_launch(config), generate_static_virtual_joint_tfs_launch(config),
+        generate_spawn_controllers_launch(config), generate_move_group_launch(config),
+        generate_moveit_rviz_launch(config), generate_setup_assistant_launch(config),
+        generate_warehouse_db_launch(config), Node(package="p", executable="x", parameters=[config.to_dict()]),
+    ])
+""",
+    )
+    started = [node.executable for node in tree.nodes]
+    assert started[:6] == [
+        "robot_state_publisher",
+        "static_transform_publisher",
+        "spawner",
+        "spawner",
+        "move_group",
+        "rviz2",
+    ]
+    assert '"base"' in {param.name: str(param.value) for param in tree.nodes[0].params}["robot_description"]
+    assert tree.nodes[1].args == "--frame-id map --child-frame-id base"
+    assert [node.args for node in tree.nodes[2:4]] == ["one", "joint_state_broadcaster"]
+    assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
+
+
+def test_what_a_known_helper_package_has_besides_is_unknown(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+from nav2_common.launch import SomethingNew
+from launch_pal.robot_utils import get_robot_name
+
+def generate_launch_description():
+    return LaunchDescription([get_robot_name("x"), Node(package="p", executable="x", name="one",
+                              parameters=[{"a": SomethingNew("b"), "c": 1}])])
+""",
+    )
+    assert {p.kind.module for p in tree.problems if isinstance(p.kind, PythonImportFailed)} == {
+        "nav2_common",
+        "launch_pal",
+    }
+    assert [(param.name, param.value) for param in tree.nodes[0].params] == [("c", 1)]

@@ -12,12 +12,14 @@ import sys
 import types
 from typing import Any, Optional
 
+from ..anything import member
 from ..missing_modules import MissingModules
 from . import settings
 from .base import RECORDER
 from .tables import FALLBACK, SIBLINGS, TABLE
 
 _TOP = {name.partition(".")[0] for name in TABLE}
+_FALLBACK_TOP = {name.partition(".")[0] for name in FALLBACK}
 
 
 def _snake(name: str) -> str:
@@ -61,14 +63,41 @@ def _anything(name: str) -> Any:
     return importlib.import_module(below) if below in TABLE else _Anything
 
 
+def _more(module: str) -> Any:
+    """What a module has that is not here, and of which not all is known."""
+    made: dict[str, Any] = {}
+
+    def attribute(name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        _miss(module)
+        return member(made, module, name)
+
+    return attribute
+
+
+def _stands_in(name: str) -> bool:
+    """Whether a module is of a package that is not here, and of which we have some modules."""
+    top = name.partition(".")[0]
+    spec = getattr(sys.modules.get(top), "__spec__", None)
+    return top in _FALLBACK_TOP and isinstance(getattr(spec, "loader", None), _Loader)
+
+
+def _miss(name: str, *_: Any) -> None:
+    top = name.partition(".")[0]
+    RECORDER.miss("module", top if top in _FALLBACK_TOP else name)
+
+
 class _Loader(importlib.abc.Loader):
-    def __init__(self, contents: dict[str, Any]) -> None:
-        self._contents = contents
+    def __init__(self, contents: dict[str, Any], *, stands_in: bool) -> None:
+        self._contents, self._stands_in = contents, stands_in
 
     def create_module(self, spec: Any) -> Any:
         module = types.ModuleType(spec.name)
         if spec.name.partition(".")[0] == "launch_testing":
             module.__getattr__ = _anything  # type: ignore[method-assign]
+        if self._stands_in:
+            module.__getattr__ = _more(spec.name)  # type: ignore[method-assign]
         vars(module).update(self._contents)
         return module
 
@@ -86,7 +115,8 @@ class _Finder(importlib.abc.MetaPathFinder):
             if fullname.partition(".")[0] in _TOP and self._table is TABLE:
                 raise ModuleNotFoundError(f"No module named '{fullname}'", name=fullname)
             return None
-        spec = importlib.machinery.ModuleSpec(fullname, _Loader(contents), is_package=True)
+        loader = _Loader(contents, stands_in=self._table is FALLBACK)
+        spec = importlib.machinery.ModuleSpec(fullname, loader, is_package=True)
         spec.submodule_search_locations = []
         return spec
 
@@ -141,7 +171,7 @@ class _OwnXacro(importlib.abc.MetaPathFinder):
 def install() -> None:
     """From now on these modules are ours."""
     sys.meta_path.insert(0, _Finder(TABLE))
-    missing = MissingModules(lambda name, file, line: RECORDER.miss("module", name))
+    missing = MissingModules(_miss, _stands_in)
     found: list[Any] = [_PackageFinder(), _Finder(FALLBACK), _OwnXacro(), missing]
     sys.meta_path.extend(found)
     # `import launch; launch.actions.Node`: launch itself imports these.
