@@ -6,7 +6,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from preflight_analysis.evaluation.problems import PackageNotFound, PythonException, PythonImportFailed, UnsetVariable
+from preflight_analysis.evaluation.problems import (
+    PackageNotFound,
+    PythonException,
+    PythonImportFailed,
+    UndeclaredArgument,
+    UnsetVariable,
+)
 from preflight_analysis.evaluation.ros2 import unknown_text
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing.agents import anything
@@ -344,3 +350,20 @@ def generate_launch_description():
         "launch_pal",
     }
     assert [(param.name, param.value) for param in tree.nodes[0].params] == [("c", 1)]
+
+
+def test_a_configuration_that_nobody_declares_is_unknown_in_a_function(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+def start(context):
+    name = LaunchConfiguration("robot_nam").perform(context)
+    return [Node(package="p", executable="x", name="one", arguments=[name])]
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("robot_name", default_value="r"), OpaqueFunction(function=start)])
+""",
+    )
+    assert [(p.kind, p.fatal) for p in tree.problems] == [(UndeclaredArgument("robot_nam", ("robot_name",)), True)]
+    assert names(tree) == ["/one"]

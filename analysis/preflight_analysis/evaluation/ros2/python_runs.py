@@ -28,6 +28,7 @@ from preflight_analysis.evaluation.problems import (
     PackageNotFound,
     PythonException,
     PythonImportFailed,
+    UndeclaredArgument,
     UnsetVariable,
 )
 from preflight_analysis.evaluation.ros2.context import Configuration, Context, Place, PythonRun
@@ -108,7 +109,7 @@ def recorded(
         at = launch_file.document.location(document.problems[0].span)
         state.note_unknown(launch_file.path, "it cannot be run as it is", at)
     else:
-        reply = _ask(state, place, run, place.origin(whole), sure=True)
+        reply = _ask(state, context, place, run, place.origin(whole), sure=True)
     if reply is None and (last := _last_good(state, run)) is not None:
         run, reply, edited = last
         wrong = (*(p.span for p in document.problems), *(p.location.span for p in state.problems[problems:]))
@@ -171,7 +172,7 @@ def called(
     files = {path: document.text for path, document in state.made.items() if path in given}
     run = replace(place.run, calls=(*place.run.calls, call), files={**place.run.files, **files})
     unknowns, problems = len(state.unknowns), len(state.problems)
-    reply = _ask(state, place, run, place.origin(at), sure=complete)
+    reply = _ask(state, context, place, run, place.origin(at), sure=complete)
     if reply is None and not run.replaced and (last := _last_good(state, run)) is not None:
         run, reply, edited = last
         state.edited.setdefault(run.file, Edited(edited, frozenset(p.location.span for p in state.problems[problems:])))
@@ -224,7 +225,9 @@ def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
     return found, complete
 
 
-def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure: bool) -> _Reply | None:
+def _ask(
+    state: Collector, context: Context, place: Place, run: PythonRun, origin: Origin, *, sure: bool
+) -> _Reply | None:
     """The answer to a run, None if there is none or it has failed. `sure`: all that the run was given is known, so
     that its failure is one of the file."""
     line = request(run)
@@ -251,7 +254,7 @@ def _ask(state: Collector, place: Place, run: PythonRun, origin: Origin, *, sure
         if state.files.exists(path):
             continue  # a file of the host's is what it is, whatever the run says
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
-    _missed(state, place, run, reply.get("missed"), origin)
+    _missed(state, context, place, run, reply.get("missed"), origin)
     error = reply.get("error")
     if isinstance(error, dict):
         _raised(state, place, run, error, origin, sure=sure)
@@ -282,14 +285,18 @@ def _actions(output: str, source: PythonSource, around: Span, python: PythonClas
     return actions_of(_read(output).get("actions"), source, around, python)
 
 
-def _missed(state: Collector, place: Place, run: PythonRun, missed: object, origin: Origin) -> None:
-    """The modules, packages and variables that were not there, and for which something stood in: each where it is
-    asked for first."""
+def _missed(state: Collector, context: Context, place: Place, run: PythonRun, missed: object, origin: Origin) -> None:
+    """The modules, packages, variables and configurations that were not there, and for which something stood in: each
+    where it is asked for first."""
     for each in missed if isinstance(missed, list) else ():
         match each:
             case ["variable", str(name), at] if name in state.environment.variables:
                 there = _line(place, run, at, origin)[-1]
                 state.note_unknown(name, f"the sandbox is not told what {name} is", there)
+            case ["configuration", str(name), at]:
+                scope = context.scope
+                undeclared = UndeclaredArgument(name, tuple(sorted(scope.configurations)), scope.not_followed)
+                state.problem(undeclared, _line(place, run, at, origin), fatal=scope.not_followed is None)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
 

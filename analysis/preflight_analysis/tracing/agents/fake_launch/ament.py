@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import pathlib
-import sys
 from typing import Any
 
 from ..anything import unknown_text
 from ..missing_modules import provided_for
-from .base import OURS, RECORDER
+from .base import RECORDER, caller
 
 _NOT_FOUND = ("PackageNotFoundError", "KeyError", "LookupError")
 
@@ -24,19 +23,11 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
     try:
         return RECORDER.packages[package_name]
     except (KeyError, TypeError):
-        if not isinstance(package_name, str) or provided_for(_caller(), _NOT_FOUND):
+        if not isinstance(package_name, str) or provided_for(caller(), _NOT_FOUND):
             searched = f"package '{package_name}' not found, searching: {get_search_paths()}"
             raise PackageNotFoundError(searched) from None
     RECORDER.miss("package", package_name)
     return unknown_text(f"the share folder of {package_name}")
-
-
-def _caller() -> Any:
-    """The frame of the code that is not ours."""
-    frame: Any = sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(OURS):
-        frame = frame.f_back
-    return frame
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> pathlib.Path:

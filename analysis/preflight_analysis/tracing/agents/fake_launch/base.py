@@ -67,6 +67,14 @@ class Recorder:
 RECORDER = Recorder()
 
 
+def caller() -> Any:
+    """The frame of the code that is not ours."""
+    frame: Any = sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(OURS):
+        frame = frame.f_back
+    return frame
+
+
 class Made:
     """Whatever remembers where it was made."""
 

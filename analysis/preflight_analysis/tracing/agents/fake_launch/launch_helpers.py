@@ -40,8 +40,14 @@ def generate_controllers_spawner_launch_description(
 
 
 def generate_load_controller_launch_description(
-    controller_name: Any, controller_params_file: Any = None, extra_spawner_args: Any = ()
+    controller_name: Any,
+    controller_params_file: Any = None,
+    extra_spawner_args: Any = (),
+    *,
+    controller_type: Any = None,
 ) -> LaunchDescription:
+    """`controller_type` is one in Humble."""
+    extra_spawner_args = [*(["--controller-type", controller_type] if controller_type else ()), *extra_spawner_args]
     files = [controller_params_file] if controller_params_file else None
     return generate_controllers_spawner_launch_description([controller_name], files, extra_spawner_args)
 

@@ -11,15 +11,20 @@ import shutil
 import subprocess
 from typing import Any, Optional
 
+from ..anything import unknown_text
+from ..missing_modules import provided_for
 from .base import (
     RECORDER,
     LaunchContext,
     NotHereError,
     Substitution,
+    caller,
     ensure_argument_type,
     normalize_to_list_of_substitutions,
 )
 from .worded import Parts, SubstitutionFailure, Worded
+
+_FAILURE = ("SubstitutionFailure", "RuntimeError")
 
 
 class LaunchConfiguration(Worded):
@@ -51,7 +56,10 @@ class LaunchConfiguration(Worded):
             return str(context.launch_configurations[name])
         if len(self.words) == 2:
             return self._text(context, 1)
-        raise SubstitutionFailure(f"launch configuration '{name}' does not exist")
+        if provided_for(caller(), _FAILURE):
+            raise SubstitutionFailure(f"launch configuration '{name}' does not exist")
+        RECORDER.miss("configuration", name)
+        return unknown_text(name)
 
 
 class _WithDefault(Worded):
@@ -78,7 +86,10 @@ class EnvironmentVariable(_WithDefault):
             return str(context.environment[name])
         if len(self.words) == 2:
             return self._text(context, 1)
-        raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+        if provided_for(caller(), _FAILURE):
+            raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+        RECORDER.miss("variable", name)
+        return unknown_text(f"the variable {name}")
 
 
 class PathJoinSubstitution(Worded):

@@ -14,6 +14,7 @@ import io
 import os
 import pathlib
 import sys
+import xml.dom.minidom
 from typing import Any, Callable
 
 from ..anything import BEGIN, Anything, is_unknown, unknown_text
@@ -94,12 +95,15 @@ def _guard(module: Any, names: Any) -> None:
 
 
 def _guarded(function: Any, name: str) -> Any:
+    def unknown() -> Any:
+        return _Document(name) if name.startswith("xacro.") else Anything(name)
+
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
         if sys._getframe(1).f_globals.get("__name__", "").partition(".")[0] == "xacro":
             return function(*args, **kwargs)  # its own functions are guarded as a whole
         if any(map(_is_of_unknown, args)) or any(map(_is_of_unknown, kwargs.values())):
-            return Anything(name)
+            return unknown()
         try:
             return function(*args, **kwargs)
         except Exception as error:
@@ -107,9 +111,23 @@ def _guarded(function: Any, name: str) -> Any:
                 raise
             if not RECORDER.unknown:
                 raise
-            return Anything(name)  # it reads other files, which may be in a folder that is not known
+            return unknown()  # it reads other files, which may be in a folder that is not known
 
     return called
+
+
+class _Document(xml.dom.minidom.Document):
+    """A robot description that is not known."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self._unknown = name
+        self.appendChild(self.createElement("robot"))
+
+    def toxml(self, *args: Any, **kwargs: Any) -> Any:
+        return unknown_text(self._unknown)
+
+    toprettyxml = toxml
 
 
 def _is_of_unknown(value: Any) -> bool:
