@@ -311,7 +311,9 @@ def _saying(db: Database, name: str, meant: str) -> tuple[str, Mapping[str, str]
     MADE.append(name)
     text = TEXT(db, name)
     inside = db.part((name, text), lambda: text.upper())
-    return f"{inside} {meant}".strip(), ({"meant": meant} if "?" in text else {})
+    if "?" not in text:
+        return inside, {}
+    return f"{inside} {meant}{TEXT(db, meant)}", {"meant": meant}
 
 
 def test_parts_are_made_again_where_they_would_be_answered_otherwise() -> None:
@@ -319,12 +321,12 @@ def test_parts_are_made_again_where_they_would_be_answered_otherwise() -> None:
     change(db, "a", "what is ?")
     change(db, "b", "nothing")
     change(db, "list", "X a b")
-    assert sayings(db, "list") == ("WHAT IS ? X", "NOTHING X")
+    assert sayings(db, "list") == ("WHAT IS ? X", "NOTHING")
     MADE.clear()
     change(db, "list", "Y a b")
-    assert sayings(db, "list") == ("WHAT IS ? Y", "NOTHING X"), "b has not asked"
+    assert sayings(db, "list") == ("WHAT IS ? Y", "NOTHING"), "b has not asked"
     change(db, "list", "X a b Y a b")
-    assert sayings(db, "list") == ("WHAT IS ? X", "NOTHING X", "WHAT IS ? Y", "NOTHING X")
+    assert sayings(db, "list") == ("WHAT IS ? X", "NOTHING", "WHAT IS ? Y", "NOTHING")
     assert MADE == ["a"]
 
 
@@ -338,9 +340,11 @@ def test_what_parts_were_made_of_is_not_forgotten() -> None:
         assert sayings(db, "list") == ("WHAT IS ? Y",)
         change(db, "other", f"{number}")
         TEXT(db, f"unused {number}")
-    change(db, "a", "who is ?")
+    OUTSIDE["X"] = ", the letter"
+    with db.writing() as write:
+        write.reload(TEXT, "X")
     change(db, "list", "X a")
-    assert sayings(db, "list") == ("WHO IS ? X",)
+    assert sayings(db, "list") == ("WHAT IS ? X, the letter",)
 
 
 class Answering:
