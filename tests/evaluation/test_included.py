@@ -9,7 +9,7 @@ from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.evaluation.commands import NoResults
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
-from preflight_analysis.evaluation.ros1.included import Surroundings
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.workspace.sources import Sources

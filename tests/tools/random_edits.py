@@ -1,13 +1,14 @@
 """Random edits in a small workspace: what is remembered between them must not show.
 
-  python tests/tools/random_edits.py FOLDER [--seed N] [--edits N] [--seconds N]
+  python tests/tools/random_edits.py FOLDER [--generation 2] [--seed N] [--edits N] [--seconds N]
 
-FOLDER has packages. Each seed copies a few launch files that include each other, and the YAML files that they name, and
-edits them as people do: pieces of other files typed character by character, pasted, deleted, undone; files saved,
-closed, opened, created and deleted. After each edit one long-lived `Workspace` is asked about one of its launches, and
-so is a new one that has just read the same texts: trees (values, problems, uses, origins), documents and findings must
-be the same, also with a graph of made-up interfaces, and nothing may be logged as an error. The texts themselves go
-through the server's `TextStore`, as ranges in one of LSP's encodings, and must stay those of the editor.
+FOLDER has packages, of ROS 1 or ROS 2. Each seed copies a few launch files that include each other, and the YAML files
+that they name, and edits them as people do: pieces of other files typed character by character, pasted, deleted,
+undone; files saved, closed, opened, created and deleted. After each edit one long-lived `Workspace` is asked about one
+of its launches, and so is a new one that has just read the same texts: trees (values, problems, uses, origins),
+documents and findings must be the same, also with a graph of made-up interfaces, and nothing may be logged as an error.
+The texts themselves go through the server's `TextStore`, as ranges in one of LSP's encodings, and must stay those of
+the editor.
 """
 
 from __future__ import annotations
@@ -41,12 +42,12 @@ from support.logged_errors import LoggedErrors
 LONGEST = 6_000
 """Of a file, in characters: many edits in small files find more than few in large ones."""
 EDITS_IN_ONE_WORKSPACE = 400
-_FIND = re.compile(r"\$\(find ([\w-]+)\)/([\w./-]+)")
+_FIND = re.compile(r"\$\(find(?:-pkg-share)? ([\w-]+)\)/([\w./-]+)")
 _BESIDE = re.compile(r"\$\(dirname\)/([\w./-]+)")
 _VALUE = re.compile(r'"([^"<]*)"')
 _NAME = re.compile(r"[A-Za-z]\w*")
-_ARG = re.compile(r'<arg\s+name="(\w+)"')
-ODDITIES = (
+_ARG = re.compile(r'<arg\s+name="(\w+)"|- arg:\s*{? *name: (\w+)')
+_ROS1_ODDITIES = (
     '<node pkg="p" type="t" name="$(anon n)"/>',
     '<node pkg="p" type="t" name="n"/>',
     '<node pkg="p" type="t" name="n" ns="a" machine="m" clear_params="true">\n  <param name="x" value="1"/>\n</node>',
@@ -88,12 +89,100 @@ ODDITIES = (
     "key: [1, 2.0, {a: b}]\n",
     "*alias\n",
 )
-NEW = (
+_ROS1_NEW = (
     '<launch>\n  <arg name="a" default="0"/>\n  <node pkg="p" type="t" name="$(anon n)"/>\n'
     '  <param name="x" value="$(arg a)"/>\n</launch>\n',
     '<launch>\n  <arg name="a"/>\n  <env name="E" value="1"/>\n  <remap from="x" to="w"/>\n'
     '  <machine name="m" address="localhost" default="true"/>\n  <param name="~private" value="new"/>\n</launch>\n',
 )
+_ROS2_ODDITIES = (
+    '<node pkg="p" exec="t" name="$(anon n)"/>',
+    '<node pkg="p" exec="t" name="n"/>',
+    '<node pkg="p" exec="t" name="n" namespace="a" args="$(dirname)">\n  <param name="x" value="1"/>\n</node>',
+    '<node pkg="p" exec="t"><param from="$(dirname)/new.yaml"/><param name="x" value="$(var a)"/></node>',
+    '<node pkg="p" exec="$(var b)" name="m"><remap from="x" to="$(env E none)"/><env name="F" value="1"/></node>',
+    '<node_container pkg="c" exec="t" name="n" namespace="/">\n<composable_node pkg="p" plugin="P" name="$(anon c)"'
+    ' if="$(var a)"/>\n</node_container>',
+    '<load_composable_node target="n"><composable_node pkg="p" plugin="P" name="l"/></load_composable_node>',
+    '<executable cmd="echo $(var a) $(anon n)"/>',
+    '<arg name="a" default="1"/>',
+    '<arg name="a"/>',
+    '<arg name="b" default="$(var a)$(var a)"><choice value="x"/></arg>',
+    '<let name="a" value="true"/>',
+    '<let name="b" value="$(var a)-$(var b \'none\')"/>',
+    '<set_env name="E" value="$(var a)"/>',
+    '<append_env name="E" value="é𝒳"/>',
+    '<unset_env name="E"/>',
+    "<reset_env/>",
+    '<push_ros_namespace namespace="$(var a)"/>',
+    '<set_remap from="x" to="/z"/>',
+    '<set_parameter name="x" value="1"/>',
+    '<set_parameter name="x" value="true"/>',
+    '<set_parameter name="x" value="1.0"/>',
+    '<set_parameters_from_file filename="$(dirname)/new.yaml"/>',
+    '<reset><keep name="a" value="1"/></reset>',
+    "<group>",
+    '<group scoped="false">',
+    '<group forwarding="false"><keep name="a" value="$(var b)"/>',
+    "</group>",
+    '<group if="$(var a)">',
+    "<group unless=\"$(eval '$(var a)' == '1')\">\n</group>",
+    '<timer period="1.0">',
+    "</timer>",
+    '<for len="2" name="i"><node pkg="p" exec="t" name="n$(index i)"/></for>',
+    '<include file="$(dirname)/new.launch.xml"/>',
+    '<include file="$(dirname)/new.launch.xml"><arg name="a" value="$(anon n)"/></include>',
+    '<include file="$(dirname)/new.launch.xml">\n  <arg name="a" value="x"/>\n  <arg name="b" value="y"/>\n</include>',
+    '<include file="$(dirname)/new.launch.yaml"/>',
+    '<include file="$(var b)"/>',
+    "<!-- preflight: ignore[PKG002] not built -->",
+    "# preflight: ignore[PKG002]\n",
+    "<![CDATA[",
+    "<!--",
+    "\r\n",
+    ' if="$(var a)"',
+    "$(var a)",
+    "- node: {pkg: p, exec: t, name: $(anon n)}\n",
+    "- node: &node {pkg: p, exec: t}\n- node: *node\n",
+    "- let: {name: a, value: '2'}\n",
+    "- include: {file: $(dirname)/new.launch.xml, arg: [{name: a, value: '3'}]}\n",
+    "- set_remap: {from: x, to: $(var a)}\n",
+    "- group:\n  - push_ros_namespace: {namespace: g}\n",
+)
+_ROS2_NEW = (
+    '<launch>\n  <arg name="a" default="0"/>\n  <node pkg="p" exec="t" name="$(anon n)"/>\n'
+    '  <set_parameter name="x" value="$(var a)"/>\n  <node pkg="p" exec="t" name="n" if="$(var a)"/>\n</launch>\n',
+    '<launch>\n  <arg name="a"/>\n  <set_env name="E" value="1"/>\n  <set_remap from="x" to="w"/>\n'
+    '  <let name="b" value="$(var a)"/>\n  <push_ros_namespace namespace="new"/>\n'
+    '  <include file="$(dirname)/new.launch.yaml"/>\n</launch>\n',
+)
+
+
+@dataclass(frozen=True)
+class Language:
+    """What people write in the launch files of a generation. `new`: files that come and go."""
+
+    distro: str
+    suffixes: tuple[str, ...]
+    oddities: tuple[str, ...]
+    new: Mapping[str, tuple[str, ...]]
+
+
+LANGUAGES = {
+    1: Language("noetic", (".launch",), _ROS1_ODDITIES, {"new.launch": _ROS1_NEW}),
+    2: Language(
+        "jazzy",
+        (".launch.xml", ".launch.yaml", ".launch.yml"),
+        _ROS2_ODDITIES,
+        {
+            "new.launch.xml": _ROS2_NEW,
+            "new.launch.yaml": (
+                "launch:\n- arg: {name: a, default: '0'}\n- node: {pkg: p, exec: t, name: $(var a)}\n",
+            ),
+            "new.yaml": ("/**:\n  ros__parameters:\n    x: 1\n", "n:\n  ros__parameters: {x: {y: 2.0}}\n"),
+        },
+    ),
+}
 
 
 class Broken(AssertionError):
@@ -121,6 +210,7 @@ class Harness:
     pool: list[str]
     paths: list[str]
     encoding: str
+    language: Language
     store: TextStore = field(default_factory=TextStore)
     open: dict[str, str] = field(default_factory=dict)
     undo: dict[str, list[str]] = field(default_factory=dict)
@@ -182,7 +272,7 @@ class Harness:
 
     def _snippet(self) -> str:
         if self.chance.random() < 0.5:
-            return self.chance.choice(ODDITIES)
+            return self.chance.choice(self.language.oddities)
         lines = self.chance.choice(self.pool).splitlines(keepends=True) or [""]
         start = self.chance.randrange(len(lines))
         return "".join(lines[start : start + self.chance.choice((1, 1, 1, 2, 3, 6))])[:400]
@@ -250,7 +340,7 @@ class Harness:
             os.unlink(path)
             self.workspace.refresh()
         elif kind == "create" and not exists:
-            self._write(path, self.originals.get(path) or self.chance.choice(NEW))
+            self._write(path, self.originals.get(path) or self.chance.choice(self.language.new[os.path.basename(path)]))
         else:
             return
         self.changes += 1
@@ -323,7 +413,14 @@ def _difference(remembered: str, fresh: str) -> str:
     return f"  remembered: ...{remembered[start : at + 300]}\n  fresh:      ...{fresh[start : at + 300]}"
 
 
-def run(folder: Path, packages: Mapping[str, Package], seed: int, edits: int, deadline: float = float("inf")) -> int:
+def run(
+    folder: Path,
+    packages: Mapping[str, Package],
+    seed: int,
+    edits: int,
+    deadline: float = float("inf"),
+    generation: int = 1,
+) -> int:
     """`edits` random edits from `seed` on, in as many workspaces as that takes; how many it were until the deadline."""
     errors = LoggedErrors()
     logging.getLogger().addHandler(errors)
@@ -331,7 +428,7 @@ def run(folder: Path, packages: Mapping[str, Package], seed: int, edits: int, de
     try:
         while done < edits and time.monotonic() < deadline:
             with tempfile.TemporaryDirectory() as copy:
-                harness = make(folder, packages, Path(copy), seed)
+                harness = make(folder, packages, Path(copy), seed, generation)
                 for number in range(min(EDITS_IN_ONE_WORKSPACE, edits - done)):
                     try:
                         harness.step()
@@ -347,10 +444,11 @@ def run(folder: Path, packages: Mapping[str, Package], seed: int, edits: int, de
     return done
 
 
-def make(folder: Path, packages: Mapping[str, Package], copy: Path, seed: int) -> Harness:
+def make(folder: Path, packages: Mapping[str, Package], copy: Path, seed: int, generation: int = 1) -> Harness:
     """A workspace with a copy of some launch file of `folder` and what it reaches."""
-    chance = random.Random(seed)
-    launch_files = sorted(p for p in folder.rglob("*.launch") if p.stat().st_size < LONGEST)
+    chance, language = random.Random(seed), LANGUAGES[generation]
+    files = (path for path in folder.rglob("*.launch*") if path.name.endswith(language.suffixes))
+    launch_files = sorted(path for path in files if path.stat().st_size < LONGEST)
     while not (found := _reached(chance.choice(launch_files), packages)):
         pass
     shares = sorted(packages.items(), key=lambda each: -len(each[1].share))
@@ -367,15 +465,20 @@ def make(folder: Path, packages: Mapping[str, Package], copy: Path, seed: int) -
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(path.read_bytes())
         paths.append(str(target))
-    roots: list[tuple[str, dict[str, str]]] = [(path, {}) for path in paths if path.endswith((".launch", ".xml"))][:3]
-    declared = _ARG.findall(Path(paths[0]).read_text())
+    roots: list[tuple[str, dict[str, str]]] = [
+        (path, {}) for path in paths if path.endswith((*language.suffixes, ".xml"))
+    ][:3]
+    declared = [name or other for name, other in _ARG.findall(Path(paths[0]).read_text())]
     if declared:
         roots.append((paths[0], {name: chance.choice(("true", "x", "1")) for name in declared[:2]}))
-    environment = Environment(1, "noetic", {"HOME": "/root"}, (str(copy / "src"),), copies, {}, (), (), None)
+    environment = Environment(
+        generation, language.distro, {"HOME": "/root"}, (str(copy / "src"),), copies, {}, (), (), None
+    )
     pool = [p.read_text() for p in chance.sample(launch_files, min(8, len(launch_files)))]
     pool += [p.read_text() for p in found]
-    harness = Harness(chance, str(copy), environment, roots, pool, paths, chance.choice(lsp_client.ENCODINGS))
-    paths.append(os.path.join(os.path.dirname(paths[0]), "new.launch"))
+    encoding = chance.choice(lsp_client.ENCODINGS)
+    harness = Harness(chance, str(copy), environment, roots, pool, paths, encoding, language)
+    paths += (os.path.join(os.path.dirname(paths[0]), name) for name in language.new)
     return harness
 
 
@@ -403,6 +506,7 @@ def main() -> None:
     """The long run."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
+    parser.add_argument("--generation", type=int, default=1, choices=LANGUAGES)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--edits", type=int, default=50_000)
     parser.add_argument("--seconds", type=float, default=float("inf"))
@@ -410,7 +514,7 @@ def main() -> None:
     folder = options.folder.resolve()
     packages = find_packages([str(folder)]).packages
     began = time.monotonic()
-    done = run(folder, packages, options.seed, options.edits, began + options.seconds)
+    done = run(folder, packages, options.seed, options.edits, began + options.seconds, options.generation)
     print(f"{done} random edits from seed {options.seed} on, {time.monotonic() - began:.0f} s: all equal")
 
 

@@ -9,7 +9,8 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.packages import find_packages
 from tools import random_edits
 
-ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
+FIXTURES = Path(__file__).parents[2] / "fixtures"
+ROBOT, CHAPTER = FIXTURES / "ros1" / "robot", FIXTURES / "ros2" / "chapter"
 
 
 @pytest.mark.slow
@@ -17,6 +18,13 @@ ROBOT = Path(__file__).parents[2] / "fixtures" / "ros1" / "robot"
 def test_random_edits_leave_nothing_behind(seed: int) -> None:
     packages = find_packages([str(ROBOT)]).packages
     assert random_edits.run(ROBOT, packages, seed, 400) == 400
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+def test_random_edits_of_ros2(seed: int) -> None:
+    packages = find_packages([str(CHAPTER)]).packages
+    assert random_edits.run(CHAPTER, packages, seed, 300, generation=2) == 300
 
 
 def test_a_workspace_that_does_not_look_again_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:

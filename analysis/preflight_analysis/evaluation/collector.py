@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
@@ -35,6 +38,21 @@ MAX_TEXT = 8_000_000
 and so on, have no end."""
 MAX_TEXTS = 128_000_000
 """Of all such values together."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Collected:
+    """What a part of a launch adds to it: an include, say, or the tag of a node."""
+
+    nodes: tuple[LaunchNode, ...]
+    includes: tuple[Include, ...]
+    commands: tuple[Command, ...]
+    uses: tuple[Use, ...]
+    problems: tuple[Problem[ProblemKind], ...]
+    unknowns: tuple[Unknown, ...]
+    not_taken: tuple[NotTaken, ...]
+    visited: tuple[str, ...]
+    inputs: Mapping[str, str]
 
 
 class Collector:
@@ -72,6 +90,33 @@ class Collector:
         self._digests: dict[str, str] = {}
         self._anonymous: dict[str, int] = {}
         self._reported: set[tuple[type[ProblemKind], Origin, object]] = set()
+
+    def collected(self) -> Collected:
+        """All that was added."""
+        return Collected(
+            tuple(self.nodes),
+            tuple(self.includes),
+            tuple(self.commands),
+            tuple(self.uses),
+            tuple(self.problems),
+            tuple(self.unknowns),
+            tuple(self.not_taken),
+            tuple(self.visited),
+            self.inputs,
+        )
+
+    def add(self, collected: Collected) -> None:
+        """Add what a part has added for itself."""
+        self.nodes += collected.nodes
+        self.includes += collected.includes
+        self.commands += collected.commands
+        self.uses += collected.uses
+        self.unknowns += collected.unknowns
+        self.not_taken += collected.not_taken
+        for problem in collected.problems:
+            self._add(problem)
+        self.visited += [path for path in collected.visited if path not in self.visited]
+        self.inputs.update(collected.inputs)
 
     def digest(self, path: str) -> str:
         """Names the content of a file, which is looked up once."""
@@ -136,9 +181,17 @@ class Collector:
         found = self.files.launch_file(path, self.generation)
         return Location.of_file(path) if isinstance(found, Unreadable) else found.document.location(span)
 
+    def text_made(self, path: str) -> Document | None:
+        """The text that a run of a launch file wrote there."""
+        return self.made.get(path)
+
+    def is_edited(self, path: str) -> bool:
+        """Whether a Python launch file stands as its last good run told it."""
+        return path in self.edited
+
     def read_text(self, path: str) -> Document | Unreadable:
         """A text file, noted as an input."""
-        if (made := self.made.get(path)) is not None:
+        if (made := self.text_made(path)) is not None:
             return made
         real = without_dots(self.files, path)
         if real is None:

@@ -9,7 +9,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
-from preflight_analysis.evaluation.ros1.included import Surroundings
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ROS1
 
@@ -31,4 +31,4 @@ def evaluate_launch(
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 
-    return evaluate_ros2(path, args, files, executables, environment, cwd, commands)
+    return evaluate_ros2(path, args, files, executables, environment, cwd, commands, surroundings)

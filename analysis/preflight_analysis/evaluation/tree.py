@@ -212,8 +212,6 @@ class Include:
     origin: Origin
     file_location: Location
     args: Mapping[str, str | None]
-    nodes_before: int = 0
-    """ROS 2: how many nodes came before it. A line of a Python launch file may include several times."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -323,6 +321,9 @@ class LaunchTree(Once):
     """What would start nodes if a condition were another."""
     edited: Mapping[str, Edited] = field(default_factory=dict)
     """Python launch files whose text has no good run yet."""
+    nodes_before: tuple[int, ...] = ()
+    """ROS 2: for each include how many nodes came before it. A line of a Python launch file may include several
+    times."""
 
     @property
     def ros(self) -> Generation:

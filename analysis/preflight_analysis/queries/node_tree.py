@@ -204,9 +204,10 @@ def _includes(analysis: Analysis) -> Iterator[Item]:
     around: list[int] = []
     ends: dict[int, int] = {}
     latest: dict[Origin, int] = {}
+    before = tree.nodes_before or (0,) * len(tree.includes)
     for at, include in enumerate(tree.includes):
         if include.origin in latest:
-            ends[latest[include.origin]] = include.nodes_before
+            ends[latest[include.origin]] = before[at]
         latest[include.origin] = at
         while around and not _is_within(include, tree.includes[around[-1]]):
             around.pop()
@@ -217,7 +218,7 @@ def _includes(analysis: Analysis) -> Iterator[Item]:
         include = tree.includes[at]
         found = started.get(include.origin, [])
         last = bisect_left(found, ends[at]) if at in ends else len(found)
-        count = last - bisect_left(found, include.nodes_before)
+        count = last - bisect_left(found, before[at])
         given = " ".join(f"{name}:={value}" for name, value in include.args.items() if value is not None)
         nodes = f"{count} node{'' if count == 1 else 's'}"
         label = shown_path(include.path, folder) if include.path is not None else "a file that is not known"

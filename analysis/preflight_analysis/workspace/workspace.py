@@ -19,8 +19,8 @@ from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.launch import evaluate_launch
-from preflight_analysis.evaluation.ros1.included import Surroundings
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding

@@ -28,7 +28,6 @@ from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.included import (
     Passed,
     Record,
-    Surroundings,
     language_problems,
     passed_to,
     tags_key_of,
@@ -45,6 +44,7 @@ from preflight_analysis.evaluation.ros1.tags import (
     evaluate_remap,
     namespace_of,
 )
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
 from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.launch.model import Action, LaunchFile

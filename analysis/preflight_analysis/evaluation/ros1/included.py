@@ -14,9 +14,7 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin
-from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.commands import Commands
-from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
 from preflight_analysis.evaluation.tree import (
@@ -52,17 +50,6 @@ class Record:
     not_taken: tuple[NotTaken, ...]
     declared: Mapping[str, Location]
     default_machine: str | None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Surroundings:
-    """What launches are evaluated in. Equal to itself alone: what is remembered of includes is remembered for it."""
-
-    files: Files
-    executables: Executables
-    environment: Environment
-    cwd: str
-    commands: Commands
 
 
 class Passed(NamedTuple):

@@ -9,8 +9,9 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
-from preflight_analysis.evaluation.ros1.included import Record, Surroundings
+from preflight_analysis.evaluation.ros1.included import Record
 from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import (
     Machine,
     Param,

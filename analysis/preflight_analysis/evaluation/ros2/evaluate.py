@@ -9,7 +9,6 @@ from functools import cache
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.problems import DuplicateNode
@@ -18,9 +17,11 @@ from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.actions.registry import actions, parts, python_classes, tags
 from preflight_analysis.evaluation.ros2.check_language import check_language_ros2
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
-from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.ros2.context import Context, NotByPartsError, Place
 from preflight_analysis.evaluation.ros2.required import check_required, report_missing_below
+from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import LaunchFile
@@ -37,21 +38,22 @@ def evaluate_ros2(
     environment: Environment,
     cwd: str,
     commands: Commands = NO_RESULTS,
+    surroundings: Surroundings | None = None,
 ) -> LaunchTree:
     """What `ros2 launch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What
     starts of processes bring about comes after the rest, then, marked as deferred, what timers and other events do.
-    Reads through `files` only; runs nothing.
+    Reads through `files` only; runs nothing. With `surroundings`, of the same things, and within a query, parts are
+    remembered.
     """
-    state = Collector(2, files, executables, environment, cwd, commands)
-    context = Context(environment.variables, python_classes())
-    for name, value in args.items():
-        context.set(name, Resolved(value), None)
-    path = os.path.normpath(path)
-    _execute(Walk(state, context, _language()), path, args)
+    within = surroundings if files.db.is_making else None
+    try:
+        state = _launched(path, args, State(files, executables, environment, cwd, commands, within))
+    except NotByPartsError:
+        state = _launched(path, args, State(files, executables, environment, cwd, commands))
     return LaunchTree(
-        path,
+        os.path.normpath(path),
         2,
         state.args,
         tuple(state.nodes),
@@ -67,7 +69,16 @@ def evaluate_ros2(
         tuple(state.commands),
         tuple(state.not_taken),
         state.edited,
+        tuple(state.nodes_before),
     )
+
+
+def _launched(path: str, args: Mapping[str, str], state: State) -> State:
+    context = Context(state.environment.variables, python_classes())
+    for name, value in args.items():
+        context.set(name, Resolved(value), None)
+    _execute(Walk(state, context, _language()), os.path.normpath(path), args)
+    return state
 
 
 @cache
@@ -100,16 +111,19 @@ def _execute(walk: Walk, path: str, args: Mapping[str, str]) -> None:
     _report_duplicates(state)
 
 
-def _report_duplicates(state: Collector) -> None:
+def _report_duplicates(state: State) -> None:
     """Two nodes of one name: launch only warns, and both run."""
     first: dict[str, LaunchNode] = {}
     for node in state.nodes:
         if not node.named or node.unknowns:
             continue
-        if (other := first.setdefault(node.name, node)) is not node:
+        other = first.get(node.name)
+        if other is None:
+            first[node.name] = node
+        else:  # it may be the same object: a loop executes an include twice
             origin = (*node.origin[:-1], _place_of_name(state, node))
             state.problem(DuplicateNode(node.name, _place_of_name(state, other)), origin, fatal=False)
 
 
-def _place_of_name(state: Collector, node: LaunchNode) -> Location:
+def _place_of_name(state: State, node: LaunchNode) -> Location:
     return state.location(node.location.file, node.tag.span_of("name") or node.action.kind_span)

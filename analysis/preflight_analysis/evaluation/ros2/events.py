@@ -6,8 +6,8 @@ of the starts (`launch.LaunchService`). When anything else happens, nobody knows
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation.ros2.context import Place
@@ -15,6 +15,9 @@ from preflight_analysis.launch.model import Action
 
 _Key = tuple[str, Origin, str]
 """An object of a run of a Python launch file, by its number; each include of a file is a run for itself."""
+
+Noted = tuple[Callable[..., None], Place, Any]
+"""What the queue was told: a method of it, and what that was called with."""
 
 
 class Upcoming(NamedTuple):
@@ -43,17 +46,31 @@ class Events:
         self._ready: list[Upcoming] = []
         self._later: list[tuple[_Key | None, Place, tuple[Action, ...]]] = []
         self._handlers: list[_Handler] = []
+        self._noted: list[Noted] = []
+
+    @property
+    def noted(self) -> tuple[Noted, ...]:
+        """What it was told so far."""
+        return tuple(self._noted)
+
+    def tell(self, noted: Iterable[Noted]) -> None:
+        """What another one was told."""
+        for what, place, told in noted:
+            what(self, place, told)
 
     def started(self, place: Place, action: Action) -> None:
         """A process was started; one of XML or YAML has no number."""
+        self._noted.append((Events.started, place, action))
         self._started.append(_key(place, action, "id"))
 
     def later(self, place: Place, actions: tuple[Action, ...]) -> None:
         """What waits for a timer, or for whatever else."""
+        self._noted.append((Events.later, place, actions))
         self._later.append((None, place, actions))
 
     def register(self, place: Place, action: Action) -> None:
         """`RegisterEventHandler`."""
+        self._noted.append((Events.register, place, action))
         number = _key(place, action, "handler")
         if action.value("starts") is None:
             self._later.append((number, place, action.children))
@@ -63,6 +80,7 @@ class Events:
 
     def unregister(self, place: Place, action: Action) -> None:
         """`UnregisterEventHandler`."""
+        self._noted.append((Events.unregister, place, action))
         number = _key(place, action, "handler")
         if number is not None:
             self._later = [each for each in self._later if each[0] != number]

@@ -12,7 +12,6 @@ from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import InvalidName
 from preflight_analysis.evaluation.resolved import Resolved
-from preflight_analysis.evaluation.ros2.context import Scope
 from preflight_analysis.evaluation.ros2.launched import check_launched
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.params import (
@@ -47,16 +46,14 @@ def absolute(ns: str | None) -> str | None:
     return ns if ns is None or ns.startswith("/") else "/" + ns
 
 
-def namespace_of(
-    performer: Performer, action: Action, scope: Scope, *, fatal: bool = True
-) -> tuple[Resolved | None, bool]:
+def namespace_of(performer: Performer, action: Action, *, fatal: bool = True) -> tuple[Resolved | None, bool]:
     """The namespace of a node, None where neither it nor what is around it says one, and whether it is valid.
 
     `fatal`: launch itself looks at it, and not only the container that is to load the node.
     """
     value = action.value("namespace")
     own = performer.value(value) if value is not None else None
-    base = scope.namespace
+    base = performer.context.namespace
     if own is None and base is None:
         return None, True
     known = (own is None or own.known) and (base is None or base.known)
@@ -72,7 +69,7 @@ def namespace_of(
 
 def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", deferred: bool = False) -> None:
     """`<node>` and `<node_container>`; composable nodes of the container after it."""
-    state, scope, place = performer.state, performer.context.scope, performer.place
+    state, place = performer.state, performer.place
     unknowns: list[Unknown] = []
 
     def known(result: Resolved, what: str) -> str:
@@ -94,7 +91,7 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
         reason = "a name is a letter or underscore, then letters, digits and underscores"
         state.problem(InvalidName(name, "node", reason), place.origin(name_value.span))
         return
-    ns, valid = namespace_of(performer, action, scope)
+    ns, valid = namespace_of(performer, action)
     if not valid:
         return
     namespace = known(ns, "namespace") if ns is not None else "/"
@@ -149,7 +146,7 @@ def evaluate_composable(
     target: Span | None = None,
 ) -> None:
     """The `<composable_node>`s of a container or of a `<load_composable_node>`, whose `target` names the container."""
-    state, scope, place = performer.state, performer.context.scope, performer.place
+    state, place = performer.state, performer.place
     for action in actions:
         if action.kind != "composable_node" or not applies(performer, action):
             continue
@@ -158,7 +155,7 @@ def evaluate_composable(
         if package is None or plugin is None:
             continue
         name = performer.value(name_value) if name_value is not None else None
-        ns, _ = namespace_of(performer, action, scope, fatal=False)
+        ns, _ = namespace_of(performer, action, fatal=False)
         namespace = ns.text if ns is not None else "/"
         plugin_name = performer.value(plugin)
         full = _full(namespace, name.text if name is not None else plugin_name.text.rpartition("::")[2])
@@ -239,7 +236,7 @@ def _text(performer: Performer, action: Action, name: str, default: str) -> str:
 def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: bool) -> None:
     """Pushed parameters first, then those of the node, in the order in which launch passes them."""
     node = to.owner
-    for pushed in performer.context.scope.params or ():
+    for pushed in performer.context.params:
         to.add(pushed_source(performer, pushed, to))
     for child in action.children:
         origin = performer.place.origin(child.head_span)
@@ -275,7 +272,7 @@ def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:
     place = performer.place
     remaps = [
         Remap(p.source.text, p.target.text, p.origin, p.origin[-1], p.origin[-1], False)
-        for p in performer.context.scope.remaps or ()
+        for p in performer.context.remaps
     ]
     for child in action.children:
         if child.kind != "remap":

@@ -182,11 +182,11 @@ def file_source(
     file = read_param_file(text)
     if file.problem is not None:
         message, span = file.problem
-        at = origin if path in state.made else (*origin, found.lines.location(path, span))
+        at = origin if state.text_made(path) is not None else (*origin, found.lines.location(path, span))
         fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
-    return _of_file(file, text, path, lines, origin, to, gone=path in state.made)
+    return _of_file(file, text, path, lines, origin, to, gone=state.text_made(path) is not None)
 
 
 def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:

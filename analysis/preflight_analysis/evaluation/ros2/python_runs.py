@@ -118,7 +118,8 @@ def recorded(
     if reply is None or launch_file.root is None:
         return launch_file, None
     children = _actions(reply.output, run.source, whole, context.python)
-    context.environment.update(_variables(reply))
+    for name, value in _variables(reply).items():
+        context.set_variable(name, value)
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
@@ -169,13 +170,15 @@ def called(
         "file": context.launch_file,
     }
     given = {v for v in configurations.values() if isinstance(v, str)}
-    files = {path: document.text for path, document in state.made.items() if path in given}
+    files = {path: made.text for path in given if (made := state.text_made(path)) is not None}
     run = replace(place.run, calls=(*place.run.calls, call), files={**place.run.files, **files})
     unknowns, problems = len(state.unknowns), len(state.problems)
     reply = _ask(state, context, place, run, place.origin(at), sure=complete)
     if reply is None and not run.replaced and (last := _last_good(state, run)) is not None:
         run, reply, edited = last
-        state.edited.setdefault(run.file, Edited(edited, frozenset(p.location.span for p in state.problems[problems:])))
+        if not state.is_edited(run.file):
+            wrong = frozenset(problem.location.span for problem in state.problems[problems:])
+            state.edited[run.file] = Edited(edited, wrong)
         del state.unknowns[unknowns:]
     if reply is None:
         return None
@@ -210,18 +213,17 @@ def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
 
 def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
     """What is configured, with a mark for what is not known, and whether all of it is."""
-    scope = context.scope
-    given = dict(scope.configurations)
-    if scope.namespace is not None:
-        given["ros_namespace"] = Configuration(scope.namespace, None)
+    given = dict(context.configurations)
+    if (namespace := context.namespace) is not None:
+        given["ros_namespace"] = Configuration(namespace, None)
     complete = all(each.value.known for each in given.values())
     found: dict[str, Any] = {
         name: each.value.text if each.value.known else unknown_text(name) for name, each in given.items()
     }
-    if scope.params:
-        found["global_params"] = [[p.name, p.value] if p.name is not None else p.value for p in scope.params]
-    if scope.remaps:
-        found["ros_remaps"] = [[remap.source.text, remap.target.text] for remap in scope.remaps]
+    if params := context.params:
+        found["global_params"] = [[p.name, p.value] if p.name is not None else p.value for p in params]
+    if remaps := context.remaps:
+        found["ros_remaps"] = [[remap.source.text, remap.target.text] for remap in remaps]
     return found, complete
 
 
@@ -352,7 +354,7 @@ def _raised(
         module = str(error.get("module", ""))
         state.problem(PythonImportFailed(module, message), origin)
     else:
-        behind = [(file, line) for file, line in own if file.startswith("/") and file not in state.made]
+        behind = [(file, line) for file, line in own if file.startswith("/") and state.text_made(file) is None]
         places = tuple(_frame(state, place, run, file, line) for file, line in behind)
         if name == "AssertionError" and not message and behind:
             message = _asserted(state, run, *behind[-1])

@@ -6,11 +6,11 @@ import os
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Origin
-from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.problems import ArgumentNeeded, MissingArgument, Problem
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.declared import required_arguments
 from preflight_analysis.evaluation.ros2.python_runs import recorded
+from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import Walk
 from preflight_analysis.launch.model import Action, LaunchFile
@@ -58,7 +58,7 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
         return None
     if any(part.command not in ("find-pkg-share", "find-pkg-prefix", "env") for part in value.substitutions):
         return None
-    quiet = Collector(2, state.files, state.executables, state.environment, state.cwd, state.results)
+    quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
     empty = Context(state.environment.variables, walk.context.python)
     result = Performer(quiet, empty, Place(file.path, file.document.lines, ())).value(value)
     if not result.known:

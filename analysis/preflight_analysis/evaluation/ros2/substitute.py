@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 import shlex
-import shutil
 from collections.abc import Callable, Sequence
 
 from preflight_analysis.documents.document import SpannedText
@@ -14,7 +13,6 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.environment.own_programs import OWN_PROGRAMS
 from preflight_analysis.evaluation import expression
-from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.problems import (
     CommandFailed,
     CommandMissing,
@@ -30,6 +28,7 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.python_runs import called
+from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
 from preflight_analysis.evaluation.tree import Command, Use
@@ -51,7 +50,7 @@ class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to
 class Performer:
     """Performs the substitutions of one launch file. What goes wrong is noted at the substitution concerned."""
 
-    def __init__(self, state: Collector, context: Context, place: Place) -> None:
+    def __init__(self, state: State, context: Context, place: Place) -> None:
         self.state, self.context, self.place = state, context, place
 
     def value(self, value: Value) -> Resolved:
@@ -105,7 +104,7 @@ class Performer:
         if part.command == "var":
             given = self.context.get(name)
             origin = (given.origin if given is not None else None) or ()
-            target = self.context.declared.get((self.place.file, name), origin[-1] if origin else None)
+            target = self.context.declared(self.place.file, name) or (origin[-1] if origin else None)
         elif part.command == "find-pkg-share" and text is not None:
             manifest = self.state.environment.packages[self._word(part, 0)].manifest
             target = Location.of_file(manifest)
@@ -128,16 +127,15 @@ class Performer:
         if found is None:
             if len(part.words) == 2:
                 return self._word(part, 1)
-            scope = self.context.scope
-            undeclared = UndeclaredArgument(name, tuple(sorted(scope.configurations)), scope.not_followed)
-            raise _Failure(undeclared, fatal=scope.not_followed is None)
+            not_followed = self.context.not_followed
+            raise _Failure(UndeclaredArgument(name, self.context.names, not_followed), fatal=not_followed is None)
         if not found.value.known:
             raise _Failure
         return found.value.text
 
     def _env(self, part: Substitution) -> str:
         name = self._word(part, 0)
-        found = self.context.environment.get(name)
+        found = self.context.variable(name)
         if found is None:
             if len(part.words) == 2:
                 return self._word(part, 1)
@@ -169,7 +167,10 @@ class Performer:
 
     def _executable(self, part: Substitution) -> str:
         name = self._word(part, 0)
-        found = shutil.which(name, path=self.context.environment.get("PATH", ""))
+        path = self.context.variable("PATH")
+        folders = [""] if os.path.dirname(name) else path.split(os.pathsep) if path else []
+        paths = (os.path.join(folder, name) for folder in folders)
+        found = next((p for p in paths if self.state.files.is_program(os.path.join(self.state.cwd, p))), None)
         if found is None and name in OWN_PROGRAMS:
             return name
         if found is None:
@@ -297,7 +298,7 @@ class Performer:
 
     def _param(self, part: Substitution) -> str:
         name = self._word(part, 0)
-        for param in self.context.scope.params or ():
+        for param in self.context.params:
             if param.name == name:
                 return str(param.value)
         if len(part.words) == 2:
@@ -315,7 +316,7 @@ class Performer:
 
     def _of_round(self, part: Substitution) -> str:
         name = self._word(part, 0)
-        found = self.context.round.get(name)
+        found = self.context.of_round(name)
         if found is None and len(part.words) == 2:
             return self._word(part, 1)
         if found is None:

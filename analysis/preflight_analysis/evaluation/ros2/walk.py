@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import partial
 
 from preflight_analysis.documents.span import Origin, Span
 from preflight_analysis.environment.launch_extensions import exposed_actions
-from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.problems import (
     ArgumentNotAChoice,
     LaunchFileNotRun,
@@ -20,11 +21,20 @@ from preflight_analysis.evaluation.problems import (
     PythonException,
     UnexpandedEntity,
 )
-from preflight_analysis.evaluation.ros2.context import Context, Place, PythonRun
+from preflight_analysis.evaluation.ros2.context import (
+    Before,
+    Changes,
+    Context,
+    NotByPartsError,
+    Place,
+    PythonRun,
+    Question,
+)
 from preflight_analysis.evaluation.ros2.declared import Declared
 from preflight_analysis.evaluation.ros2.entity import Entity, Part
-from preflight_analysis.evaluation.ros2.events import Events
+from preflight_analysis.evaluation.ros2.events import Events, Noted
 from preflight_analysis.evaluation.ros2.python_runs import calls_own_code, recorded
+from preflight_analysis.evaluation.ros2.state import Added, State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.ros2.written import is_from_yaml
@@ -37,6 +47,8 @@ from preflight_analysis.launch.schema import Tag
 MAX_DEPTH = 150
 """Of groups and includes within each other."""
 MAX_INCLUDES = 2_000
+MAX_DEPTH_OF_PARTS = 24
+"""Of includes within each other; what is deeper is evaluated where it is, as Python's stack has an end."""
 _MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml, PYTHON_SUFFIX: MalformedPython}
 _SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
 """What can be said of a Python launch file that was not run."""
@@ -54,6 +66,8 @@ class LaunchAction(Entity):
     """Whether handlers of process starts are told of it."""
     configures: bool = False
     """Whether there may be other launch configurations after it."""
+    is_part: bool = False
+    """Whether what it adds is remembered for itself."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,10 +82,22 @@ class Ros2Language:
     """At what of an XML or YAML file launch stops while it reads it."""
 
 
-class Walk:
-    """One launch."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """What a part of a launch comes to: an include, or what starts nodes."""
 
-    def __init__(self, state: Collector, context: Context, language: Ros2Language) -> None:
+    added: Added
+    changes: Changes
+    events: tuple[Noted, ...]
+    names: frozenset[str] | None
+    recorded: Mapping[str, LaunchFile]
+    missing_below: tuple[Declared, ...]
+
+
+class Walk:
+    """One launch, or a part of it by itself."""
+
+    def __init__(self, state: State, context: Context, language: Ros2Language) -> None:
         self.state, self.context, self.language = state, context, language
         self.events = Events()
         self.deferred = False
@@ -140,15 +166,74 @@ class Walk:
                 if error is not None:
                     name, _, message = error.text.partition(": ")
                     self.raised(performer, action, name, message)
+                elif known.is_part and (key := self._key(place, action)) is not None:
+                    self._part(key, performer, action, known)
                 else:
-                    before = len(self.state.nodes)
-                    known.evaluate(self, performer, action)
-                    if known.starts_process and len(self.state.nodes) > before:
-                        self.events.started(place, action)
-                    if place.run is not None:
-                        self._on_exit(place, action)
+                    self._execute(performer, action, known)
             elif any(below.kind == "include" for below in action.walk()):
                 self.names[-1] = None  # what it would include may have to do with any argument
+
+    def _execute(self, performer: Performer, action: Action, known: LaunchAction) -> None:
+        assert known.evaluate is not None
+        place, before = performer.place, len(self.state.nodes)
+        known.evaluate(self, performer, action)
+        if known.starts_process and len(self.state.nodes) > before:
+            self.events.started(place, action)
+        if place.run is not None:
+            self._on_exit(place, action)
+
+    # Parts, which are remembered
+
+    def _key(self, place: Place, action: Action) -> Hashable | None:
+        """All that a part depends on beside what it asks for and reads; None for what is evaluated where it is: what
+        is not written by itself, and what is too deep for Python's stack."""
+        if self.state.surroundings is None or place.partial or len(place.chain) > MAX_DEPTH_OF_PARTS:
+            return None
+        written = place.written(action)
+        if written is None:
+            return None
+        lines, source = place.lines.lines_of(written), place.lines.text[slice(*written)]
+        size = len(action.attributes), len(action.children)
+        where = self.state.surroundings, place.file, place.chain, self._depth, self.deferred
+        return where, action.kind, size, source, written.start - lines[0].start, lines
+
+    def _part(self, key: Hashable, performer: Performer, action: Action, known: LaunchAction) -> None:
+        """As `_execute`: what the action added is added again, where it is the same and would be answered alike."""
+        make = partial(self._alone, performer.place, action, known)
+        record = self.state.files.db.part_answered(key, make, self._look)
+        if record is None:
+            self._execute(performer, action, known)
+            return
+        self.state.absorb(record.added, MAX_INCLUDES)
+        self.context.change(record.changes)
+        self.events.tell(record.events)
+        self._add_names(record.names)
+        self.recorded.update(record.recorded)
+        self.missing_below += record.missing_below
+
+    def _alone(
+        self, place: Place, action: Action, known: LaunchAction
+    ) -> tuple[Record | None, Mapping[Question, object]]:
+        """What an action adds, and what it asked for of what is before it; None where that has offsets in this text."""
+        before = Before(self._look)
+        part = Walk(self.state.part(before), self.context.part(before), self.language)
+        part.deferred, part._depth = self.deferred, self._depth
+        part._execute(Performer(part.state, part.context, place), action, known)
+        if any(each.origin[-1].file == place.file for each in part.state.not_taken):
+            return None, before.answers
+        (names,) = part.names
+        record = Record(
+            part.state.added(),
+            part.context.changes(),
+            part.events.noted,
+            frozenset(names) if names is not None else None,
+            part.recorded,
+            tuple(part.missing_below),
+        )
+        return record, before.answers
+
+    def _look(self, question: Question) -> object:
+        return self.state.look(question) if question[0] in State.QUESTIONS else self.context.look(question)
 
     def inside(self, place: Place, actions: tuple[Action, ...]) -> None:
         """Execute actions that another one holds, for which `too_deep` has been asked."""
@@ -163,14 +248,19 @@ class Walk:
         self.file(place, launch_file)
         below = self.names.pop()
         self._depth -= 1
+        self._add_names(below)
+        return below
+
+    def _add_names(self, below: AbstractSet[str] | None) -> None:
         above = self.names[-1]
         self.names[-1] = None if below is None or above is None else above | below
-        return below
 
     def too_deep(self, place: Place, action: Action) -> bool:
         """Whether an action may not hold others or include a file, as there are too many already, which is noted."""
-        if self._depth <= MAX_DEPTH and len(self.state.includes) <= MAX_INCLUDES:
+        if self._depth <= MAX_DEPTH and self.state.include_count <= MAX_INCLUDES:
             return False
+        if self.state.surroundings is not None:
+            raise NotByPartsError
         if not self._exhausted:
             self._exhausted = True
             limit = f"{MAX_DEPTH} levels" if self._depth > MAX_DEPTH else f"{MAX_INCLUDES} includes"

@@ -42,7 +42,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     text = default.text if default is not None else None
     state.args.setdefault(name, Arg(name, shown, text, default is None, origin, location, value_origin, doc))
     state.uses.append(Use("declaration", location, name, shown, None, value_origin or ()))
-    context.declared[place.file, name] = location
+    context.declare(name, location)
 
 
 def _check_choices(walk: Walk, performer: Performer, action: Action, name: str, value: Resolved | None) -> None:

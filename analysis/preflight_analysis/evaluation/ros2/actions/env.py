@@ -18,14 +18,14 @@ def set_env(walk: Walk, performer: Performer, action: Action) -> None:
     if name is not None and value is not None:
         result = performer.value(value)
         if result.known:
-            walk.context.environment[performer.value(name).text] = result.text
+            walk.context.set_variable(performer.value(name).text, result.text)
 
 
 def unset_env(walk: Walk, performer: Performer, action: Action) -> None:
     """Remove it until the scope ends."""
     name = action.value("name")
     if name is not None:
-        walk.context.environment.pop(performer.value(name).text, None)
+        walk.context.unset_variable(performer.value(name).text)
 
 
 def append_env(walk: Walk, performer: Performer, action: Action) -> None:
@@ -36,14 +36,11 @@ def append_env(walk: Walk, performer: Performer, action: Action) -> None:
     key, result = performer.value(name).text, performer.value(value)
     separator = action.value("separator")
     between = performer.value(separator).text if separator is not None else os.pathsep
-    environment = walk.context.environment
-    old = environment.get(key)
-    if old is None:
-        environment[key] = result.text
-    elif is_set(action, "prepend", default=False):
-        environment[key] = result.text + between + old
-    else:
-        environment[key] = old + between + result.text
+    old = walk.context.variable(key)
+    parts = (result.text,) if old is None else (old, result.text)
+    if is_set(action, "prepend", default=False):
+        parts = parts[::-1]
+    walk.context.set_variable(key, between.join(parts))
 
 
 def reset_env(walk: Walk, performer: Performer, action: Action) -> None:

@@ -38,6 +38,7 @@ ENTITIES = (
         evaluate=evaluate,
         offered=150,
         starts_process=True,
+        is_part=True,
     ),
     Part(
         kind="env",

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from preflight_analysis.documents.reading import Text, Unreadable
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.files import without_dots
+from preflight_analysis.evaluation.files import Files, without_dots
 from preflight_analysis.evaluation.problems import (
     IncludeCycle,
     UnknownIncludeArgument,
@@ -22,6 +22,7 @@ from preflight_analysis.evaluation.ros2.required import check_required
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Include, Use
+from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.python_classes import PythonClass
@@ -44,14 +45,13 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     if not file.known:
         walk.names[-1] = None
         context.cannot_follow(at)
-        state.includes.append(Include(None, origin, at, {}, len(state.nodes)))
+        state.include(Include(None, origin, at, {}))
         state.note_unknown("<include>", "its file is not known", at)
         return
     path = os.path.normpath(os.path.join(state.cwd, file.text))
     path = state.located(without_dots(state.files, path) or path)
     shown: dict[str, str | None] = {}
-    include = Include(path, origin, at, shown, len(state.nodes))
-    state.includes.append(include)
+    state.include(Include(path, origin, at, shown))
     state.uses.append(Use("include", at, file.text, path, Location.of_file(path)))
     if walk.too_deep(place, action):
         return
@@ -88,16 +88,30 @@ def evaluate_inline(walk: Walk, performer: Performer, action: Action) -> None:
 def _report_unused(walk: Walk, place: Place, path: str, passed: list[tuple[str, Action]], names: set[str]) -> None:
     """An argument that neither the file nor what it includes has to do with: launch accepts it without a word. The
     includer itself may use it later, as what an include sets stays set."""
-    own = walk.recorded.get(place.file) or walk.state.files.launch_file(place.file, 2)
-    used = frozenset[str]() if isinstance(own, Unreadable) else configurations_of(own).used
-    if isinstance(own, LaunchFile) and (own.partial or calls_own_code(own)):
+    unused = [(name, child) for name, child in passed if name not in names and name not in IMPLICIT]
+    if not unused:
         return
-    for name, child in passed:
-        if name not in names and name not in used and name not in IMPLICIT:
+    own = walk.recorded.get(place.file)
+    used = _used(walk.state.files.db, walk.state.files, place.file) if own is None else _used_in(own)
+    for name, child in unused:
+        if used is not None and name not in used:
             value = child.value("name")
             span = value.span if value is not None else child.kind_span
             kind = UnknownIncludeArgument(name, tuple(sorted(names)), path)
             walk.state.problem(kind, place.origin(span), fatal=False)
+
+
+@query
+def _used(db: Database, files: Files, path: str) -> frozenset[str] | None:
+    """As `_used_in`: an edit of the file leaves it alone mostly."""
+    found = files.launch_file(path, 2)
+    return frozenset() if isinstance(found, Unreadable) else _used_in(found)
+
+
+def _used_in(launch_file: LaunchFile) -> frozenset[str] | None:
+    """The configurations that a file uses, None where that cannot be told."""
+    is_told = not (launch_file.partial or calls_own_code(launch_file))
+    return configurations_of(launch_file).used if is_told else None
 
 
 def _passed(walk: Walk, performer: Performer, action: Action) -> list[tuple[str, Action]]:
@@ -166,6 +180,7 @@ ENTITIES = (
         evaluate=evaluate,
         offered=20,
         configures=True,
+        is_part=True,
     ),
     LaunchAction(
         kind="inline",

@@ -20,14 +20,14 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         location = performer.place.location(name.span)
         shown = result.text if result.known else None
         walk.state.uses.append(Use("declaration", location, set_name, shown))
-        walk.context.declared[location.file, set_name] = location
+        walk.context.declare(set_name, location)
 
 
 def unset(walk: Walk, performer: Performer, action: Action) -> None:
     """Forget it."""
     name = action.value("name")
     if name is not None:
-        walk.context.scope.configurations.pop(performer.value(name).text, None)
+        walk.context.unset(performer.value(name).text)
 
 
 ENTITIES = (

@@ -52,6 +52,7 @@ ENTITIES = (
         evaluate=evaluate,
         offered=10,
         starts_process=True,
+        is_part=True,
     ),
     LaunchAction(
         kind="lifecycle_node",
@@ -67,5 +68,6 @@ ENTITIES = (
         evaluate=evaluate_lifecycle,
         offered=140,
         starts_process=True,
+        is_part=True,
     ),
 )

@@ -26,7 +26,7 @@ def load(walk: Walk, performer: Performer, action: Action) -> None:
     target = action.value("target")
     named = next((child for child in action.children if child.kind == "target"), None)
     if named is not None:
-        ns, _ = namespace_of(performer, named, walk.context.scope)
+        ns, _ = namespace_of(performer, named)
         base = named.value("name")
         above = ns.text if ns is not None and ns.text != "/" else ""
         name = f"{above}/{performer.value(base).text if base is not None else ''}"
@@ -50,6 +50,7 @@ ENTITIES = (
         evaluate=evaluate,
         offered=120,
         starts_process=True,
+        is_part=True,
     ),
     LaunchAction(
         kind="load_composable_node",
@@ -63,6 +64,7 @@ ENTITIES = (
         python=(PythonClass("launch_ros.actions.LoadComposableNodes", keywords={"target": "target_container"}),),
         evaluate=load,
         offered=130,
+        is_part=True,
     ),
     Part(kind="target", tag=None, python=(), parameter="target_container", of=("load_composable_node",)),
     Part(

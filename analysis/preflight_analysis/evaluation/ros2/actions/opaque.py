@@ -26,8 +26,9 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         if key not in ("ros_namespace", "global_params", "ros_remaps"):
             context.set(key, Resolved(readable(text), not is_unknown(text)), origin)
     for key in answer.removed:
-        context.scope.configurations.pop(key, None)
-    context.environment.update(answer.variables or {})
+        context.unset(key)
+    for key, text in (answer.variables or {}).items():
+        context.set_variable(key, text)
     walk.inside(answer.place, answer.actions)
 
 

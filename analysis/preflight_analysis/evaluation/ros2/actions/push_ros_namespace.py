@@ -12,10 +12,9 @@ from preflight_analysis.launch.python_classes import PythonClass
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     """Nodes of the scope come below it from now on."""
-    scope = walk.context.scope
-    ns, valid = namespace_of(performer, action, scope)
+    ns, valid = namespace_of(performer, action)
     if ns is not None and valid:
-        scope.namespace = ns
+        walk.context.push_namespace(ns)
 
 
 _TAG = action_tag(

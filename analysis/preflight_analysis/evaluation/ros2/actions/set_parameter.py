@@ -21,12 +21,12 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         known, plain = python_value(performer, given)
         if known:
             origin = performer.place.origin(action.head_span)
-            _push(walk, PushedParam(performer.value(name).text, plain, origin))
+            walk.context.push_param(PushedParam(performer.value(name).text, plain, origin))
     elif name is not None and value is not None:
         found = pushed_value(performer, value)
         if found is not None:
             origin = performer.place.origin(action.head_span)
-            _push(walk, PushedParam(performer.value(name).text, found, origin))
+            walk.context.push_param(PushedParam(performer.value(name).text, found, origin))
 
 
 def evaluate_file(walk: Walk, performer: Performer, action: Action) -> None:
@@ -35,14 +35,7 @@ def evaluate_file(walk: Walk, performer: Performer, action: Action) -> None:
     if file is not None:
         result = performer.value(file)
         if result.known:
-            _push(walk, PushedParam(None, result.text, performer.place.origin(file.span)))
-
-
-def _push(walk: Walk, param: PushedParam) -> None:
-    scope = walk.context.scope
-    if scope.params is None:
-        scope.params = []
-    scope.params.append(param)
+            walk.context.push_param(PushedParam(None, result.text, performer.place.origin(file.span)))
 
 
 ENTITIES = (

@@ -17,11 +17,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     if source is None or target is None:
         return
     origin = performer.place.origin(action.head_span)
-    remap = PushedRemap(performer.value(source), performer.value(target), origin)
-    scope = walk.context.scope
-    if scope.remaps is None:
-        scope.remaps = []
-    scope.remaps.append(remap)
+    walk.context.push_remap(PushedRemap(performer.value(source), performer.value(target), origin))
 
 
 ENTITIES = (

@@ -16,10 +16,10 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     """A relative one is below the one before."""
     value = action.value("new_log_dir")
     if value is not None:
-        result, environment = performer.value(value), walk.context.environment
-        folder = os.path.join(environment.get("ROS_LOG_DIR", ""), result.text)
+        result = performer.value(value)
+        folder = os.path.join(walk.context.variable("ROS_LOG_DIR") or "", result.text)
         if result.known and os.path.isabs(folder):
-            environment["ROS_LOG_DIR"] = folder
+            walk.context.set_variable("ROS_LOG_DIR", folder)
 
 
 ENTITIES = (
