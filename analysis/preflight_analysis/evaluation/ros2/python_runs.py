@@ -296,9 +296,8 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 there = _line(place, run, at, origin)[-1]
                 state.note_unknown(name, f"the sandbox is not told what {name} is", there)
             case ["configuration", str(name), at]:
-                scope = context.scope
-                undeclared = UndeclaredArgument(name, tuple(sorted(scope.configurations)), scope.not_followed)
-                state.problem(undeclared, _line(place, run, at, origin), fatal=scope.not_followed is None)
+                undeclared = UndeclaredArgument(name, context.names, context.not_followed)
+                state.problem(undeclared, _line(place, run, at, origin), fatal=undeclared.not_followed is None)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
 
