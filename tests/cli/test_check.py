@@ -98,11 +98,11 @@ def test_an_error_is_exit_code_1(harness: Harness, preflight: Run) -> None:
 
 
 def test_what_is_missing_here_counts_where_that_is_asked_for(harness: Harness, preflight: Run) -> None:
-    harness.launch_file.write_text("<launch><node pkg='not_there' type='t' name='n'/></launch>")
+    harness.launch_file.write_text("<launch><node pkg='slam_toolbox' type='t' name='n'/></launch>")
     check = ("check", harness.launch_file, "--no-run", "--fail-on", "warning")
     done = preflight(*check)
     assert done.code == 0
-    assert "missing on this machine:\n  1 package: not_there\n" in done.out
+    assert "missing on this machine:\n  1 package: slam_toolbox\n" in done.out
     assert "PKG001" not in done.out
     assert preflight(*check, "--require-complete").code == 1
     harness.launch_file.write_text("<launch/>")
