@@ -6,6 +6,7 @@ from __future__ import annotations
 import base64
 import errno
 import hashlib
+import importlib.util
 import json
 import os
 import re
@@ -15,8 +16,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
-
-import xacro  # type: ignore[import-untyped]
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS
@@ -46,7 +45,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
         "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
         "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
-        "own_xacro": os.path.dirname(xacro.__file__),
+        "own_xacro": _own_xacro(),
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()
     words = [data[start : start + _WORD] for start in range(0, len(data), _WORD)]
@@ -58,6 +57,13 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "fake_launch": _edition()}
     return replace(recipe, env={**recipe.env, **fixed}, stable=stable)
+
+
+@lru_cache(maxsize=1)
+def _own_xacro() -> str:
+    """The folder of the module that came along, "" if it did not. Not imported: only the sandbox needs it."""
+    spec = importlib.util.find_spec("xacro")
+    return os.path.dirname(spec.origin) if spec is not None and spec.origin else ""
 
 
 def group(request: dict[str, Any]) -> str | None:

@@ -161,7 +161,7 @@ class _OwnXacro(importlib.abc.MetaPathFinder):
     """The module that the analysis has, where the launch file's Python has none."""
 
     def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
-        if fullname != "xacro":
+        if fullname != "xacro" or not RECORDER.own_xacro:
             return None
         folder = RECORDER.own_xacro
         init = os.path.join(folder, "__init__.py")
