@@ -10,12 +10,12 @@ from support.lsp_client import editing
 pytestmark = pytest.mark.ros
 
 TEXT = """<launch>
-  <node pkg="elsewhere" type="a" name="a"/>
-  <node pkg="elsewhere" type="b" name="b"/>
+  <node pkg="slam_toolbox" type="a" name="a"/>
+  <node pkg="slam_toolbox" type="b" name="b"/>
   <param name="robot" value="$(env ROBOT_THAT_NOBODY_HAS)"/>
 </launch>
 """
-LINES = ["1 package: elsewhere (2)", "1 environment variable: ROBOT_THAT_NOBODY_HAS"]
+LINES = ["1 package: slam_toolbox (2)", "1 environment variable: ROBOT_THAT_NOBODY_HAS"]
 
 
 async def test_what_is_missing_is_in_the_status_and_on_the_doctors_page(harness: Harness) -> None:
