@@ -718,8 +718,8 @@ def test_an_unbuilt_workspace_in_the_editor(harness: Harness) -> None:
     analysis = workspace.static(str(path))
     whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
     found: dict[str, Any] = {finding.rule: finding for finding in whole.findings}
-    assert found["PKG002"].severity == "info"
-    assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("info", True)
+    assert found["PKG002"].severity == "hint"
+    assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("warning", True)
     assert ExecutableIndex(harness.environment).names("p") == ("l", "t")
     assert whole.graph is not None
     assert [each.outcome.reason for each in whole.graph.interfaces] == ["it is not built yet"] * 2

@@ -151,7 +151,7 @@ def test_the_executable_of_a_component(harness: Harness) -> None:
     harness.write("CMakeLists.txt", LIBRARY)
     assert ends(harness.read(CLASS + REGISTER)) == DRIVER
     _, findings = harness.start(NODE.format(inner=""))
-    assert [(f.rule, f.severity) for f in findings if f.rule == "PKG002"] == [("PKG002", "info")]
+    assert [(f.rule, f.severity) for f in findings if f.rule == "PKG002"] == [("PKG002", "hint")]
 
 
 def test_a_component_that_only_its_source_tells_of(harness: Harness) -> None:

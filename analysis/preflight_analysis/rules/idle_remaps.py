@@ -87,9 +87,9 @@ def _idle(graph: Graph, idle: Iterable[tuple[Remap, ...]]) -> Iterator[IdleRemap
 
 
 def _reports_names(node: LaunchNode, interface: Interface) -> bool:
-    """Whether a run showed all names that the node uses. One that made nothing of its own is a wrapper or a loader of
-    something else, whose names nobody saw."""
-    if interface.source != "trace" or not interface.complete or node.unknowns:
+    """Whether a run showed, or the source tells, all names that the node uses. One that made nothing of its own is a
+    wrapper or a loader of something else, whose names nobody saw."""
+    if interface.declared or not interface.told or node.unknowns:
         return False
     if node.package == "nodelet":
         return False  # those of images subscribe only while somebody reads what they make of it

@@ -31,6 +31,13 @@ class Verbs:
     consumes: str
 
 
+def known_by_source(context: Context) -> frozenset[int]:
+    """The ids of the nodes that are known from their source alone. Ask through `context.once`."""
+    graph = context.graph
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ()
+    return frozenset(id(node) for node, interface in pairs if interface.source == "source")
+
+
 def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:
     """The value of an attribute of the node's tag; the start tag if it has none of that name."""
     span = node.tag.span_of(name)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import renamed
-from preflight_analysis.rules.places import related_node, related_param_read
+from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import Unread, unread_params
@@ -23,8 +23,9 @@ def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Find
     param, holder, read = unread.param, unread.holder, unread.meant
     if read is None:
         who = holder.name if holder is not None else "no node"
+        until = "in its source" if id(holder) in context.once(known_by_source) else "before its event loop"
         return rule.finding(
-            f"{who} does not read parameter '{param.name}' before its event loop, nor does any other node",
+            f"{who} does not read parameter '{param.name}' {until}, nor does any other node",
             param.place,
             severity="hint",
             confidence="possible",

@@ -172,7 +172,7 @@ def _known(context: Context) -> frozenset[str]:
     if graph is None:
         return frozenset()
     pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
-    return frozenset(node.name for node, interface in pairs if interface.complete)
+    return frozenset(node.name for node, interface in pairs if interface.told)
 
 
 RULE = Rule(

@@ -8,7 +8,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import IdleRemap, idle_remaps
-from preflight_analysis.rules.places import endpoints_of, related_endpoint
+from preflight_analysis.rules.places import endpoints_of, known_by_source, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -23,8 +23,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
         meant = idle.meant
         if meant is None:
+            of_source = {id(each) for each in idle.nodes} <= context.once(known_by_source)
             yield rule.finding(
-                f"{message} before its event loop",
+                f"{message} {'in its source' if of_source else 'before its event loop'}",
                 remap.source_location,
                 severity="hint",
                 confidence="possible",
@@ -69,10 +70,10 @@ RULE = Rule(
     name="remap-without-effect",
     severity="warning",
     what="Reports a remap whose `from` is no topic, service or parameter of the nodes that it reaches, all of which "
-    "were run to their event loop. It is a warning that names what was probably meant where a node has a dangling end "
-    "of a like name, or only one that fits what is there under the remap's `to`; otherwise a hint, since a node or a "
-    "library that it links may use the name later. Namespaces of names that are used, and names below one, count as "
-    "used: actions, image transports and `dynamic_reconfigure` make theirs so.",
+    "were run to their event loop or tell all by their source. It is a warning that names what was probably meant where"
+    " a node has a dangling end of a like name, or only one that fits what is there under the remap's `to`; "
+    "otherwise a hint, since a node or a library that it links may use the name later. Namespaces of names that are"
+    " used, and names below one, count as used: actions, image transports and `dynamic_reconfigure` make theirs so.",
     why="A remap of a name that does not occur is ignored without a word, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
     instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',

@@ -43,7 +43,7 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
 
 def reports_params(interface: Interface) -> bool:
     """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
-    return interface.complete and (not interface.declared or bool(interface.params))
+    return interface.told and (not interface.declared or bool(interface.params))
 
 
 def fits(value: object, read: ParamRead) -> bool:

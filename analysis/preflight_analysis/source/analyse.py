@@ -7,7 +7,7 @@ import os
 import re
 import shlex
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -50,6 +50,9 @@ class SourceInterface:
     params: tuple[ParamUse, ...] = ()
     nodes: tuple[MadeNode, ...] = ()
     """ROS 2: those that the process makes; empty where it is not known which."""
+    whole: bool = False
+    """Whether nothing is known of that was left out: each name is computed, and no library of which nothing is known
+    was given the node."""
 
 
 _NOTHING = SourceInterface()
@@ -140,7 +143,7 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
         cpp, named = _cpp(environment, disk), (node.name, node.package, node.executable)
         found = cpp.read(named, args, resolved, params, config)
     said = SourceInterface(found.endpoints, found.params, found.nodes)
-    return said if said != _NOTHING else _NOTHING
+    return replace(said, whole=found.whole) if said != _NOTHING else _NOTHING
 
 
 @query(limit=_MAX_TREES)

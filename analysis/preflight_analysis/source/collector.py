@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
@@ -22,6 +23,7 @@ class Collector:
         self._nodes: dict[MadeNode, None] = {}
         self._alternatives = False
         self._unknown_nodes = False
+        self._missed = False
         self.branches = Branches()
         """Those of the program that is gone through."""
 
@@ -43,6 +45,15 @@ class Collector:
         ambiguous = self._unknown_nodes or (self._alternatives and len(self._nodes) > 1)
         return () if ambiguous else tuple(self._nodes)
 
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is known of that was left out: every name is computed, and nobody else was given the node."""
+        return not self._missed
+
+    def miss(self) -> None:
+        """There may be more than was found."""
+        self._missed = True
+
     def node(self, name: Any, space: Any = "", *, renamed: bool = True) -> None:
         """One node that is made; `renamed` is whether it takes the name that the launch gives to the process."""
         if not is_name(name) or "/" in name or not isinstance(space, str) or len(self._nodes) >= _MAX_NODES:
@@ -57,18 +68,34 @@ class Collector:
 
     def add_endpoint(self, endpoint: Endpoint) -> None:
         """One end that is made."""
+        key = (endpoint.role, endpoint.name, endpoint.type)
         if is_name(endpoint.name) and len(self._endpoints) < _MAX_FOUND:
-            self._endpoints.setdefault((endpoint.role, endpoint.name, endpoint.type), endpoint)
+            before = self._endpoints.get(key)
+            if before is None:
+                self._endpoints[key] = replace(endpoint, conditional=self.branches.speculative)
+            elif before.conditional and not self.branches.speculative:
+                self._endpoints[key] = replace(before, conditional=False)
+        else:
+            self.miss()
 
     def await_service(self, endpoint: Endpoint) -> None:
         """A service that is waited for."""
         if is_name(endpoint.name):
             self._awaited.append(endpoint)
+        else:
+            self.miss()
 
     def use(self, use: ParamUse) -> None:
         """One use of a parameter."""
         if len(self._uses) < _MAX_FOUND:
-            self._uses.setdefault((use.name, use.access, use.has_default), use)
+            key = (use.name, use.access, use.has_default)
+            before = self._uses.get(key)
+            if before is None:
+                self._uses[key] = replace(use, conditional=self.branches.speculative)
+            elif before.conditional and not self.branches.speculative:
+                self._uses[key] = replace(before, conditional=False)
+        else:
+            self.miss()
 
 
 def is_name(value: Any) -> bool:

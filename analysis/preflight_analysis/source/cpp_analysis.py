@@ -12,6 +12,8 @@ from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
 from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main
+from preflight_analysis.source.cpp_libraries import may_hide_ends
+from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
@@ -51,6 +53,7 @@ class CppAnalysis:
                 )
         elif (program := files.executable(package, executable)) is not None:
             calls.include(program.includes)
+            _judge(program, calls)
             interpret_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
             for loaded in calls.nodelets:
                 calls.loaded = loaded
@@ -72,6 +75,7 @@ class CppAnalysis:
         program = files.component(package, cls) if cls is not None else files.executable(package, executable)
         if program is not None:
             calls.includes = program.includes
+            _judge(program, calls)
             if cls is not None:
                 interpret_class(program, cls.removeprefix("::"), None, calls)
             else:
@@ -91,4 +95,10 @@ class CppAnalysis:
         if found is not None:
             program, cls = found
             calls.include(program.includes)
+            _judge(program, calls)
             interpret_class(program, cls, "onInit", calls)
+
+
+def _judge(program: CppProgram, calls: RoscppCalls | RclcppCalls) -> None:
+    if may_hide_ends(program):
+        calls.collected.miss()

@@ -165,6 +165,7 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
     whole = interface.with_more("source", endpoints, params, found.nodes)
     if not _is_more(whole, interface):
         return interface
+    whole = replace(whole, whole=found.whole)
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:
         return whole
     # There is no executable, but what it is to be made of.

@@ -125,7 +125,10 @@ class CallExpressions(Expressions):
         node = function.node
         key = id(node)
         self._call_counts[key] = self._call_counts.get(key, 0) + 1
-        if key in self._active or self._depth >= _MAX_DEPTH or self._call_counts[key] > _MAX_CALLS:
+        if key in self._active:
+            return UNKNOWN
+        if self._depth >= _MAX_DEPTH or self._call_counts[key] > _MAX_CALLS:
+            self._calls.cut_short()
             return UNKNOWN
         names = self._parameters(function, args, kwargs, unknown)
         parent = function.scope if function.scope.names is not function.scope.module.names else None

@@ -41,7 +41,9 @@ class _Interpreter(CallExpressions):
             for function in self._waiting:  # grows while it is gone through
                 if not self._call_counts.get(id(function.node)):
                     self._call_function(function, [], {}, unknown=True)
-        except (TooLargeError, ExitError, RecursionError):
+        except (TooLargeError, RecursionError):
+            self._calls.cut_short()
+        except ExitError:
             return
 
     def _module(self, path: str, tree: ast.Module, name: str) -> Module:

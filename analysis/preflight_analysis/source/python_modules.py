@@ -15,6 +15,9 @@ class Calls(Protocol):
     def call(self, path: str, args: Sequence[Any], kwargs: Mapping[str, Any], file: str, line: int) -> Any:
         """The value of `path(*args, **kwargs)` at this place, UNKNOWN if that cannot be told."""
 
+    def cut_short(self) -> None:
+        """What follows is not gone through: there may be more than was told."""
+
     def begin(self, branches: Branches) -> None:
         """The program begins; `branches` tells what may well not be done."""
 

@@ -95,6 +95,7 @@ class RclcppCalls(Parameters):
         """There may be more declarations of parameters, and more nodes."""
         self.collected.unknown_node()
         self.collected.use(ParamUse("/", "list"))
+        self.collected.miss()
 
     def takes(self, owner: Any, call: Call) -> bool:
         """What declares parameters in the way of a library, and what gives the node itself."""
@@ -154,6 +155,7 @@ class RclcppCalls(Parameters):
             return Unmade(type_)
         if name in LOADERS:
             self._any_parameter(place)  # what it loads declares its own
+            self.collected.miss()
         elif endpoints := FIXED.get(name):
             for role, topic, kind in endpoints:
                 self._endpoint(role, first_node(given).name(topic), kind, {}, place)
@@ -166,6 +168,7 @@ class RclcppCalls(Parameters):
             self._unknown_library(name, given, place)
             if name.endswith("Node") and any(isinstance(value, str) or is_options(value) for value in given):
                 self._any_parameter(place)  # of a package that is not there in source form
+                self.collected.miss()
                 self.collected.unknown_node()
                 return NodeObject()
         return Unmade(type_)
@@ -229,6 +232,7 @@ class RclcppCalls(Parameters):
         """A library of which nothing is known may declare parameters of a node that it is given."""
         if name.partition("::")[0] not in HARMLESS and any(node_of(value) is not None for value in given):
             self._any_parameter(place)
+            self.collected.miss()
 
     # Calls.
 
@@ -358,6 +362,7 @@ class RclcppCalls(Parameters):
         role, kind = WITH_NODE[name]
         at = next((i for i, arg in enumerate(args) if isinstance(arg.value, str)), None)
         if at is None:
+            self.collected.miss()
             return  # made without a name, or of one that is not known
         qos = _qos(args[at + 1 :]) if kind == "msg" else {}
         self._endpoint(role, first_node(values(args)).name(args[at].value), self._first(types, kind), qos, place)
@@ -367,6 +372,7 @@ class RclcppCalls(Parameters):
         given = values(args)
         texts = [value for value in given if isinstance(value, str)]
         if not texts:
+            self.collected.miss()
             return
         node, topic = first_node(given), texts[0]
         qos = next((rclcpp_qos.of(v) for v in given if isinstance(v, Qos)), {})

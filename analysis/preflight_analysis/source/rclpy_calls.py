@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.python_libraries import makes_no_ends
 from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
@@ -86,6 +87,10 @@ class RclpyCalls:
         """A node that is made in one branch of a condition may well not be made."""
         self.collected.branches = branches
 
+    def cut_short(self) -> None:
+        """There may be more."""
+        self.collected.miss()
+
     def value(self, path: str) -> Any:
         """`sys.argv` and the profiles of QoS are known; everything else is what its name says."""
         if path == "sys.argv":
@@ -121,8 +126,11 @@ class RclpyCalls:
             return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
         if _MAKES_NODES.search(path):
             self.collected.unknown_node()
+            self.collected.miss()
         if name in ("os.path.join",) and args and all(isinstance(a, str) for a in args):
             return os.path.join(*args)
+        if not makes_no_ends(path) and any(map(_has_node, (*args, *kwargs.values()))):
+            self.collected.miss()
         return UNKNOWN
 
     def _of_rclpy(
@@ -169,6 +177,7 @@ class RclpyCalls:
 
     def _declared(self, name: Any, default: Any, descriptor: Any, file: str, line: int) -> Any:
         if not isinstance(name, str) or not name:
+            self.collected.miss()
             return UNKNOWN
         bare = _bare_type(default)
         has_default = default is not UNKNOWN and default is not None and bare is None
@@ -182,8 +191,12 @@ class RclpyCalls:
 
     def _declared_all(self, namespace: Any, parameters: Any, file: str, line: int) -> Any:
         prefix = f"{namespace}." if isinstance(namespace, str) and namespace else ""
+        if not isinstance(namespace, str) or not isinstance(parameters, (list, tuple)):
+            self.collected.miss()
         for each in parameters if isinstance(parameters, (list, tuple)) else ():
-            if isinstance(each, (list, tuple)) and each and isinstance(each[0], str):
+            if not isinstance(each, (list, tuple)) or not each or not isinstance(each[0], str):
+                self.collected.miss()
+            else:
                 default = each[1] if len(each) > 1 else UNKNOWN
                 self._declared(prefix + each[0], default, each[2] if len(each) > 2 else UNKNOWN, file, line)
         return UNKNOWN
@@ -272,3 +285,8 @@ def _plain(path: str) -> str:
     """`rclpy.action.server.ActionServer` is `rclpy.ActionServer`."""
     top, _, rest = path.partition(".")
     return f"{top}.{rest.rpartition('.')[2]}" if top in _LIBRARIES else path
+
+
+def _has_node(value: Any) -> bool:
+    """Whether it is a node, or an object of the program that may have one."""
+    return isinstance(value, Instance) or (isinstance(value, Imported) and value.path == "rclpy.Node()")

@@ -27,6 +27,8 @@ LIBRARIES = frozenset(
     }
 )
 """The packages whose calls are known here."""
+HARMLESS = frozenset({"boost", "std", *LIBRARIES})
+"""Namespaces of libraries that may get a handle and make nothing with it that is not known here."""
 
 _TF = "tf2_msgs/TFMessage"
 IMAGE, INFO = "sensor_msgs/Image", "sensor_msgs/CameraInfo"

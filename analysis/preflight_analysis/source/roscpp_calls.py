@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import is_name
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_values import (
@@ -27,6 +28,7 @@ from preflight_analysis.source.roscpp_api import (
     FIXED,
     FREE_PARAMS,
     HANDLE,
+    HARMLESS,
     IMAGE,
     INFO,
     LOADER,
@@ -83,13 +85,15 @@ class RoscppCalls(Parameters):
         self._types.includes = files
 
     def cut_short(self) -> None:
-        """Nothing: what is found is never taken for all."""
+        """There may be more."""
+        self.collected.miss()
 
     def notice(self, *_: object) -> None:
         """Nothing: the method is gone through."""
 
-    def begin(self, _: object) -> None:
-        """Nothing: all branches count alike."""
+    def begin(self, branches: Branches) -> None:
+        """What is made in one branch of a condition may well not be made."""
+        self.collected.branches = branches
 
     def dead_code(self, _: bool) -> bool:
         """No."""
@@ -147,6 +151,10 @@ class RoscppCalls(Parameters):
             return made
         elif name == "realtime_tools::RealtimePublisher" and args:
             self._endpoint("publisher", known.name(first_text(given)), self._types.argument(type_, 0), place)
+        elif name == "pluginlib::ClassLoader":
+            self.collected.miss()  # what it loads makes its own
+        else:
+            self._given_away(name, given)
         return Made(type_, known) if name.startswith("image_transport::") else Unmade(type_)
 
     def _configured(self, type_: CppType, handle: Handle) -> None:
@@ -187,6 +195,11 @@ class RoscppCalls(Parameters):
         elif given:
             handle = handle_of(next((v for v in given if is_handle(v)), None))
             self._endpoint("subscriber", handle.name(first_text(given)), self._types.argument(made.type, 0), place)
+
+    def _given_away(self, name: str, given: Sequence[Any]) -> None:
+        """What is done with a handle by a library of which nothing is known is not known either."""
+        if name.partition("::")[0] not in HARMLESS and any(is_handle(value) for value in given):
+            self.collected.miss()
 
     # Calls.
 
@@ -238,6 +251,7 @@ class RoscppCalls(Parameters):
         known = full in FIXED or full in AT_HANDLE or full in ACTIONS or full == HANDLE
         if known or full.startswith(("image_transport::", "message_filters::")):
             return self.make(CppType(full, tuple(call.types)), call.args, call.place)
+        self._given_away(full, values(call.args))
         return UNKNOWN
 
     def method(self, owner: Any, call: Call) -> Any:
@@ -266,6 +280,8 @@ class RoscppCalls(Parameters):
         ):
             first = value_at(call.args, 0)
             self._param("get", first if is_name(first) else UNKNOWN, UNKNOWN, False, call.place)
+        elif isinstance(owner, Unmade) and owner.type.name not in ANY_MESSAGE:
+            self._given_away(owner.type.name, values(call.args))
         return UNKNOWN
 
     def _of_handle(self, handle: Handle, call: Call) -> Any:

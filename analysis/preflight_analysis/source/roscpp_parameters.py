@@ -60,6 +60,7 @@ class Parameters:
     def _param(self, access: str, name: Any, default: Any, has_default: bool, place: Place) -> Any:
         """Note a use; the value that it gives. Nothing is mandatory: what is not there leaves the node's own value."""
         if not is_name(name):
+            self.collected.miss()
             return default
         known = default if is_plain(default) else None
         self.collected.use(ParamUse(name, access, known, has_default, False, place.file, place.line))

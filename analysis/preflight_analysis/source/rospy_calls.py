@@ -8,9 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import Collector, is_name
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.python_libraries import makes_no_ends
 from preflight_analysis.source.python_values import UNKNOWN, Imported, StarImported, is_plain
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
@@ -79,8 +81,13 @@ class RospyCalls:
         self._config = config
         self.collected = Collector()
 
-    def begin(self, _: object) -> None:
-        """Nothing: all branches count alike."""
+    def begin(self, branches: Branches) -> None:
+        """What is made in one branch of a condition may well not be made."""
+        self.collected.branches = branches
+
+    def cut_short(self) -> None:
+        """There may be more."""
+        self.collected.miss()
 
     def value(self, path: str) -> Any:
         """`sys.argv` is known; everything else is what its name says."""
@@ -137,11 +144,14 @@ class RospyCalls:
             return os.path.join(*args) if args else UNKNOWN
         if name == "rospy.numpy_msg":
             return given(0, "msg_type")
+        if not makes_no_ends(name):
+            self.collected.miss()
         return UNKNOWN
 
     def _param(self, access: str, name: Any, default: Any, has_default: bool, file: str, line: int) -> Any:
         default = default if has_default else UNKNOWN
         if not is_name(name):
+            self.collected.miss()
             return default
         known = default if is_plain(default) else None
         self.collected.use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))

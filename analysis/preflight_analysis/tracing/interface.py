@@ -52,6 +52,8 @@ class Endpoint:
     """Found after a made-up answer."""
     inferred: bool = False
     """Read from the source code, not seen in a run."""
+    conditional: bool = False
+    """In the source, only a condition that is not known leads there, or a callback."""
     similar: bool = False
     """Seen in a run of the same executable under another configuration, not in one of this node."""
     on_demand: bool = False
@@ -64,8 +66,8 @@ class Endpoint:
 
     @property
     def assumed(self) -> bool:
-        """Whether no run of this node, and no word of the user, says that it makes it."""
-        return self.inferred or self.similar
+        """Whether no run of this node, no word of the user and no plain line of its source says that it makes it."""
+        return self.similar or (self.inferred and self.conditional)
 
     @property
     def uncertain(self) -> bool:
@@ -103,6 +105,8 @@ class ParamUse:
     builtin: bool = False
     inferred: bool = False
     """Read from the source code, not seen in a run."""
+    conditional: bool = False
+    """In the source, only a condition that is not known leads there, or a callback."""
     similar: bool = False
     """Seen in a run of the same executable under another configuration, not in one of this node."""
     type: str | None = None
@@ -121,8 +125,8 @@ class ParamUse:
 
     @property
     def assumed(self) -> bool:
-        """Whether no run of this node, and no word of the user, says that it asks for it."""
-        return self.inferred or self.similar
+        """Whether no run of this node, no word of the user and no plain line of its source says that it asks for it."""
+        return self.similar or (self.inferred and self.conditional)
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -226,6 +230,8 @@ class Interface:
     """Python modules that it imports and this machine does not have, sorted: others stood in for them."""
     elsewhere: Elsewhere | None = None
     """Where what is `similar` was seen."""
+    whole: bool = False
+    """Whether its source, which it is known from, told all: each name is computed, each branch gone through."""
 
     @property
     def known(self) -> bool:
@@ -246,6 +252,11 @@ class Interface:
         return self.declared or spins
 
     @property
+    def told(self) -> bool:
+        """Whether it was seen to do all that it does, or its source tells: what is not there is likely not there."""
+        return self.complete or (self.source == "source" and self.whole)
+
+    @property
     def likely_complete(self) -> bool:
         """Whether nothing speaks for more ends than are known: it is complete, came to its event loop with the help of
         made-up answers, or ended by itself without an error; and it did not ask who else is there."""
@@ -253,7 +264,7 @@ class Interface:
         if self.looks and not self.declared:
             return False
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
-        return self.complete or (self.known and done)
+        return self.told or (self.known and done)
 
     def own_name(self, namespace: str) -> str | None:
         """ROS 2: the full name of the node, where its own code gives it one, in a namespace of the launch file (`/` for
