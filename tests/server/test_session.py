@@ -11,7 +11,8 @@ import pytest
 from lsprotocol import types
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.app import PreflightServer
-from preflight_server.lsp.session import LARGE, Session
+from preflight_server.lsp.rounds import LARGE
+from preflight_server.lsp.session import Session
 from preflight_server.lsp.settings import Settings
 from support.waiting import answered
 

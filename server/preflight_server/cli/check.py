@@ -13,7 +13,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
-from preflight_analysis.findings.contexts import RootFindings, by_file, roots
+from preflight_analysis.findings.contexts import RootFindings
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.github import to_github
@@ -23,6 +23,7 @@ from preflight_analysis.findings.sarif import to_sarif
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.merged import counting, merged
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
@@ -150,21 +151,18 @@ def _check(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report
 
 def _not_included(found: Sequence[_Launched], asked: Collection[Root]) -> list[_Launched]:
     """Without those that another one turned out to include, once its Python launch files were run."""
-    reached: dict[str, list[str]] = {}
-    for each in found:
-        reached.setdefault(each.root.path, []).extend(each.files)
-    tops = frozenset(roots(reached))
-    return [each for each in found if each.root.path in tops or each.root in asked]
+    count = counting({each.root: each.files for each in found}, asked)
+    return [each for each in found if each.root in count]
 
 
 def _merged(launched: Sequence[_Launched]) -> tuple[Finding, ...]:
-    """As an editor shows them: once, and what nodes do together only where it holds in each launch of the file."""
+    """As an editor shows them."""
     if len(launched) == 1:
         return launched[0].findings
     reports = [
         RootFindings(each.root.label, frozenset((*each.files, *each.inputs)), each.findings) for each in launched
     ]
-    found: Mapping[str, Sequence[Finding]] = by_file(reports, {rule.id for rule in all_rules() if rule.every_root})
+    found = merged(reports)
     return tuple(finding for file in sorted(found) for finding in found[file])
 
 

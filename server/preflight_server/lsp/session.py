@@ -11,25 +11,22 @@ import contextlib
 import logging
 import threading
 import time
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
-from preflight_analysis.findings.contexts import RootFindings, by_file, lacks_once, roots
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.findings.lack import Missing, missing
-from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.findings.lack import Missing
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX
-from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
-from preflight_analysis.workspace.run_results import RunResults, with_results
+from preflight_analysis.workspace.run_results import RunResults
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -37,6 +34,8 @@ from preflight_server.lsp.buffers import Buffers
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
+from preflight_server.lsp.root_choice import RootChoice
+from preflight_server.lsp.rounds import Round, Snapshot
 from preflight_server.lsp.runs import Runs
 from preflight_server.lsp.settings import Settings
 from preflight_server.lsp.text_store import OpenDocument
@@ -50,10 +49,6 @@ _T = TypeVar("_T")
 PAUSE_AFTER_TYPING = 0.5
 """Seconds without an edit before anything is done but to analyse the root in whose context the file is shown: half a
 word is no argument to run a node with."""
-LARGE = 100
-"""From so many nodes on, what can be said of a launch without the graph is shown first."""
-MAX_ROOTS = 8
-"""How many of the roots that reach a file are analysed while it is open, the one that it is shown in first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,21 +64,6 @@ class View:
     index: WorkspaceIndex
     findings: tuple[Finding, ...]
     converter: Converter
-
-
-@dataclass(frozen=True, slots=True)
-class _Round:
-    """What one more analysis led to, over all roots."""
-
-    analyses: Mapping[Root, Analysis]
-    findings: Mapping[str, tuple[Finding, ...]]
-    missing: tuple[Missing, ...]
-    diagnostics: Mapping[str, list[types.Diagnostic]]
-    kept: Kept
-    converter: Converter
-    """What made them, for the next round."""
-    preliminary: bool = False
-    """Whether the graph of the one that was analysed is still missing."""
 
 
 class Session:
@@ -110,16 +90,9 @@ class Session:
         self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
         self._workspace: Workspace | None = None
         self._analyses: dict[Root, Analysis] = {}
-        self._findings: Mapping[str, tuple[Finding, ...]] = {}
-        self.missing: tuple[Missing, ...] = ()
-        """What of all that open files are launched with this machine does not have."""
-        self._kept: Kept | None = None
-        self._converter: Converter | None = None
-        self._focus: list[str] = []
-        """Paths of open launch files, and of what may be a parameter file, the one that was last opened or edited
-        first."""
-        self._selected: dict[str, Root] = {}
-        """The root that the user chose for a file to be shown in."""
+        self._last: Round | None = None
+        """What was published last."""
+        self._choice = RootChoice(server, self)
         self._dirty: dict[Root, int] = {}
         """Roots whose analysis is out of date, and the edit that made it so."""
         self._broken: dict[Root, int] = {}
@@ -141,7 +114,6 @@ class Session:
         self.calm = threading.Event()
         """Whether all that is shown is up to date: what runs in the background waits for that, thread or not."""
         self._settle()
-        self._every_root = frozenset(rule.id for rule in all_rules() if rule.every_root)
         self.runs = Runs(server, self, trusted=trusted)
         self.indexing = Indexing(server, self)
 
@@ -165,18 +137,18 @@ class Session:
             self._touch([document.path], None, quiet=quiet)
             return
         if is_launch_file(document) or may_be_parameter_file(document):
-            self._focus = [document.path, *(p for p in self._focus if p != document.path)]
+            self._choice.to_front(document.path)
             if self.folder is None and is_launch_file(document):
                 # An editor that opened a file and no folder: the workspace is the one around the file.
                 self.folder, self._workspace = workspace_of(document.path), None
                 self.indexing.changed(None)
         else:
-            self._focus = [p for p in self._focus if p != document.path]
+            self._choice.leave(document.path)
         self._touch([document.path], document.path, quiet=quiet)
 
     def closed(self, path: str) -> None:
         """A document that this folder depends on was closed."""
-        self._focus = [p for p in self._focus if p != path]
+        self._choice.leave(path)
         self._touch([path], None, quiet=0)
 
     def released(self, path: str) -> None:
@@ -186,7 +158,7 @@ class Session:
 
     def shows(self, path: str) -> bool:
         """Whether a file is open and belongs to this folder."""
-        return path in self._focus
+        return path in self._choice.open
 
     def depends_on(self, path: str) -> bool:
         """Whether some launch of this folder reads the file."""
@@ -232,13 +204,13 @@ class Session:
     async def select(self, path: str, root: Root | None) -> str | None:
         """Show a file in the context of this root; None for the one that the index puts first. Returns why not."""
         if root is None:
-            self._selected.pop(path, None)
+            self._choice.selected.pop(path, None)
         else:
             workspace = await self.workspace()
             analysis = await self.in_pool(lambda: workspace.static(root.path, dict(root.args)))
             if path not in analysis.tree.inputs:
                 return f"{root.label} does not include {path}"
-            self._selected[path] = root
+            self._choice.selected[path] = root
         self.index_changed()
         return None
 
@@ -271,7 +243,7 @@ class Session:
         analysed. Of Python files only those ask that say what no Python language server does: `python`."""
         await self.settled()
         document = self._server.texts.get(uri)
-        if document is None or document.path not in self._focus:
+        if document is None or document.path is None or document.path not in self._choice.open:
             return None
         if is_python_launch_file(document) and not python:
             return None
@@ -279,7 +251,7 @@ class Session:
         parsed = analyses[0].documents.get(document.path) if analyses else None
         if parsed is None or parsed.text != document.text:
             return None
-        findings = self._findings.get(document.path, ())
+        findings = self.findings.get(document.path, ())
         converter = Converter(self._server.texts, analyses[0].documents)
         index = self.indexing.index
         return View(self, document, document.path, analyses[0], analyses, index, findings, converter)
@@ -289,7 +261,7 @@ class Session:
         cannot wait while somebody types. None if it is no open launch file or parameter file of one, or was never
         analysed. Those who ask for `python` get the text of such a file, without what can be read from it."""
         document = self._server.texts.get(uri)
-        path = document.path if document is not None and document.path in self._focus else None
+        path = document.path if document is not None and document.path in self._choice.open else None
         if document is None or path is None or (is_python_launch_file(document) and not python):
             return None
         if next(self._of(path), None) is None:
@@ -329,23 +301,23 @@ class Session:
         return [self._analyses[root] for root in self._wanted() if root in self._analyses]
 
     @property
-    def findings(self) -> Mapping[str, Sequence[Finding]]:
+    def findings(self) -> Mapping[str, tuple[Finding, ...]]:
         """What the user is shown of each file."""
-        return self._findings
+        return self._last.findings if self._last is not None else {}
+
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        """What of all that open files are launched with this machine does not have."""
+        return self._last.missing if self._last is not None else ()
 
     @property
     def focus(self) -> str | None:
         """The open file that was last opened or edited."""
-        return next(iter(self._focus), None)
+        return next(iter(self._choice.open), None)
 
     def roots_of(self, path: str) -> list[Root]:
-        """The roots that reach a launch file or read a parameter file, the one that it is shown in first. None reads a
-        YAML file that is something else."""
-        chosen = [self._selected[path]] if path in self._selected else []
-        document, index = self._server.texts.by_path(path), self.indexing.index
-        is_read_only = document is not None and may_be_parameter_file(document)
-        found = index.roots_reading(path) if is_read_only else index.roots_of(path)
-        return list(dict.fromkeys((*chosen, *found)))
+        """The roots that reach a launch file or read a parameter file, the one that it is shown in first."""
+        return self._choice.of(path)
 
     async def in_pool(self, work: Callable[[], _T]) -> _T:
         """Run `work` in a thread, where it finds what was typed so far."""
@@ -382,18 +354,12 @@ class Session:
 
     def _wanted(self) -> list[Root]:
         """The roots to be analysed: for each open file the one that it is shown in, then the others."""
-        shown, others = self._shown(), dict[Root, None]()
-        for path in self._focus:
-            others.update(dict.fromkeys(self.roots_of(path)[:MAX_ROOTS]))
-        return list(dict.fromkeys((*shown, *others)))
+        return list(dict.fromkeys((*self._shown(), *self._choice.others())))
 
     def _shown(self) -> list[Root]:
         """The roots that open files are shown in. A file that its root does not reach any more is shown by itself."""
         shown: dict[Root, None] = {}
-        for path in self._focus:
-            root = next(iter(self.roots_of(path)), None)
-            if root is None:
-                continue
+        for path, root in self._choice.shown():
             shown[root] = None
             analysis = self._analyses.get(root)
             if analysis is not None and root not in self._dirty and path not in analysis.tree.inputs:
@@ -496,84 +462,40 @@ class Session:
         """Whether a file that it was made from changed meanwhile. Only now it is known which ones those are."""
         return self._touched is None or not self._touched.isdisjoint(analysis.tree.inputs)
 
-    async def _round(self, workspace: Workspace, root: Root | None) -> _Round | None:
-        wanted = set(self._wanted())
-        analyses = {root: analysis for root, analysis in self._analyses.items() if root in wanted}
-        results = self.runs.results(root) if root is not None else RunResults()
-        stale = frozenset(self._dirty) - {root}
-        explicit, selected = frozenset((*self._selected.values(), *self.indexing.named)), dict(self._selected)
-        kept, before = Kept(self._kept), self._converter
-        look_due, self._look_due = self._look_due, False
-
-        def work() -> _Round:
-            if look_due:
-                workspace.refresh()
-            preliminary = False
-            if root is not None:
-                static = workspace.static(root.path, dict(root.args))
-                preliminary = root not in analyses and len(static.tree.nodes) >= LARGE
-                whole = static if preliminary else with_results(workspace, static, results, analyses.get(root))
-                analyses[root] = whole
-            merged = self._merge(analyses, stale, explicit, selected, kept, before)
-            return replace(merged, preliminary=preliminary)
-
+    async def _round(self, workspace: Workspace, root: Root | None) -> Round | None:
+        snapshot = self._snapshot(root)
         try:
-            return await self.in_pool(work)
+            return await self.in_pool(lambda: snapshot.analysed(workspace))
         except Exception:
             _log.exception("the analysis of %s broke; its findings are left as they are", root)
             return None
 
-    def _merge(
-        self,
-        analyses: Mapping[Root, Analysis],
-        stale: Collection[Root],
-        explicit: Collection[Root],
-        selected: Mapping[str, Root],
-        kept: Kept,
-        before: Converter | None,
-    ) -> _Round:
-        """The findings of all roots by file, of a file for which the user chose a root those in that one. Runs in a
-        thread: files that are not open are read for their lines."""
-        reached: dict[str, list[str]] = {}
-        for root, analysis in analyses.items():
-            reached.setdefault(root.path, []).extend(analysis.tree.files)
-        tops = frozenset(roots(reached))
-        counting = {root: a for root, a in analyses.items() if root.path in tops or root in explicit}
-        reports = {root: self._report(root, a, root in stale) for root, a in counting.items()}
-        findings = by_file(reports.values(), self._every_root, kept)
-        for path, root in selected.items():
-            if root in reports and path in reports[root].files:
-                alone = by_file([reports[root]], self._every_root)
-                findings[path] = alone.get(path, ())
-        newest_last = sorted(counting, key=lambda root: root not in stale)
-        documents = {path: document for root in newest_last for path, document in counting[root].documents.items()}
-        converter = Converter(self._server.texts, documents, related=self._shows_related, before=before)
-        shown = {path: kept.get(lacks_once, path, found) for path, found in findings.items()}
-        diagnostics = {path: converter.diagnostics(path, found) for path, found in shown.items()}
-        lacks = missing((f.lack, f.location) for found in findings.values() for f in found if f.lack is not None)
-        converter.end()
-        kept.end()
-        return _Round(analyses, shown, lacks, diagnostics, kept, converter)
+    def _snapshot(self, root: Root | None) -> Snapshot:
+        wanted = set(self._wanted())
+        look, self._look_due = self._look_due, False
+        return Snapshot(
+            root,
+            self.runs.results(root) if root is not None else RunResults(),
+            {root: analysis for root, analysis in self._analyses.items() if root in wanted},
+            frozenset(self._dirty) - {root},
+            frozenset((*self._choice.selected.values(), *self.indexing.named)),
+            dict(self._choice.selected),
+            self._last,
+            look,
+            self._server.texts,
+            self._shows_related,
+        )
 
-    def _report(self, root: Root, analysis: Analysis, stale: bool) -> RootFindings:
-        """The findings of one root. Those of an earlier text say nothing of files that changed since."""
-        inputs = analysis.tree.inputs
-        files = frozenset((*analysis.tree.files, *inputs))
-        findings = analysis.findings
-        if stale:
-            files -= {path for path, digest in inputs.items() if self._sources.digest(path) != digest}
-            findings = tuple(f for f in findings if f.location.file in files)
-        return RootFindings(root.label, files, findings)
-
-    def _commit(self, round_: _Round) -> None:
+    def _commit(self, round_: Round) -> None:
         self._analyses = dict(round_.analyses)
         wanted = set(self._wanted())
         self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
         self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
-        self._findings, self.missing = round_.findings, round_.missing
-        self._kept, self._converter = round_.kept, round_.converter
+        self._last = round_
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
-        clean = {path: list[types.Diagnostic]() for path in self._focus if any(path in inputs for inputs in current)}
+        clean = {
+            path: list[types.Diagnostic]() for path in self._choice.open if any(path in inputs for inputs in current)
+        }
         self._server.publisher.update(self, {**clean, **round_.diagnostics}, self._edited)
         for callback in self._server.after_analysis:
             callback()
