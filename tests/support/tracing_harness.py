@@ -16,9 +16,9 @@ import pytest
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.dependencies import Dependencies
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.node_recipe import make
-from preflight_analysis.tracing.observation import Dependencies
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 

@@ -17,9 +17,9 @@ from typing import Any
 
 import pytest
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
 from preflight_analysis.tracing.node_recipe import make
-from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.preload import MOST_KEPT, Library
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.tracing import run, sandbox
+from preflight_analysis.tracing import interior, run, sandbox
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from support.tracing_harness import environment, processes_with, write_node
 from support.waiting import until
@@ -72,7 +72,7 @@ def test_what_it_prints_is_the_same_with_each_way_to_isolate(harness: Harness) -
     line = harness.script(
         "import os\nprint(os.environ['HOME'], os.environ['TMPDIR'], 'x' * 50000, os.environ['ROS_HOME'])"
     )
-    assert harness.run(line) == CommandResult("done", f"{sandbox.home()} /tmp {'x' * 50000} /tmp/ros_home\n")
+    assert harness.run(line) == CommandResult("done", f"{interior.home()} /tmp {'x' * 50000} /tmp/ros_home\n")
 
 
 def test_a_failure_is_none_where_the_sandbox_refuses_more_than_it_must(harness: Harness, each_backend: str) -> None:
@@ -277,7 +277,7 @@ def test_secrets_of_the_home_folder_stay_outside(harness: Harness, home: Path, l
 
 
 def test_a_home_folder_is_never_bound_back_however_it_is_named(home: Path) -> None:
-    assert sandbox.needs_binding([str(home), str(home.parent), f"{home}/.ssh/.."]) == []
+    assert interior.needs_binding([str(home), str(home.parent), f"{home}/.ssh/.."]) == []
 
 
 def test_files_below_the_home_folder_that_are_named_can_be_read(harness: Harness, home: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing import recipe, ros1_recipe, sandbox
+from preflight_analysis.tracing import interior, recipe, ros1_recipe, sandbox
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import known_backends, request, write_node
@@ -119,7 +119,7 @@ def test_programs_and_first_lines_of_the_workspace_show_nothing(home: Home) -> N
     shown = recipe.command_paths(
         environment, ros1_recipe.make_command(environment, str(named), (), "/"), str(named), (), ""
     )
-    assert not sandbox.shown(f"{home.folder}/.ssh/id_ed25519", shown)
+    assert not interior.shown(f"{home.folder}/.ssh/id_ed25519", shown)
 
 
 @pytest.mark.ros
@@ -152,7 +152,7 @@ def test_what_the_users_own_variables_name_is_shown(home: Home) -> None:
 
 def reach(environment: Environment, path: str | Path) -> bool:
     """Whether runs of the environment are shown a path."""
-    return sandbox.shown(str(path), recipe.visible_paths(environment))
+    return interior.shown(str(path), recipe.visible_paths(environment))
 
 
 def test_packages_that_are_installed_by_links_are_shown(home: Home) -> None:
@@ -199,7 +199,7 @@ def test_the_users_interpreters_are_shown(home: Home) -> None:
         environment = home.environment(PATH=path)
         asked = request(script)
         paths = recipe.request_paths(environment, asked, ros1_recipe.make(environment, asked))
-        return all(sandbox.shown(str(place), paths) for place in (python, home.folder / "venv/bin/python3"))
+        return all(interior.shown(str(place), paths) for place in (python, home.folder / "venv/bin/python3"))
 
     assert shown(f"{home.folder}/venv/bin:/usr/bin")
     assert not shown("/usr/bin")
@@ -225,8 +225,8 @@ def test_programs_of_the_path_have_all_that_they_need(home: Home) -> None:
     environment = home.environment(PATH=f"{home.folder}/.local/bin:/usr/bin")
     made = ros1_recipe.make_command(environment, str(program), (), "/")
     shown = recipe.command_paths(environment, made, str(program), (), "/usr/bin/python3")
-    assert all(sandbox.shown(str(path), shown) for path in (program, script, place / "pyvenv.cfg"))
-    assert not sandbox.shown(f"{home.folder}/.local/share/keyrings", shown)
+    assert all(interior.shown(str(path), shown) for path in (program, script, place / "pyvenv.cfg"))
+    assert not interior.shown(f"{home.folder}/.local/share/keyrings", shown)
 
 
 AS_USER = """

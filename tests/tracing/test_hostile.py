@@ -11,7 +11,7 @@ import uuid
 from pathlib import Path
 
 import pytest
-from preflight_analysis.tracing import run, sandbox
+from preflight_analysis.tracing import interior, run, sandbox
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import environment, own, processes_with, request, trace, write_node
 from support.waiting import until
@@ -367,4 +367,4 @@ def test_without_a_working_sandbox_nothing_runs(tmp_path: Path, monkeypatch: pyt
 
 def test_folders_that_hold_the_home_are_never_bound_back() -> None:
     home = Path.home()
-    assert sandbox.needs_binding(["/", str(home), str(home.parent)]) == []
+    assert interior.needs_binding(["/", str(home), str(home.parent)]) == []

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing import limits
+from preflight_analysis.tracing.dependencies import Dependencies
 from preflight_analysis.tracing.interface import Interface, Outcome
-from preflight_analysis.tracing.observation import Dependencies, Observation
+from preflight_analysis.tracing.observation import Observation
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import environment, own, trace, write_node

@@ -7,6 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+LISTS = "CMakeLists.txt"
+"""The name of a build file of CMake."""
+
 
 @dataclass(frozen=True, slots=True)
 class Target:

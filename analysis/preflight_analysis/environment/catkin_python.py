@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.cmake import LISTS
+from preflight_analysis.environment.build import LISTS
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.incremental.database import Database, query
 

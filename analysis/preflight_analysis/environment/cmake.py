@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.build import Build, Installed, Program, Target
+from preflight_analysis.environment.build import LISTS, Build, Installed, Program, Target
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, commands
 from preflight_analysis.environment.cmake_values import (
     SOURCES,
@@ -29,7 +29,6 @@ from preflight_analysis.environment.cmake_values import (
     words_of,
 )
 
-LISTS = "CMakeLists.txt"
 _MAX_COMMANDS = 20_000
 _BRANCHES = ("else", "elseif")
 _INSTALLS_NOTHING = re.compile(

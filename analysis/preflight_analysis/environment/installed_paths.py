@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.build import Build
-from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.setup_py import PythonBuild, read_python_build
 from preflight_analysis.incremental.database import Database, query
+
+if TYPE_CHECKING:
+    from preflight_analysis.environment.build import Build
+    from preflight_analysis.environment.setup_py import PythonBuild
 
 
 def located(disk: Disk, environment: Environment, path: str) -> str:
@@ -115,6 +117,9 @@ def python_build(disk: Disk, package: Package) -> PythonBuild:
 
 @query
 def _python_build(db: Database, share: str, name: str) -> PythonBuild:
+    # Who has no package that is not installed starts faster without.
+    from preflight_analysis.environment.setup_py import read_python_build  # noqa: PLC0415
+
     return read_python_build(share, name, Disk(db))
 
 
@@ -125,4 +130,6 @@ def cmake_build(disk: Disk, package: Package) -> Build:
 
 @query
 def _cmake_build(db: Database, share: str, name: str) -> Build:
+    from preflight_analysis.environment.cmake import read_build  # noqa: PLC0415, likewise
+
     return read_build(share, name, Disk(db))

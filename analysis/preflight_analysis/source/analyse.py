@@ -22,11 +22,8 @@ from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import ConfigParam, config_params
 from preflight_analysis.source.known_params import KnownParams, LaunchParams
-from preflight_analysis.source.python_interpreter import interpret
 from preflight_analysis.source.python_text import parse
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.source.rclpy_calls import RclpyCalls
-from preflight_analysis.source.rospy_calls import RospyCalls
 from preflight_analysis.tracing.interface import Endpoint, MadeNode, ParamUse
 
 if TYPE_CHECKING:
@@ -125,6 +122,11 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
     main = program.main()
     found: Collector
     if main is not None:
+        # Who runs all nodes starts faster without.
+        from preflight_analysis.source.python_interpreter import interpret  # noqa: PLC0415
+        from preflight_analysis.source.rclpy_calls import RclpyCalls  # noqa: PLC0415
+        from preflight_analysis.source.rospy_calls import RospyCalls  # noqa: PLC0415
+
         file, tree = main
         if node.entry_point is not None or is_ament:
             entry = (node.entry_point or "").partition(":")[2] or None

@@ -13,8 +13,7 @@ from pathlib import PurePath
 from lxml import etree
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.build import Build, Target
-from preflight_analysis.environment.cmake import LISTS
+from preflight_analysis.environment.build import LISTS, Build, Target
 from preflight_analysis.environment.installed_paths import cmake_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.incremental.database import Database, query

@@ -15,6 +15,8 @@ from typing import IO
 
 import aspectlib  # type: ignore[import-untyped]
 
+from preflight_analysis.tracing.interior import within
+
 
 @dataclass(frozen=True, slots=True)
 class Agents:
@@ -38,8 +40,6 @@ _AGENTS = Path(__file__).parent / "agents"
 AGENTS = Agents(_AGENTS, Path(aspectlib.__file__).parent, _AGENTS)
 """The sources, as installed."""
 
-PRIVATE = "/run/preflight"
-"""What is ours inside: `lib` with the agents and aspectlib, `site` with `sitecustomize.py`, and the pipe `events`."""
 _LEFT_OVER_SECONDS = 600
 _RUN_FOLDER = "ros-preflight-"
 TEMPORARY_BYTES = 64 << 20
@@ -142,11 +142,6 @@ def place(path: str, moved: Mapping[str, str]) -> str:
         if path == folder or path.startswith(folder + "/"):
             return elsewhere + path[len(folder) :]
     return path
-
-
-def within(path: str, folder: str) -> bool:
-    """Whether `path` is `folder` or lies below it."""
-    return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
 def any_within(paths: Iterable[str], folder: str) -> bool:

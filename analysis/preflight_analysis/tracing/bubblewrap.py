@@ -15,7 +15,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from preflight_analysis.tracing import mounts, seccomp, sockets
-from preflight_analysis.tracing.backend import PRIVATE, TEMPORARY_BYTES, Backend, Isolated, View
+from preflight_analysis.tracing.backend import TEMPORARY_BYTES, Backend, Isolated, View
+from preflight_analysis.tracing.interior import PRIVATE
 
 _USERNS_SWITCHES = (
     ("/proc/sys/kernel/unprivileged_userns_clone", "0", "sysctl kernel.unprivileged_userns_clone=1"),

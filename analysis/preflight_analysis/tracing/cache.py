@@ -20,8 +20,8 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.remaps import overrides_qos
 from preflight_analysis.tracing import nodelets
+from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
 from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, MadeNode, Outcome, ParamUse, Range
-from preflight_analysis.tracing.observation import Dependencies, ParamDependency
 from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest

@@ -31,7 +31,16 @@ from preflight_analysis.environment.view import of_generation
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
-from preflight_analysis.tracing import compiled, launch_files, own_xacro, ros1_recipe, ros2_recipe, run, sandbox
+from preflight_analysis.tracing import (
+    compiled,
+    interior,
+    launch_files,
+    own_xacro,
+    ros1_recipe,
+    ros2_recipe,
+    run,
+    sandbox,
+)
 from preflight_analysis.tracing import expressions as evaluated
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
@@ -368,8 +377,8 @@ def _sandbox_to_blame(result: CommandResult, job: _Job, ended: _Ended) -> Comman
     said = "\n".join(result.stderr_tail)
     needed = recipes.out_of_reach(job.recipe, job.named[0], job.visible)
     met = (*([needed] if needed else []), *job.named, *ended.files, *_PATH.findall(said))
-    hidden = [p for p in met if not sandbox.shown(p, job.visible) and os.path.exists(p)]
-    written = [p for p in ended.wrote if sandbox.shown(p, job.visible) and not p.startswith(("/dev/", "/proc/"))]
+    hidden = [p for p in met if not interior.shown(p, job.visible) and os.path.exists(p)]
+    written = [p for p in ended.wrote if interior.shown(p, job.visible) and not p.startswith(("/dev/", "/proc/"))]
     if "not a git repository" in said:
         why = "it needs the git repository, which the sandbox hides"
     elif hidden:

@@ -15,14 +15,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.tracing import mounts, seccomp, sockets
 from preflight_analysis.tracing.backend import (
-    PRIVATE,
     Backend,
     Isolated,
     View,
     lay_agents,
     run_folder,
-    within,
 )
+from preflight_analysis.tracing.interior import PRIVATE, within
 
 _TMP = "/tmp"  # noqa: S108
 _OWN = ("/proc", "/dev", "/sys", "/run")

@@ -22,15 +22,14 @@ from pathlib import Path
 
 from preflight_analysis.tracing import mounts, seccomp
 from preflight_analysis.tracing.backend import (
-    PRIVATE,
     Backend,
     Isolated,
     View,
     any_within,
     lay_agents,
     run_folder,
-    within,
 )
+from preflight_analysis.tracing.interior import PRIVATE, within
 
 _LAUNCHER = Path(__file__).parent / "landlock_launcher.py"
 _CREATE_RULESET, _VERSION = 444, 1

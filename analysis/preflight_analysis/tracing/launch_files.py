@@ -21,8 +21,8 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS
 from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.tracing import interior, ros2_recipe
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing import ros2_recipe, sandbox
 from preflight_analysis.tracing.backend import AGENTS
 
 _TEXT = re.compile(r"""['"]([A-Za-z]\w*)['"]""")
@@ -130,7 +130,7 @@ def sandbox_to_blame(output: str, visible: Iterable[str], *, narrow: bool) -> st
         return message
     if number == errno.EROFS:
         return f"{said}: the sandbox lets no files be written"
-    if isinstance(path, str) and os.path.isabs(path) and not sandbox.shown(path, visible) and os.path.exists(path):
+    if isinstance(path, str) and os.path.isabs(path) and not interior.shown(path, visible) and os.path.exists(path):
         return f"{said}: the sandbox hides the file"
     if number in _NETWORK:
         return f"{said}: the sandbox has no network"

@@ -10,7 +10,7 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 
-from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing import interior
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.observation import Observation
 
@@ -61,7 +61,7 @@ def _lacks(outcome: Outcome, wrote: Collection[str], visible: tuple[str, ...]) -
         if (device := _DEVICE.search(line)) is not None:
             return f"the device {device[0]}, which the sandbox does not have"
         for path in _PATH.findall(line):
-            if not sandbox.shown(path, visible) and os.path.exists(path):
+            if not interior.shown(path, visible) and os.path.exists(path):
                 return f"'{path}', which the sandbox does not show"
             if (path in wrote or _WRITES.search(line.replace(path, ""))) and _may_be_written(path):
                 return f"to write '{path}', which the sandbox does not let it"

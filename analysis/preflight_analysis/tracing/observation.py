@@ -9,6 +9,7 @@ from typing import Any, cast
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import stand_ins
+from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
 from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, Outcome, ParamUse, Role
 from preflight_analysis.tracing.outcome import NOT_LOADED, outcome_of, seconds_of, stderr_tail
 from preflight_analysis.tracing.recipe import Recipe
@@ -22,26 +23,6 @@ _LIBRARY_PARAMS = re.compile(r"/(use_sim_time|tcp_keepalive|rosout_disable_topic
 _HELD_UP = 1.0
 """Seconds that a node waited for a processor: with them its time may have been enough."""
 _LIBRARY_SERVICES = ("get_loggers", "set_logger_level")
-
-
-@dataclass(frozen=True, slots=True)
-class ParamDependency:
-    """A look at the parameter server. `name` is as the node gave it if `given`, else the full name."""
-
-    access: str
-    name: str
-    given: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Dependencies:
-    """What the run depended on. `asked` has `name`, `namespace`, `remaps` if the node looked at them itself."""
-
-    files: tuple[str, ...] = ()
-    params: tuple[ParamDependency, ...] = ()
-    asked: frozenset[str] = frozenset()
-    searched: tuple[str, ...] = ()
-    """Folders in which a module could turn up that had a stand-in."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import signal
 from collections.abc import Mapping
 from typing import Any
 
-from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing import interior, sandbox
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, telling_line
 from preflight_analysis.tracing.recipe import missing_interpreter
 from preflight_analysis.tracing.records import CONTROL, NAME, Gathered, checked_text, is_number
@@ -90,7 +90,7 @@ def stderr_tail(data: bytes) -> tuple[str, ...]:
     for raw_line in data.decode(errors="replace").split("\n"):
         line = CONTROL.sub("", _ESCAPES.sub("", raw_line.rpartition("\r")[2] or raw_line)).rstrip()
         if line.startswith("  File "):
-            ours = f'"{sandbox.LIBRARY}' in line
+            ours = f'"{interior.LIBRARY}' in line
         elif not line.startswith("    "):
             ours = False
         if line and not ours:

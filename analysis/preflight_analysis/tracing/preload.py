@@ -13,7 +13,6 @@ import functools
 import hashlib
 import logging
 import os
-import platform
 import re
 import shutil
 import subprocess
@@ -152,7 +151,7 @@ class Library:
         compiler = os.path.realpath(self._compiler)
         with contextlib.suppress(OSError):
             info = os.stat(compiler)
-            named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *FLAGS)
+            named = (compiler, str(info.st_size), str(info.st_mtime_ns), os.uname().machine, *FLAGS)
             made_of = b"".join(file.read_bytes() for file in self._watched.files) + exports(self._watched).encode()
             return self._at(hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + made_of).hexdigest())
         return Preload(None, "the C++ compiler or our own source cannot be read")
@@ -181,7 +180,7 @@ def _used(path: str | None) -> None:
 
 
 def _supported() -> bool:
-    return sys.platform == "linux" and platform.machine() in MACHINES
+    return sys.platform == "linux" and os.uname().machine in MACHINES
 
 
 def _copy(prebuilt: Path, path: Path) -> bool:

@@ -17,7 +17,7 @@ from preflight_analysis.environment import reach
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.secrets import is_secret
-from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing import interior
 from preflight_analysis.tracing.agents.variables import STAND_INS
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.request import TraceRequest
@@ -67,9 +67,9 @@ def preloading(library: str, stable: Mapping[str, str]) -> str:
 def inside(stable: Mapping[str, str]) -> dict[str, str]:
     """The variables inside the sandbox."""
     env = dict(stable)
-    env["PYTHONPATH"] = os.pathsep.join(p for p in (sandbox.SITE, stable.get("PYTHONPATH", "")) if p)
+    env["PYTHONPATH"] = os.pathsep.join(p for p in (interior.SITE, stable.get("PYTHONPATH", "")) if p)
     env |= {
-        "HOME": sandbox.home(),
+        "HOME": interior.home(),
         "ROS_MASTER_URI": MASTER_URI,
         "ROS_IP": "127.0.0.1",
         "ROS_HOME": ROS_HOME,
@@ -103,7 +103,7 @@ def visible_paths(environment: Environment) -> list[str]:
     for python in (environment.python, environment.ros2_python, None):
         paths += reach.interpreter_paths(python or any_python(environment))
     own = [str(p) for p in Path(os.path.expanduser("~")).glob(".local/lib/python3*/site-packages")]
-    return sandbox.needs_binding([*_allowed(environment, paths), *own])
+    return interior.needs_binding([*_allowed(environment, paths), *own])
 
 
 def _allowed(environment: Environment, paths: Iterable[str]) -> list[str]:
@@ -125,7 +125,7 @@ def _linked(manifest: str) -> Iterator[str]:
 
 def request_paths(environment: Environment, request: TraceRequest, recipe: Recipe) -> list[str]:
     """What this node needs to see besides, as far as it may be shown."""
-    return sandbox.needs_binding([*_program_paths(environment, request.executable), recipe.preload or ""])
+    return interior.needs_binding([*_program_paths(environment, request.executable), recipe.preload or ""])
 
 
 def command_paths(
@@ -142,7 +142,7 @@ def command_paths(
     paths += [place for path in files for place in (path, os.path.dirname(path))]
     alone = [path for path in (executable, *files) if _may_be_named(environment, path)]
     programs = _program_paths(environment, executable)
-    return sandbox.needs_binding([*programs, *_allowed(environment, paths), *alone, recipe.cwd])
+    return interior.needs_binding([*programs, *_allowed(environment, paths), *alone, recipe.cwd])
 
 
 def _may_be_named(environment: Environment, path: str) -> bool:
@@ -163,7 +163,7 @@ def out_of_reach(recipe: Recipe, executable: str, visible: Iterable[str]) -> str
     or the interpreter that a script names."""
     needed = (recipe.argv[0], executable, *_shebang(executable)[:1])
     places = dict.fromkeys(place for path in needed for place in (path, os.path.realpath(path)))
-    return next((p for p in places if os.path.exists(p) and not sandbox.shown(p, visible)), None)
+    return next((p for p in places if os.path.exists(p) and not interior.shown(p, visible)), None)
 
 
 def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:

@@ -18,7 +18,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import IO, Any
 
-from preflight_analysis.tracing import backend, sandbox
+from preflight_analysis.tracing import backend, interior, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 from preflight_analysis.tracing.parameter_server import encode_params
@@ -134,7 +134,9 @@ def _execute(
     cancel: threading.Event,
     agents: Agents,
 ) -> RawRun:
-    start = f"import sys; sys.path.insert(0, {sandbox.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
+    start = (
+        f"import sys; sys.path.insert(0, {interior.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
+    )
     argv = [interpreter, "-I", "-S", "-c", start]
     with sandbox.prepared(argv, visible, agents) as prepared, os.fdopen(os.memfd_create("job"), "w+b") as handed:
         what = _process(recipe, prepared) if recipe is not None else {"compile": True}
@@ -167,7 +169,7 @@ def _sandbox(start: sandbox.Start) -> dict[str, Any]:
     """What the supervisor has to know of where it is."""
     isolated = start.isolated
     return {
-        "root": backend.place(sandbox.ROOT, isolated.moved),
+        "root": backend.place(interior.PRIVATE, isolated.moved),
         "temporary": backend.place("/tmp", isolated.moved),  # noqa: S108
         "most_processes": sandbox.PROCESSES if start.counting else None,
         "most_memory": sandbox.most_memory(),
@@ -189,7 +191,7 @@ def _process(recipe: recipes.Recipe, start: sandbox.Start) -> dict[str, Any]:
         if name in env:
             env[name] = place(env[name])
     entries = env["PYTHONPATH"].split(os.pathsep)
-    env["PYTHONPATH"] = os.pathsep.join(place(entry) if entry == sandbox.SITE else entry for entry in entries)
+    env["PYTHONPATH"] = os.pathsep.join(place(entry) if entry == interior.SITE else entry for entry in entries)
     log = "__log:=" + recipes.LOG_FOLDER
 
     def moved(word: str) -> str:
@@ -202,7 +204,7 @@ def _process(recipe: recipes.Recipe, start: sandbox.Start) -> dict[str, Any]:
         "argv": [moved(word) for word in recipe.argv],
         "env": env,
         "cwd": place(recipe.cwd) if recipe.cwd == recipes.ROS_HOME else recipe.cwd,
-        "folders": [place(folder) for folder in (recipes.ROS_HOME, recipes.LOG_FOLDER, sandbox.home())],
+        "folders": [place(folder) for folder in (recipes.ROS_HOME, recipes.LOG_FOLDER, interior.home())],
         "files": {place(path): text for path, text in recipe.files.items()},
         "rlimits": RLIMITS | {"NPROC": sandbox.PROCESSES if own_count else _PROCESSES_SHARED},
     }

@@ -14,18 +14,11 @@ import functools
 import os
 import shutil
 import subprocess
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from preflight_analysis.tracing import backend, bubblewrap, cgroup, firejail, landlock, seccomp
-from preflight_analysis.tracing.backend import AGENTS, Agents, Backend, Isolated, View, Visible, within
-
-ROOT = backend.PRIVATE
-"""All that is ours, inside."""
-LIBRARY = f"{ROOT}/lib"
-"""Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
-SITE = f"{ROOT}/site"
-"""The folder with `sitecustomize.py`, inside."""
+from preflight_analysis.tracing import bubblewrap, cgroup, firejail, interior, landlock, seccomp
+from preflight_analysis.tracing.backend import AGENTS, Agents, Backend, Isolated, View, Visible
 
 PROCESSES = 512
 """How many processes and threads a run may have at once."""
@@ -128,7 +121,14 @@ def prepared(argv: Sequence[str], visible: Visible, agents: Agents = AGENTS) -> 
 @contextlib.contextmanager
 def _prepared(chosen: Backend, argv: Sequence[str], visible: Visible, agents: Agents) -> Iterator[Start]:
     secrets = tuple(path for path in _SECRET_FILES if os.path.exists(path))
-    view = View(_masks(), secrets, tuple(needs_binding(visible.paths)), home(), agents, visible.repositories)
+    view = View(
+        interior.mask_roots(),
+        secrets,
+        tuple(interior.needs_binding(visible.paths)),
+        interior.home(),
+        agents,
+        visible.repositories,
+    )
     with chosen.isolated(argv, view) as found, contextlib.ExitStack() as at_end:
         command, place = found.command, cgroup.place()
         if place is not None:
@@ -157,52 +157,3 @@ def _guarantees(chosen: Backend) -> tuple[str, ...]:
     if place is not None and place.memory:
         memory += ", and gets no more by a control group"
     return (*chosen.guarantees, calls, count, memory)
-
-
-def masked(path: str) -> bool:
-    """Whether `path` lies in what is hidden inside, unless it is bound back."""
-    return any(within(path, root) for root in _masks())
-
-
-def shown(path: str, visible: Iterable[str]) -> bool:
-    """Whether the host's file is the one that is seen inside, when `visible` is bound back."""
-    return not masked(path) or any(within(path, root) for root in visible)
-
-
-def needs_binding(paths: Iterable[str]) -> list[str]:
-    """Of `paths`, the existing ones that are hidden inside, each as given and resolved, outermost only.
-
-    A folder that holds all of a masked one (a package path of `~`, say) is left out: it would show everything in it.
-    """
-    masks = _masks()
-    held = (*masks, home())
-    wanted: set[str] = set()
-    for path in dict.fromkeys(paths):
-        if not path or not os.path.isabs(path):
-            continue
-        for form in {os.path.normpath(path), os.path.realpath(path)}:
-            too_much = any(within(root, form) for root in held)
-            if any(within(form, root) for root in masks) and not too_much and os.path.lexists(form):
-                wanted.add(form)
-    kept: list[str] = []
-    for path in sorted(wanted):
-        if not any(within(path, outer) for outer in kept):
-            kept.append(path)
-    return kept
-
-
-def home() -> str:
-    """The home folder inside: the user's own, but empty save for what was bound back."""
-    found = os.path.realpath(os.path.expanduser("~"))
-    return found if os.path.isdir(found) and found != "/" else "/tmp/home"  # noqa: S108
-
-
-@functools.lru_cache(maxsize=8)
-def _masks_for(home_folder: str) -> tuple[str, ...]:
-    roots = {"/tmp", "/var/tmp", "/run", "/home", "/root", home_folder}  # noqa: S108
-    existing = sorted({os.path.realpath(root) for root in roots if os.path.isdir(root)} - {"/"})
-    return tuple(root for root in existing if not any(within(root, o) for o in existing if o != root))
-
-
-def _masks() -> tuple[str, ...]:
-    return _masks_for(home())

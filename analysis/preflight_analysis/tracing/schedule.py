@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Hashable, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.trace import Tracer
+
+if TYPE_CHECKING:
+    from preflight_analysis.tracing.trace import Tracer
 
 _Job = TypeVar("_Job")
 _Result = TypeVar("_Result")

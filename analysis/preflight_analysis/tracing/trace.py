@@ -12,35 +12,21 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
-from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import (
-    compiled,
-    limits,
-    node_recipe,
-    nodelets,
-    preload,
-    run,
-    sandbox,
-    stand_ins,
-    x_server,
-)
+from preflight_analysis.tracing import compiled, interior, limits, nodelets, run, sandbox, stand_ins, x_server
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
-from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.file_lock import file_lock
 from preflight_analysis.tracing.interface import Interface, Outcome
+from preflight_analysis.tracing.kept_traces import NO_PRELOAD, KeptTraces, preloaded, still_named, under_own_names
 from preflight_analysis.tracing.observation import Observation, observe
 from preflight_analysis.tracing.repositories import git_paths
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.service_types import ServiceTypes
 from preflight_analysis.tracing.store import identity
 
 _log = logging.getLogger(__name__)
 
-_NO_PRELOAD = preload.Preload(None)
 _MISSING_MODULE = re.compile(r"ModuleNotFoundError: No module named '((\w+)[\w.]*)'\Z")
 _OUT_OF_REACH = (
     "it needs '{}', which lies outside of the workspace and of what your environment names, and is not shown in the "
@@ -49,23 +35,8 @@ _OUT_OF_REACH = (
 _MASTER_ALONE = "only what a ROS master sees of it is known"
 
 
-class Tracer:
-    """Traces nodes of one environment. Usable from several threads at once. Without `cache` each trace is a run.
-    `library` is what watches roscpp nodes, if not the one in the user's cache folder. `disk` has the sources of
-    packages that are not built."""
-
-    def __init__(
-        self,
-        environment: Environment,
-        cache: TraceCache | None,
-        library: preload.Library | None = None,
-        disk: Disk | None = None,
-    ) -> None:
-        self.environment = environment
-        self._disk = disk or Disk()
-        self.cache = cache
-        self._libraries = {1: library or preload.library(1), 2: preload.library(2)}
-        self._services = ServiceTypes(environment)
+class Tracer(KeptTraces):
+    """Traces nodes of one environment. Usable from several threads at once. Without `cache` each trace is a run."""
 
     @functools.cached_property
     def _visible(self) -> list[str]:
@@ -75,31 +46,6 @@ class Tracer:
     def _repositories(self) -> tuple[str, ...]:
         return git_paths(self.environment)
 
-    def _recipe(self, request: TraceRequest, preload_path: str | None) -> recipes.Recipe:
-        modules = catkin_python.source_folders(self._disk, self.environment)
-        return node_recipe.make(self.environment, request, preload_path, modules)
-
-    def lookup(self, request: TraceRequest) -> Interface | None:
-        """A cached trace that is still valid; nothing is run."""
-        found = self._kept(request)
-        again = _under_own_names(request, found) if found is not None else None
-        if found is None or again is None:
-            return found
-        then = self._kept(again)
-        return _still_named(then, found) if then is not None else None
-
-    def _kept(self, request: TraceRequest) -> Interface | None:
-        if self.cache is None:
-            return None
-        alone = nodelets.standalone(request)
-        try:
-            planned = self._libraries[request.generation].planned() if _preloaded(alone) else _NO_PRELOAD
-            found = self.cache.load(self._recipe(alone, planned.path), alone)
-            return self._finished(found, request) if found is not None else None
-        except Exception:
-            _log.exception("looking up a trace of %s failed", request.node)
-            return None
-
     def trace(self, request: TraceRequest, cancel: threading.Event, *, fresh: bool = False) -> Interface:
         """The cached trace, or a new run; with `fresh` a new run in any case. Never raises: what stands in the way of a
         run is the outcome's reason.
@@ -108,21 +54,21 @@ class Tracer:
         have something for that, and so is a process of several nodes; whatever names they then have, there is no third
         time."""
         found = self._trace(request, cancel, fresh=fresh)
-        again = _under_own_names(request, found)
+        again = under_own_names(request, found)
         if again is None or cancel.is_set():
             return found
-        return _still_named(self._trace(again, cancel, fresh=fresh), found)
+        return still_named(self._trace(again, cancel, fresh=fresh), found)
 
     def _trace(self, request: TraceRequest, cancel: threading.Event, *, fresh: bool) -> Interface:
-        found = None if fresh else self._kept(request)
+        found = None if fresh else self.kept(request)
         if found is not None:
             return found
         with self._lock(request, cancel):
-            found = None if fresh else self._kept(request)
+            found = None if fresh else self.kept(request)
             if found is not None:
                 return found
             try:
-                return self._finished(self._run(nodelets.standalone(request), cancel), request)
+                return self.finished(self._run(nodelets.standalone(request), cancel), request)
             except Exception as error:
                 _log.exception("tracing %s failed", request.node)
                 return _not_run(f"the run failed: {error}")
@@ -135,10 +81,6 @@ class Tracer:
         seconds = run.WALL_SECONDS + run.STRETCH_SECONDS + run.OUTER_SECONDS
         return file_lock(self.cache.folder / "locks" / f"{digest[:32]}.lock", cancel, seconds)
 
-    def _finished(self, found: Interface, request: TraceRequest) -> Interface:
-        """What the run of the node alone does not tell, and depends on more than it did."""
-        return nodelets.with_manager(self._services.name_clients(found), request)
-
     def _run(self, request: TraceRequest, cancel: threading.Event) -> Interface:
         status = sandbox.probe()
         if not status.works:
@@ -146,10 +88,10 @@ class Tracer:
         if cancel.is_set():
             return _not_run("the run was cancelled")
         before = identity(request.executable)
-        built = self._libraries[request.generation].build() if _preloaded(request) else _NO_PRELOAD
+        built = self.libraries[request.generation].build() if preloaded(request) else NO_PRELOAD
         if not request.ros.has_master and built.reason is not None:
             return _not_run(built.reason)
-        recipe = stand_ins.admitted(self._recipe(request, built.path), self.environment, request.generation)
+        recipe = stand_ins.admitted(self.recipe(request, built.path), self.environment, request.generation)
         visible = sorted({*self._visible, *recipes.request_paths(self.environment, request, recipe)})
         hidden = recipes.out_of_reach(recipe, request.executable, visible)
         if hidden is not None:
@@ -190,28 +132,6 @@ class Tracer:
         return observed.interface
 
 
-def _under_own_names(request: TraceRequest, found: Interface) -> TraceRequest | None:
-    """The run with the parameters for the names that a first run told; None where it had them all."""
-    if not request.sections:
-        return None
-    if found.names:
-        return request.under_each(found.names)
-    if request.named:
-        return None
-    name = found.own_name(names.parent(request.node))
-    return request.under(name) if name is not None else None
-
-
-def _still_named(then: Interface, first: Interface) -> Interface:
-    """A second run with the names of the first, where it ended before it made any."""
-    return then if then.nodes or not then.known else replace(then, nodes=first.nodes)
-
-
-def _preloaded(request: TraceRequest) -> bool:
-    """Whether it is a node in C++, as far as can be told before it runs."""
-    return request.entry_point is None and preload.applies(request.executable)
-
-
 def _unbuilt(found: Interface, environment: Environment, generation: int) -> str | None:
     """Why it is as if a node had not been run that ended for a module of the workspace that is there once that is
     built, of its messages say; None for any other."""
@@ -245,7 +165,7 @@ def on_host(files: Iterable[str], visible: Iterable[str]) -> tuple[str, ...]:
     """The sources of what was opened, without the files that were the sandbox's own: the host's of the same name are
     others. Fast DDS keeps its ports in `/dev/shm`, under the names that those of the host have."""
     sources = dict.fromkeys(_source(opened) for opened in files if not opened.startswith(("/dev/", "/proc/")))
-    return tuple(path for path in sources if sandbox.shown(path, visible))
+    return tuple(path for path in sources if interior.shown(path, visible))
 
 
 def _source(path: str) -> str:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from preflight_analysis.evaluation.commands import CommandResult, Commands, KnownResults
 from preflight_analysis.evaluation.ros2.python_runs import MARK, good_series
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.tracing.commands import CommandRunner, alike
-from preflight_analysis.tracing.schedule import run_all
+
+if TYPE_CHECKING:
+    from preflight_analysis.tracing.commands import CommandRunner
 
 MOST_TOGETHER = 24
 """Calls of a Python launch file that one run answers: it has the time of one."""
@@ -78,6 +80,10 @@ def command_lines(tree: LaunchTree) -> tuple[str, ...]:
 def run_commands(runner: CommandRunner, lines: Sequence[str], cancel: threading.Event) -> dict[str, CommandResult]:
     """The results of command lines, from the cache or a run, as many at a time as there are processors; of those that
     were cancelled none."""
+    # Who has no command to run starts faster without.
+    from preflight_analysis.tracing.commands import alike  # noqa: PLC0415
+    from preflight_analysis.tracing.schedule import run_all  # noqa: PLC0415
+
     results: dict[str, CommandResult] = {}
     groups = alike(lines, MOST_TOGETHER)
 

@@ -7,11 +7,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.commands import CommandResults, run_commands
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+if TYPE_CHECKING:
+    from preflight_analysis.tracing.commands import CommandRunner
 
 MAX_ROUNDS = 100
 """Of runs, one after another."""

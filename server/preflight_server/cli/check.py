@@ -16,10 +16,7 @@ from preflight_analysis.findings.baseline import read_baseline, to_baseline, wit
 from preflight_analysis.findings.contexts import RootFindings
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import SEVERITIES, Finding
-from preflight_analysis.findings.github import to_github
-from preflight_analysis.findings.junit import to_junit
 from preflight_analysis.findings.report import Report, printable, relative, to_json, to_text
-from preflight_analysis.findings.sarif import to_sarif
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
@@ -195,10 +192,16 @@ def _print(report: Report, failing: Sequence[Finding], checked: Sequence[str], f
         case "json":
             print_json(to_json(report))
         case "sarif":
+            from preflight_analysis.findings.sarif import to_sarif  # noqa: PLC0415, other formats start faster without
+
             print_json(to_sarif(report, all_rules(), base))
         case "junit":
+            from preflight_analysis.findings.junit import to_junit  # noqa: PLC0415, likewise
+
             print_text(to_junit(report, failing, checked, base))
         case "github":
+            from preflight_analysis.findings.github import to_github  # noqa: PLC0415, likewise
+
             print_text(to_github(report, base))
         case _:
             # Empty counts as not set: https://no-color.org

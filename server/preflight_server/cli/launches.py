@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.index_store import IndexStore, build_from_kept
 from preflight_analysis.workspace.project_settings import read_project_settings
 
 from preflight_server.cli import options
@@ -70,6 +69,9 @@ def _named_below(folder: str, home: str) -> list[Root]:
 
 
 def _roots_below(folder: str, named: Sequence[Root], opened: OpenWorkspace) -> list[Root]:
+    # A check of single files starts faster without.
+    from preflight_analysis.workspace.index_store import IndexStore, build_from_kept  # noqa: PLC0415
+
     index = build_from_kept(IndexStore(), opened.workspace, folder, named)
     return sorted(index.entries) if index is not None else []
 

@@ -7,17 +7,17 @@ import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.report import place
-from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.kept_traces import KeptTraces
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
-from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.resolve_commands import resolve_together
@@ -27,6 +27,9 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.cli import options
 from preflight_server.cli.output import say
+
+if TYPE_CHECKING:
+    from preflight_analysis.tracing.commands import CommandRunner
 
 NO_RUN = "--no-run was given"
 
@@ -66,7 +69,7 @@ def analyse(
     return open_workspace(environment, args, similar=similar).analysed(path, values)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class OpenWorkspace:
     """A workspace of which several files are analysed. The commands of parameters are run in the sandbox, unless with
     `--no-run`."""
@@ -74,7 +77,6 @@ class OpenWorkspace:
     workspace: Workspace
     results: CommandResults
     no_run: bool
-    runner: CommandRunner
     _tried: set[str] = field(default_factory=set)
 
     def analysed(self, path: str, values: Mapping[str, str]) -> Project:
@@ -82,13 +84,22 @@ class OpenWorkspace:
         self.run_commands([Root.of(path, values)])
         return Project(self.workspace, self.workspace.static(path, values))
 
+    @cached_property
+    def _runner(self) -> CommandRunner:
+        from preflight_analysis.tracing.commands import CommandCache, CommandRunner  # noqa: PLC0415, seldom needed
+
+        return CommandRunner(self.workspace.environment, self.workspace.cwd, CommandCache(), self.workspace.sources)
+
     def run_commands(self, roots: Sequence[Root]) -> None:
         """Run what has to be run before these are known, side by side."""
         if self.no_run:
             return
+        waiting = [root for root in roots if self.workspace.static(root.path, dict(root.args)).tree.commands]
+        if not waiting:
+            return
         cancel = threading.Event()
         try:
-            resolve_together(self.workspace, roots, self.results, self.runner, cancel, tried=self._tried)
+            resolve_together(self.workspace, waiting, self.results, self._runner, cancel, tried=self._tried)
         except KeyboardInterrupt:
             cancel.set()
             raise
@@ -100,8 +111,7 @@ def open_workspace(environment: Environment, args: argparse.Namespace, *, simila
     sources = Sources()
     elsewhere = SimilarTraces(TraceCache(), environment, sources) if similar else None
     workspace = Workspace(environment, sources, commands=results, similar=elsewhere)
-    runner = CommandRunner(environment, workspace.cwd, CommandCache(), workspace.sources)
-    return OpenWorkspace(workspace, results, args.no_run, runner)
+    return OpenWorkspace(workspace, results, args.no_run)
 
 
 def run_nodes(
@@ -117,24 +127,29 @@ def run_nodes(
     Interrupting it stops the runs.
     """
     workspace, analysis = project.workspace, project.analysis
-    tracer = Tracer(project.environment, TraceCache(), disk=workspace.sources)
+    cache = TraceCache()
+    kept = KeptTraces(project.environment, cache, disk=workspace.sources)
     keys = node_keys(analysis.tree)
     requests = {
         key: request
         for key, request in zip(keys, workspace.requests(analysis), strict=True)
         if request is not None and only in (None, key[0])
     }
-    found = {key: hit for key, request in requests.items() if (hit := tracer.lookup(request)) is not None}
+    found = {key: hit for key, request in requests.items() if (hit := kept.lookup(request)) is not None}
     missing = [key for key in requests if key not in found]
     # Trying the sandbox starts processes: not where nothing is left to be run.
     why = _why_not(args.no_run) if missing or not found else None
-    if why is None:
+    if why is None and missing:
         cancel = threading.Event()
 
         def done(index: int, interface: Interface) -> None:
             found[missing[index]] = interface
             report(len(found), len(requests))
 
+        # Who has to run nothing starts faster without.
+        from preflight_analysis.tracing.trace import Tracer  # noqa: PLC0415
+
+        tracer = Tracer(project.environment, cache, disk=workspace.sources)
         try:
             trace_all(tracer, [requests[key] for key in missing], workers=args.jobs, on_done=done, cancel=cancel)
         except KeyboardInterrupt:
@@ -146,6 +161,8 @@ def run_nodes(
 def _why_not(no_run: bool) -> str | None:
     if no_run:
         return NO_RUN
+    from preflight_analysis.tracing import sandbox  # noqa: PLC0415, likewise
+
     status = sandbox.probe()
     return None if status.works else status.reason or "no sandbox works on this machine"
 
