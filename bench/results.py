@@ -17,6 +17,8 @@ KEYS: Mapping[str, str] = {
     "roslaunch_over_edit_ratio": "`roslaunch --nodes` of the same tree, over that median",
     "hover_worst_ms_while_indexing": "the slowest hover while 1,000 launch files are indexed",
     "index_1000_files_s": "from `initialized` to the end of that index, with nothing kept from before",
+    "version_s": "processor time of `ros-preflight --version`",
+    "check_of_demo_s": "... of a check of the demo whose nodes were run before",
     "first_answer_s": "from `initialized` to the first hover, in a tree of 500 nodes",
     "index_1000_files_again_s": "the index of a second start, when nothing has changed",
     "rss_mb_idle": "resident memory of the server that has been initialised",

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.interface import Interface, Outcome
+from preflight_analysis.tracing.kept_traces import KeptTraces
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.sandbox import SandboxStatus
-from preflight_analysis.tracing.trace import Tracer
 from preflight_server.cli.main import main
 
 DEMO = Path(__file__).parents[2] / "fixtures/ros1/demo"
@@ -24,6 +24,19 @@ HEAVY = (
     "platformdirs",
     "hashlib",
 )
+
+ONLY_FOR_RUNS = {
+    f"preflight_analysis.tracing.{name}" for name in ("sandbox", "run", "trace", "commands", "observation")
+}
+ONLY_FOR_WORKSPACES = {
+    "preflight_analysis.workspace.index_store",
+    "preflight_analysis.environment.cmake",
+    "preflight_analysis.environment.setup_py",
+    "preflight_analysis.findings.sarif",
+    "preflight_analysis.findings.junit",
+    "pygls",
+    "aspectlib",
+}
 
 
 def imported(*arguments: str) -> set[str]:
@@ -50,19 +63,25 @@ def test_a_verb_imports_what_it_needs() -> None:
     assert not modules.intersection({"preflight_server.cli.check", "pygls"})
 
 
+def test_a_check_that_runs_nothing_imports_nothing_that_runs() -> None:
+    modules = imported("check", "--no-run", str(DEMO / "launch/talker_listener.launch"), "--package-path", str(DEMO))
+    assert {"preflight_analysis.tracing.kept_traces", "preflight_analysis.rules.registry"} <= modules
+    assert not modules.intersection(ONLY_FOR_RUNS | ONLY_FOR_WORKSPACES)
+
+
 def test_the_sandbox_is_not_tried_where_every_trace_is_known(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     asked: list[str] = []
 
-    def lookup(self: Tracer, request: TraceRequest) -> Interface | None:
+    def lookup(self: KeptTraces, request: TraceRequest) -> Interface | None:
         return Interface("trace", Outcome("spinning")) if request.node in known else None
 
     def probe() -> SandboxStatus:
         asked.append("probe")
         return SandboxStatus(False, "there is no sandbox")
 
-    monkeypatch.setattr(Tracer, "lookup", lookup)
+    monkeypatch.setattr(KeptTraces, "lookup", lookup)
     monkeypatch.setattr(sandbox, "probe", probe)
     arguments = ["check", str(DEMO / "launch/talker_listener.launch"), "--package-path", str(DEMO)]
     known = {"/talker", "/listener"}
