@@ -391,6 +391,38 @@ def test_a_crash_of_another_cause_is_the_nodes_own(tmp_path: Path) -> None:
     assert found.outcome.reason is not None and "FileNotFoundError" in found.outcome.reason
 
 
+@pytest.mark.parametrize("interpreter", ["python", "python2"])
+def test_what_is_written_in_python_2_lacks_that(interpreter: str, tmp_path: Path) -> None:
+    script = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nprint 'on'\n")
+    script.write_text(script.read_text().replace("env python3", f"env {interpreter}"))
+    found = trace_without(script)
+    assert (found.outcome.status, found.outcome.lacks) == ("crashed", "Python 2")
+
+
+def test_a_slip_in_python_3_is_the_nodes_own(tmp_path: Path) -> None:
+    found = trace_without(write_node(tmp_path, "import rospy\nprint 'on'\n"))
+    assert (found.outcome.status, found.outcome.lacks) == ("crashed", None)
+
+
+def test_a_node_for_any_python_is_run_by_python_3(tmp_path: Path) -> None:
+    script = write_node(tmp_path, ROS1_NODES["polls"])
+    script.write_text(script.read_text().replace("env python3", "env python"))
+    assert trace_without(script).outcome.status == "spinning"
+
+
+def test_a_mismatch_that_a_stand_in_shows_is_likely(tmp_path: Path) -> None:
+    """With the real rclpy it is certain."""
+    harness = Ros2Harness(
+        tmp_path,
+        talker=node_of("self.create_publisher(String, 'words', 10)"),
+        listener=node_of("self.create_subscription(Bool, 'words', print, 10)", "from std_msgs.msg import Bool"),
+    )
+    launch = "<node pkg='pkg' exec='talker' name='t'/><node pkg='pkg' exec='listener' name='l'/>"
+    analyses = (harness.check(launch), checked(harness.package / "launch/a.launch.xml", without_rclpy(harness), None))
+    found = [next(f for f in each.findings if f.rule == "TOP003") for each in analyses]
+    assert [(f.severity, f.confidence) for f in found] == [("error", "certain"), ("error", "likely")]
+
+
 # The real thing
 
 

@@ -24,13 +24,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         spaces = {names.canonicalize(f"/{each.space}") for each in renamed} if node.namespace == "/" else {""}
         same = len(spaces) < len(renamed)
         what = f"all of them have the name '{node.name}'" if same and len(spaces) == 1 else f"all are called '{leaf}'"
+        seen = interface.source == "trace" and not interface.stand_ins
         yield rule.finding(
             f"this process has the nodes {quoted(given)}, and 'name' is for each of them: {what}, and what is meant "
             f"for one by its own name does not reach it; leave 'name' out, and rename one by a remap from "
             f"'{given[0]}:__node' to '{leaf}'",
             context.location(node.location.file, span),
             severity=None if same and not inferred else "info",
-            confidence="possible" if inferred else "certain" if interface.source == "trace" else "likely",
+            confidence="possible" if inferred else "certain" if seen else "likely",
             related=include_chain(node.origin),
         )
 

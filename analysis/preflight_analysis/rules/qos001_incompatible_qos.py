@@ -47,7 +47,7 @@ def _finding(rule: Rule, channel: Channel, provider: Connection, consumer: Conne
         f"{consumer.node.name} gets nothing of '{channel.name}' from {provider.node.name}: {problem}",
         connection_location(consumer),
         severity="warning" if assumed else None,
-        confidence="likely" if assumed else "certain",
+        confidence="likely" if assumed or any(e.endpoint.stood_in for e in (consumer, provider)) else "certain",
         related=(related_endpoint(provider, "publishes"), *include_chain(consumer.node.origin)),
         endpoints=endpoints_of(consumer, provider),
     )

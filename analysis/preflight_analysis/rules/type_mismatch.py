@@ -89,6 +89,7 @@ def _confidence(graph: Graph, *connections: Connection) -> Confidence:
         return "possible"
     for connection in connections:
         index = next(i for i, node in enumerate(graph.tree.nodes) if node is connection.node)
-        if connection.endpoint.speculative or graph.interfaces[index].source != "trace":
+        endpoint = connection.endpoint
+        if endpoint.speculative or endpoint.stood_in or graph.interfaces[index].source != "trace":
             return "likely"
     return "certain"

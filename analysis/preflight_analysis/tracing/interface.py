@@ -58,6 +58,8 @@ class Endpoint:
     """Seen in a run of the same executable under another configuration, not in one of this node."""
     on_demand: bool = False
     """Made once somebody was at the other end of another topic of the node."""
+    stood_in: bool = False
+    """Made in a run without some of the modules that the node imports, which others stood in for."""
     node: str | None = None
     """ROS 2, of a process that makes several nodes: the full name that the one had which made it. None for the node of
     the launch file."""

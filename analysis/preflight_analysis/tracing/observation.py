@@ -95,8 +95,8 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         asked |= {"name", "remaps"} if recipe.remapped else {"name"}
     interface = Interface(
         "trace",
-        stand_ins.explained(outcome, found),
-        endpoints,
+        stand_ins.explained(outcome, found, request.executable),
+        tuple(replace(end, stood_in=True) for end in endpoints) if found.stand_ins else endpoints,
         params,
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),

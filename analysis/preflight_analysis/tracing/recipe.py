@@ -220,6 +220,11 @@ def is_python(executable: str) -> bool:
     return any(os.path.basename(word).startswith("python") for word in _shebang(executable)[:2])
 
 
+def may_be_python2(executable: str) -> bool:
+    """Whether it is a script that asks for Python 2, or for any version."""
+    return any(re.match(r"python(2[\d.]*)?\Z", os.path.basename(word)) for word in _shebang(executable)[:2])
+
+
 def missing_interpreter(executable: str) -> str | None:
     """The interpreter that the first line of a script names and that is not there."""
     words = _shebang(executable)

@@ -21,6 +21,9 @@ _MOST_NAMED = 3
 _OURS = re.compile(r"(Attribute|Type|Import|ModuleNotFound|NotImplemented|Recursion)Error\b")
 """What a stand-in that is not like the real thing would make a node end for."""
 
+_OLD = re.compile(r"\b(Syntax|Indentation|Tab)Error\b|there is no '[^']*python2[^']*'")
+"""What a program in Python 2 ends for that is run by Python 3, or by nothing."""
+
 
 def admitted(recipe: recipes.Recipe, environment: Environment, generation: int) -> recipes.Recipe:
     """The recipe with stand-ins, where it is that of a program in Python."""
@@ -31,9 +34,12 @@ def admitted(recipe: recipes.Recipe, environment: Environment, generation: int) 
     return replace(recipe, env={**recipe.env, STAND_INS: _FILE}, files={**recipe.files, _FILE: job})
 
 
-def explained(outcome: Outcome, found: Gathered) -> Outcome:
-    """With what a node lacked here that ended after it had used a stand-in: it says nothing of the robot."""
+def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
+    """With what a node lacked here that ended after it had used a stand-in, or for being written in Python 2: it says
+    nothing of the robot."""
     failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
+    if failed and _OLD.search(outcome.reason or "") and recipes.may_be_python2(executable):
+        return replace(outcome, lacks="Python 2")
     ours = found.unknown or _OURS.search(outcome.reason or "") is not None
     if not failed or not found.stand_ins or not ours:
         return outcome
