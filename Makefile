@@ -101,8 +101,8 @@ fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together
 	$(BIN)/python tests/tools/fuzz.py --seconds $(SECONDS)
 
 endurance: EDITS = 100000
-endurance: setup ## EDITS=100000 through the protocol of one server, and what it does without disk, HOME, ...: bench/endurance.md
-	$(BIN)/python tests/tools/endurance --edits $(EDITS) $(if $(filter 100000,$(EDITS)),--write)
+endurance: setup ## EDITS=100000 through the protocol of one server, and what it does without disk, HOME, ...: bench/endurance.md (a shorter run writes it with WRITE=1)
+	$(BIN)/python tests/tools/endurance --edits $(EDITS) $(if $(or $(WRITE),$(filter 100000,$(EDITS))),--write)
 
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .

@@ -127,7 +127,7 @@ def replay(packages: Sequence[materials.Package], path: Path, seconds: float) ->
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--edits", type=int, default=100_000)
+    parser.add_argument("--edits", type=int, default=table.WHOLE)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--minutes", type=float, default=math.inf, help="begin nothing new after so many")
     parser.add_argument("--compare", type=int, default=1_000, help="edits between two comparisons")

@@ -14,6 +14,8 @@ PAGE = materials.REPOSITORY / "bench" / "endurance.md"
 WARM = 10_000
 """Edits after which the memory is compared: code is loaded and caches are full by then."""
 GROWTH = 1.05
+WHOLE = 100_000
+"""Edits of a whole run."""
 TITLES = {
     "ros1": "XML of ROS 1",
     "xml": "XML of ROS 2",
@@ -49,6 +51,7 @@ def text(figures: Figures | None, ran: Figures | None, rows: Sequence[Row], wher
         lines += [
             f"## {figures.edits:,} edits in one server",
             f"Packages of the {where}; {machine}; {figures.seconds / 60:.0f} minutes.",
+            *([] if figures.edits >= WHOLE else [f"This is a short run: the whole one has {WHOLE:,} edits."]),
             "",
             "| what | how much |",
             "| --- | --- |",
