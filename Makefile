@@ -12,7 +12,7 @@ PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_prel
 LUA = $(shell git ls-files '*.lua')
 BENCHMARKS := start editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue fuzz endurance wheel vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth fuzz endurance wheel vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -94,6 +94,9 @@ attacks: setup ## what a hostile node meets in the sandbox, as root and as a use
 catalogue: SOURCES = $(realpath ../.mirror)
 catalogue: $(READY) ## what is known of packages that are not installed, written anew from SOURCES=FOLDER, snapshots of public repositories
 	$(BIN)/python tests/tools/catalogue --sources "$(SOURCES)"
+
+catalogue-truth: setup ## the catalogue beside runs of Debian's nodes, as far as they are installed: docs/catalogue.md
+	$(BIN)/python tests/tools/catalogue_truth.py --write
 
 fuzz: SECONDS = 600
 fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together; what was found lies in out/fuzz
