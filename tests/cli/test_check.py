@@ -61,10 +61,10 @@ def test_the_mended_demo_is_clean(harness: Harness, preflight: Run) -> None:
 
 def test_no_run_executes_nothing(harness: Harness, preflight: Run) -> None:
     done = preflight("check", harness.launch_file, "--no-run", "--format", "json")
-    not_run, from_source = done.json["findings"]
+    from_source, not_run = done.json["findings"]
     assert not_run["rule"] == "TRC004"
     assert "--no-run" in not_run["message"]
-    assert [from_source[key] for key in ("rule", "severity", "confidence")] == ["TOP001", "info", "possible"]
+    assert [from_source[key] for key in ("rule", "severity", "confidence")] == ["TOP001", "warning", "possible"]
     assert "by its source" in from_source["related"][0]["message"]
     assert done.json["traced"] == 0
     assert harness.sandbox_starts() == 0
@@ -133,7 +133,7 @@ def test_package_path_means_there_and_nowhere_else(harness: Harness, preflight: 
     done = preflight(
         "check", harness.launch_file, "--package-path", f"{tmp_path / 'nothing'}:{harness.workspace}", *options
     )
-    assert [f["rule"] for f in done.json["findings"]] == ["TRC004", "TOP001"]
+    assert [f["rule"] for f in done.json["findings"]] == ["TOP001", "TRC004"]
 
 
 @pytest.mark.parametrize(
@@ -211,13 +211,13 @@ def test_sarif_junit_and_github(harness: Harness, preflight: Run) -> None:
 )
 def test_colours_on_a_terminal_only(harness: Harness, environment: dict[str, str], coloured: bool) -> None:
     out = on_terminal([str(harness.server), "check", str(harness.launch_file), "--no-run"], harness, environment)
-    assert ("\x1b[34minfo (possible) TOP001" in out) == coloured
-    assert ("\x1b[34m^^^^^^\x1b[0m" in out) == coloured
+    assert ("\x1b[33mwarning (possible) TOP001" in out) == coloured
+    assert ("\x1b[33m^^^^^^\x1b[0m" in out) == coloured
     assert "talker_listener.launch:7:31" in out
     assert ("\r\x1b[K[....................] 0/1 launch/talker_listener.launch" in out) == (
         environment["TERM"] == "xterm"
     )
-    assert ("\r\x1b[Klaunch/talker_listener.launch:1:1: " in out) == (environment["TERM"] == "xterm")
+    assert ("\r\x1b[Klaunch/talker_listener.launch:7:31: " in out) == (environment["TERM"] == "xterm")
 
 
 def on_terminal(command: list[str], harness: Harness, environment: dict[str, str]) -> str:
