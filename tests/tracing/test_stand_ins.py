@@ -384,6 +384,11 @@ def test_a_crash_after_a_value_that_is_not_known_lacks_the_module(tmp_path: Path
     assert (found.outcome.status, found.outcome.lacks) == ("crashed", "the Python module far_vision")
 
 
+def test_a_node_whose_work_is_in_a_missing_module_is_not_done(tmp_path: Path) -> None:
+    found = trace_without(write_node(tmp_path, "import far_node\nfar_node.main()\n"))
+    assert (found.outcome.lacks, found.likely_complete) == ("the Python module far_node", False)
+
+
 def test_a_crash_of_another_cause_is_the_nodes_own(tmp_path: Path) -> None:
     script = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nopen('/nowhere/model.json')\n")
     found = trace_without(script)

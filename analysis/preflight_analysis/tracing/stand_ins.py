@@ -40,6 +40,9 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
     if failed and _OLD.search(outcome.reason or "") and recipes.may_be_python2(executable):
         return replace(outcome, lacks="Python 2")
+    if outcome.status == "exited" and found.unknown and not any(not e.builtin for e, _ in found.endpoints.values()):
+        # What it would have done is in the module that is missing.
+        outcome, failed = replace(outcome, status="crashed"), True
     ours = found.unknown or _OURS.search(outcome.reason or "") is not None
     if not failed or not found.stand_ins or not ours:
         return outcome
