@@ -128,4 +128,4 @@ async def test_the_sources_of_many_nodes_that_were_not_run_are_read(harness: Har
         script = harness.launch_file.parents[1] / "scripts/talker.py"
         script.write_text(script.read_text().replace('"chatter"', '"chatters"'))
         editor.watched(script)
-        await editor.until(lambda: (editor.rules(path) or []).count("TOP001") == 100)
+        await editor.until(lambda: (editor.rules(path) or []).count("TOP004") == 100)
