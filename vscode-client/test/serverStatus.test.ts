@@ -3,7 +3,14 @@ import { describe, it } from "node:test";
 import { type Life, type NotRun, type ServerStatus, shown, showsTrustBadge } from "../src/serverStatus";
 
 const running: Life = { state: "running" };
-const idle: ServerStatus = { state: "idle", done: 0, total: 0, notRun: null, broken: [], missing: { lines: [], commands: [] } };
+const idle: ServerStatus = {
+  state: "idle",
+  done: 0,
+  total: 0,
+  notRun: null,
+  broken: [],
+  missing: { lines: [], commands: [] },
+};
 const notRun = (kind: NotRun["kind"]): ServerStatus => ({ ...idle, notRun: { kind, message: "the reason" } });
 
 describe("the status bar", () => {
