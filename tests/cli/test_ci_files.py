@@ -35,7 +35,7 @@ def test_the_hook_checks_what_the_commit_matters_to(harness: Harness, preflight:
         subprocess.run(
             ["git", *arguments], cwd=harness.workspace, env=harness.environment, check=True, capture_output=True
         )
-    assert "in 0 files" in preflight(*command).out
+    assert "0 of 0 launch files" in preflight(*command).out
     harness.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
     done = preflight(*command)
     assert (done.code, "in 1 file," in done.out) == (1, True)
@@ -75,7 +75,7 @@ def test_the_action_writes_annotations_and_sarif(harness: Harness, tmp_path: Pat
 def test_the_action_without_inputs_checks_the_workspace(harness: Harness, tmp_path: Path) -> None:
     done = action_step(harness, tmp_path / "runner")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "in 2 files" in done.stdout
+    assert "2 of 2 launch files" in done.stdout
 
 
 def test_nothing_that_is_given_is_run_as_a_script() -> None:
