@@ -163,8 +163,8 @@ def test_without_a_sandbox_check_runs_nothing_and_says_why(harness: Harness, pre
     empty.mkdir()
     environment = {"PATH": str(empty), "ROS_PREFLIGHT_SANDBOX": "bubblewrap"}
     done = preflight("check", harness.launch_file, "--format", "json", environment=environment)
-    finding, from_source = done.json["findings"]
-    assert (finding["rule"], from_source["severity"]) == ("TRC004", "info")
+    from_source, finding = done.json["findings"]
+    assert (finding["rule"], from_source["severity"]) == ("TRC004", "warning")
     assert "bubblewrap is not installed" in finding["message"]
 
 
