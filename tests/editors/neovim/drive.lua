@@ -423,7 +423,7 @@ function scenarios.views_untrusted()
     { tree = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'talker.py', 'listener.py' }) }
   vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
   vim.cmd('tab RosPreflightGraph')
-  result.graph = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'info: ' })
+  result.graph = wait_for_texts(0, { 'Nodes are not run: the workspace is not trusted', 'warning: ' })
   result.tabs = #vim.api.nvim_list_tabpages()
   vim.notify = function(message)
     result.trace = message
