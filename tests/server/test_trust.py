@@ -45,7 +45,7 @@ async def test_without_trust_nothing_is_executed_and_the_reason_is_shown(harness
             await asyncio.sleep(0.1)  # nothing tells that no process will come
         assert editor.rules(harness.launch_file) == ["TOP001", "TRC004"]
         from_source = await editor.having(harness.launch_file, "TOP001")
-        assert from_source.severity == types.DiagnosticSeverity.Information
+        assert from_source.severity == types.DiagnosticSeverity.Warning
         assert editor.runs == {}
     assert harness.sandbox_starts() == 0
 
@@ -100,7 +100,7 @@ async def test_where_no_sandbox_works_nothing_runs_and_the_reason_is_shown(harne
         found = await editor.having(harness.launch_file, "TRC004")
         assert "no permission for namespaces" in found.message
         found = await editor.having(harness.launch_file, "TOP001")
-        assert found.severity == types.DiagnosticSeverity.Information
+        assert found.severity == types.DiagnosticSeverity.Warning
     assert harness.sandbox_starts() == 0
 
 

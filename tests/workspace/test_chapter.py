@@ -59,7 +59,10 @@ TOPICS = {
     "sub_launch/launch/system": CHATTER,
     "configurable_chatter/launch/chatter": CHATTER,
     "dual_robot/launch/robots": ROBOTS,
-    "lifecycle/launch/camera": {"/image_info": (["/camera"], [])},
+    "lifecycle/launch/camera": {
+        "/image_info": (["/camera"], []),
+        "/diagnostics": (["/lifecycle_manager"], []),  # by the catalogue
+    },
     "lifecycle/launch/autostart": {"/image_info": (["/camera"], [])},
 }
 SUFFIXES = (".launch.xml", ".launch.yaml", ".launch.py")
