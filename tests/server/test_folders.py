@@ -122,14 +122,14 @@ async def test_symbols_and_roots_are_those_of_all_folders(harness: Harness) -> N
 async def test_an_open_text_counts_in_each_folder_that_reads_it(harness: Harness) -> None:
     """A launch file of the first folder includes one of the second, which is open and not saved."""
     one, two = harness.home / "one", harness.home / "two"
-    second = _package(two, "pear", '<launch>\n  <arg name="x" default="1"/>\n  <param name="x" value="$(arg x)"/>\n</launch>\n')
+    second = _package(two, "pear", '<launch><arg name="x" default="1"/><param name="x" value="$(arg x)"/></launch>\n')
     given = f'<launch>\n  <include file="{second}"><arg name="x" value="2"/></include>\n</launch>\n'
     first = _package(one, "apple", given)
     async with editing(harness, folders=[one, two]) as editor:
         editor.open(first)
         editor.open(second)
         await editor.until(lambda: editor.rules(first) == [])
-        editor.change(second, '<launch>\n  <arg name="y" default="1"/>\n  <param name="y" value="$(arg y)"/>\n</launch>\n')
+        editor.change(second, '<launch><arg name="y" default="1"/><param name="y" value="$(arg y)"/></launch>\n')
         await editor.having(first, "ARG004")
 
 
