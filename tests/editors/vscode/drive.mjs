@@ -249,18 +249,18 @@ const scenarios = {
     await walkThroughGraph({ workbench, harness, step, picture, seen });
   },
 
-  // Nothing is run and the reason is shown; once trust is granted, the finding comes without a restart.
+  // Nothing is run and the reason is shown; once trust is granted, nodes are run without a restart.
   async untrusted() {
     await step("open the workspace", () => workbench.open());
     await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
     seen.problems = await step("reason shown", () => workbench.problems("not trusted"));
     await step("picture of the reason", () => picture("6-untrusted"));
-    seen.squiggles = await squiggle().count();
+    await step("squiggle of what the source tells", () => squiggle().waitFor());
     seen.sandboxStarts = contents(harness.sandboxRecord).length;
     const before = serverProcess();
     await step("trust the workspace", trust);
     await step("badge gone", () => workbench.status("Not trusted").waitFor({ state: "detached" }));
-    await step("squiggle", () => squiggle().waitFor());
+    await step("nodes run", () => until("a node that is run", () => contents(harness.sandboxRecord).length > 0));
     await step("picture after trust", () => picture("7-trusted"));
     seen.sameServer = serverProcess() === before;
   },
