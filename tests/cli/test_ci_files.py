@@ -38,7 +38,7 @@ def test_the_hook_checks_what_the_commit_matters_to(harness: Harness, preflight:
     assert "0 of 0 launch files" in preflight(*command).out
     harness.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
     done = preflight(*command)
-    assert (done.code, "in 1 file," in done.out) == (1, True)
+    assert (done.code, "1 of 1 launch file evaluated" in done.out) == (1, True)
     assert harness.sandbox_starts() == 0
 
 
