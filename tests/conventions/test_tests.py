@@ -29,7 +29,8 @@ class Function:
 
 @cache
 def functions() -> tuple[Function, ...]:
-    return tuple(each for path in sorted(TESTS.rglob("*.py")) for each in _functions(path))
+    ours = (path for path in sorted(TESTS.rglob("*.py")) if "node_modules" not in path.parts)
+    return tuple(each for path in ours for each in _functions(path))
 
 
 def _functions(path: Path) -> Iterator[Function]:
