@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.problems import (
     UnreadableInclude,
     ValueTooLong,
 )
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import (
     Arg,
     Command,
@@ -53,6 +54,7 @@ class Collected:
     not_taken: tuple[NotTaken, ...]
     visited: tuple[str, ...]
     inputs: Mapping[str, str]
+    """The files that were read, with their digests."""
 
 
 class Collector:
@@ -66,6 +68,7 @@ class Collector:
         environment: Environment,
         cwd: str,
         results: Commands,
+        surroundings: Surroundings | None = None,
     ) -> None:
         self.generation = generation
         self.files = files
@@ -73,6 +76,8 @@ class Collector:
         self.results = results
         self.environment = environment
         self.cwd = cwd
+        self.surroundings = surroundings
+        """Those that parts of the launch are remembered for; None: they are evaluated where they are."""
         self.nodes: list[LaunchNode] = []
         self.includes: list[Include] = []
         self.args: dict[str, Arg] = {}

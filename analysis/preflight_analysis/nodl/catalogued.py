@@ -16,17 +16,9 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range, Role
+from preflight_analysis.nodl.groups import GROUPS
+from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range
 
-GROUPS: Mapping[Role, str] = {
-    "publisher": "publishers",
-    "subscriber": "subscriptions",
-    "service": "service_servers",
-    "client": "service_clients",
-    "action_server": "action_servers",
-    "action_client": "action_clients",
-}
-"""Where each kind of ends stands, as in NoDL."""
 _KEPT = 1024
 
 

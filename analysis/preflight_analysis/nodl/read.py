@@ -15,17 +15,9 @@ from lxml import etree
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.generation import ros
+from preflight_analysis.nodl.groups import GROUPS, KINDS
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
-_GROUPS: Mapping[str, tuple[Role, str]] = {
-    "publishers": ("publisher", "msg"),
-    "subscriptions": ("subscriber", "msg"),
-    "service_servers": ("service", "srv"),
-    "service_clients": ("client", "srv"),
-    "action_servers": ("action_server", "action"),
-    "action_clients": ("action_client", "action"),
-}
-_KINDS: Mapping[str, str] = dict(_GROUPS.values())
 _ROLES_1: Mapping[str, Mapping[str, tuple[Role, ...]]] = {
     "topic": {
         "publisher": ("publisher",),
@@ -71,7 +63,7 @@ def read_nodl(path: str, text: str, generation: int) -> tuple[Described, ...]:
     lines = _lines(root)
     endpoints = [
         Endpoint(role, name, _type(each.get("type"), role, generation), None, _qos(each.get("qos")), path, line)
-        for group, (role, _) in _GROUPS.items()
+        for role, group in GROUPS.items()
         for at, each in enumerate(_list(data.get(group)))
         if isinstance(each, dict) and isinstance(name := each.get("name"), str) and (line := lines.get((group, at), 1))
     ]
@@ -115,7 +107,7 @@ def _type(type_: Any, role: Role, generation: int) -> str | None:
     package, name = parts[0], parts[-1]
     if len(parts) == 1 or not package or not name:
         return None
-    return f"{package}/{_KINDS[role]}/{name}" if ros(generation).kinds_in_types else f"{package}/{name}"
+    return f"{package}/{KINDS[role]}/{name}" if ros(generation).kinds_in_types else f"{package}/{name}"
 
 
 def _qos(said: Any) -> dict[str, Any]:

@@ -15,16 +15,9 @@ from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.nodl.groups import GROUPS
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse, Role
 
-_GROUPS: Mapping[Role, str] = {
-    "publisher": "publishers",
-    "subscriber": "subscriptions",
-    "service": "service_servers",
-    "client": "service_clients",
-    "action_server": "action_servers",
-    "action_client": "action_clients",
-}
 _NAME = re.compile(r"[A-Za-z]\Z|[/~A-Za-z][A-Za-z0-9_/]*[A-Za-z0-9_]\Z")
 _TYPE = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*(/(msg|srv|action))?/[A-Z][a-zA-Z0-9]*\Z")
 _TYPES = {bool: "bool", int: "int", float: "double", str: "string"}
@@ -75,7 +68,7 @@ def nodl(interfaces: Sequence[Interface], generation: int) -> str:
         if isinstance(entry, str):
             left_out.append(f"{role.replace('_', ' ')} {name}: {entry}")
         else:
-            data.setdefault(_GROUPS[role], []).append(entry)
+            data.setdefault(GROUPS[role], []).append(entry)
     sources = ", ".join(sorted({interface.source for interface in interfaces}))
     lines = ["---", f"# Written by `ros-preflight snapshot --format nodl`; known by: {sources}."]
     lines += [f"# Left out: {' '.join(each.split())}" for each in left_out]

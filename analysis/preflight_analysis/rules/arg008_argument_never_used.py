@@ -108,8 +108,8 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
 def _declared_below(context: Context, path: str, name: str) -> tuple[Include, Location] | None:
     """The include in a file that is not passed an argument which the included file declares and may be given, and
     where it does; nothing if one is passed it, under whatever name of another."""
-    for include in context.tree.includes:
-        if include.path is None or include.origin[-1].file != path or name in include.args:
+    for include in context.once(_includes).get(path, ()):
+        if include.path is None or name in include.args:
             continue
         launch_file = context.launch_files.get(include.path)
         for tag in declarations(launch_file).get(name, ()) if launch_file is not None else ():
@@ -127,6 +127,14 @@ def _unused(launch_file: LaunchFile) -> tuple[LaunchFile, frozenset[str], tuple[
     arguments = _arguments(launch_file)
     unused = declarations(launch_file).keys() - arguments.used
     return (launch_file, frozenset(unused), arguments.substituted) if unused and not arguments.passes_all else None
+
+
+def _includes(context: Context) -> Mapping[str, list[Include]]:
+    """The includes in each file."""
+    found: dict[str, list[Include]] = {}
+    for include in context.tree.includes:
+        found.setdefault(include.origin[-1].file, []).append(include)
+    return found
 
 
 def _includers(context: Context) -> Mapping[str, list[Include]]:

@@ -219,7 +219,7 @@ def _node_alone(state: State, scope: Scope, action: Action, default_machine: str
     inner = state.inner()
     evaluate_node(inner, scope, action, default_machine)
     lasting = not (inner.problems or inner.not_taken or inner.depends_on_outside)
-    return inner.record(scope, inner.inputs) if lasting else None
+    return inner.record(scope) if lasting else None
 
 
 def _group(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
@@ -318,8 +318,8 @@ def _alone(db: Database, surroundings: Surroundings, passed: Passed) -> Record |
         return None
     scope = passed.scope(found.document.lines)
     after = _file(state, scope, found, passed.default_machine)
-    inputs = {passed.file: state.digest(passed.file), **state.inputs}
-    return None if state.depends_on_outside or state.exhausted else state.record(scope, inputs, after)
+    state.inputs = {passed.file: state.digest(passed.file), **state.inputs}
+    return None if state.depends_on_outside or state.exhausted else state.record(scope, after)
 
 
 def _check_language(state: State) -> None:

@@ -14,40 +14,26 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin
+from preflight_analysis.evaluation.collector import Collected
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
 from preflight_analysis.evaluation.tree import (
-    Command,
-    Include,
-    LaunchNode,
-    NotTaken,
     Param,
     Remap,
-    Unknown,
-    Use,
 )
 from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.launch.check_language import check_language
-from preflight_analysis.launch.problems import LanguageProblem, ProblemKind
+from preflight_analysis.launch.problems import LanguageProblem
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
-    """What an include adds. `inputs` has the included file and all that it read, `declared` its `<arg>` tags."""
+    """What an include, or the tag of a node, adds. `declared` has the `<arg>` tags of the included file."""
 
-    inputs: Mapping[str, str]
-    visited: tuple[str, ...]
-    nodes: tuple[LaunchNode, ...]
+    collected: Collected
     node_names: Mapping[str, Location | None]
     params: Mapping[str, Param]
     clear_params: tuple[str, ...]
-    includes: tuple[Include, ...]
-    commands: tuple[Command, ...]
-    uses: tuple[Use, ...]
-    problems: tuple[Problem[ProblemKind], ...]
-    unknowns: tuple[Unknown, ...]
-    not_taken: tuple[NotTaken, ...]
     declared: Mapping[str, Location]
     default_machine: str | None
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
@@ -32,9 +30,7 @@ class State(Collector):
         *,
         is_included: bool = False,
     ) -> None:
-        super().__init__(1, files, executables, environment, cwd, results)
-        self.surroundings = surroundings
-        """Those that includes are remembered for; None: they are evaluated where they are."""
+        super().__init__(1, files, executables, environment, cwd, results, surroundings)
         self.is_included = is_included
         """Whether it is that of an included file alone, without what is above it."""
         self.node_names: dict[str, Location | None] = {"/rosout": None}
@@ -59,47 +55,25 @@ class State(Collector):
         inner._digests, inner._room = self._digests, self._room
         return inner
 
-    def record(self, inside: Scope, inputs: Mapping[str, str], default_machine: str | None = None) -> Record:
-        """All that was added in the scope `inside`, for which this state was made, of these inputs."""
+    def record(self, inside: Scope, default_machine: str | None = None) -> Record:
+        """All that was added in the scope `inside`, for which this state was made."""
         node_names = {name: place for name, place in self.node_names.items() if place is not None}
         return Record(
-            inputs,
-            tuple(self.visited),
-            tuple(self.nodes),
-            node_names,
-            self.params,
-            tuple(self.clear_params),
-            tuple(self.includes),
-            tuple(self.commands),
-            tuple(self.uses),
-            tuple(self.problems),
-            tuple(self.unknowns),
-            tuple(self.not_taken),
-            inside.declared,
-            default_machine,
+            self.collected(), node_names, self.params, tuple(self.clear_params), inside.declared, default_machine
         )
 
     def absorb(self, record: Record, most_includes: int) -> bool:
         """Add what an include added; not if its nodes' names are taken or there would be too many includes."""
         if not self.node_names.keys().isdisjoint(record.node_names):
             return False
-        if self.include_count + len(record.includes) > most_includes:
+        if self.include_count + len(record.collected.includes) > most_includes:
             return False
         self.node_names.update(record.node_names)
-        self.nodes += record.nodes
         again = {name: self._replacing(record.params[name]) for name in self.params.keys() & record.params.keys()}
         self.params.update(record.params)
         self.params.update(again)
         self.clear_params += record.clear_params
-        self.includes += record.includes
-        self.commands += record.commands
-        self.uses += record.uses
-        self.unknowns += record.unknowns
-        self.not_taken += record.not_taken
-        for problem in record.problems:
-            self._add(problem)
-        self.visited += [path for path in record.visited if path not in self.visited]
-        self.inputs.update(record.inputs)
+        self.add(record.collected)
         return True
 
     def set_param(self, param: Param) -> None:

@@ -45,11 +45,9 @@ class State(Collector):
         surroundings: Surroundings | None = None,
         before: Before | None = None,
     ) -> None:
-        super().__init__(2, files, executables, environment, cwd, results)
+        super().__init__(2, files, executables, environment, cwd, results, surroundings)
         self.nodes_before: list[int] = []
         """For each include how many nodes came before it."""
-        self.surroundings = surroundings
-        """Those that parts are remembered for; None: they are evaluated where they are."""
         self._before = before
         self._first_room = self._room[0]
         self._includes_before = 0
