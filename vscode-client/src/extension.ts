@@ -37,12 +37,16 @@ export function activate(context: ExtensionContext): void {
     graph.showLive(live);
     void commands.executeCommand("setContext", "rosPreflight.watching", live.event !== "stopped");
   };
+  const doctorIsStale = new EventEmitter<Uri>();
   const server = new ServerSession(context, log, {
     changed: (life, status) => statusBar?.update(life, status),
     connected: (client) => {
       showLive({ event: "stopped" }); // a new server watches nothing
       tree.connect(client);
       graph.connect(client);
+      if (client !== undefined) {
+        doctorIsStale.fire(DOCTOR);
+      }
     },
     analysed: () => {
       tree.refreshSoon();
@@ -89,7 +93,7 @@ export function activate(context: ExtensionContext): void {
     command("clearCache", () => server.withClient(clearCache)),
     command("choosePython", choosePython),
     command("setServerPath", setServerPath),
-    registerDoctor(server),
+    registerDoctor(server, doctorIsStale),
     followLaunchFiles(),
     onFirstLaunchFile(() => {
       statusBar = new StatusBar();
@@ -112,9 +116,8 @@ export async function deactivate(): Promise<void> {
   await session?.stop();
 }
 
-/** The command that opens the doctor's page, and who writes it: anew each time. */
-function registerDoctor(server: ServerSession): Disposable {
-  const stale = new EventEmitter<Uri>();
+/** The command that opens the doctor's page, and who writes it: anew each time, and when `stale` says so. */
+function registerDoctor(server: ServerSession, stale: EventEmitter<Uri>): Disposable {
   const provided = workspace.registerTextDocumentContentProvider(DOCTOR.scheme, {
     onDidChange: stale.event,
     provideTextDocumentContent: async () => {

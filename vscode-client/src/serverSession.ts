@@ -57,6 +57,8 @@ export class ServerSession {
   private policy = new RestartPolicy();
   /** Stops and starts stand in a queue, so that two quick restarts do not leave two servers behind. */
   private queue: Promise<void> = Promise.resolve();
+  /** Settles once the last server that was started runs, or is known not to. */
+  private started: Promise<void> = Promise.resolve();
   private readonly setups = new Setups();
   private installing: AbortController | undefined;
   private life: Life = { state: "stopped" };
@@ -109,8 +111,17 @@ export class ServerSession {
     }
   }
 
-  /** Calls `work` with the client of a running server; what goes wrong is shown to the user. */
+  /**
+   * Calls `work` with the client of a running server; what goes wrong is shown to the user. A server that is being
+   * started is waited for, as after a setting was changed; one that is being installed takes too long for that.
+   */
   async withClient(work: (client: LanguageClient) => Promise<void>): Promise<void> {
+    if (this.life.state === "installing") {
+      this.report(this.life.reason);
+      return;
+    }
+    await this.queue;
+    await this.started;
     if (this.client?.state !== State.Running) {
       this.report("the server is not running.");
       return;
@@ -162,7 +173,7 @@ export class ServerSession {
     client.onNotification(analysed, () => this.listener.analysed());
     client.onNotification(live, (state) => this.listener.live(state));
     // Not awaited: a server that never answers must not keep "Restart Server" waiting.
-    client.start().then(
+    this.started = client.start().then(
       () => {
         if (client === this.client) {
           started = true;

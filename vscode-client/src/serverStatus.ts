@@ -43,19 +43,21 @@ export function shown(life: Life, status: ServerStatus | undefined): Shown {
       return { text: `$(sync~spin) ${NAME}`, tooltip: "The server is starting.", severity: "none" };
     case "stopped":
       return { text: `$(debug-disconnect) ${NAME}: stopped`, tooltip: "The server is not running.", severity: "error" };
-    case "running":
-      return running(status);
+    case "running": // Of what it finds nothing is known before its first word.
+      return status === undefined
+        ? { text: `$(sync~spin) ${NAME}`, tooltip: "The server has just been started.", severity: "none" }
+        : running(status);
   }
 }
 
-function running(status: ServerStatus | undefined): Shown {
-  if (status !== undefined && status.state !== "idle") {
+function running(status: ServerStatus): Shown {
+  if (status.state !== "idle") {
     const share = status.total > 0 ? ` ${status.done} of ${status.total}` : "";
     const what =
       status.state === "tracing" ? "Running nodes in the sandbox." : "Looking at the launch files of the workspace.";
     return { text: `$(sync~spin) ${NAME}: ${status.state}${share}`, tooltip: what, severity: "none" };
   }
-  const notRun = status?.notRun;
+  const notRun = status.notRun;
   switch (notRun?.kind) {
     case "sandbox":
       return {
@@ -67,8 +69,8 @@ function running(status: ServerStatus | undefined): Shown {
     case "cancelled":
       return { text: `$(circle-slash) ${NAME}`, tooltip: `Nodes are not run: ${notRun.message}`, severity: "none" };
     default: // A workspace that is not trusted has a badge of its own.
-      return status === undefined || status.broken.length === 0
-        ? { text: `$(check) ${NAME}`, tooltip: upToDate(status?.missing.lines ?? []), severity: "none" }
+      return status.broken.length === 0
+        ? { text: `$(check) ${NAME}`, tooltip: upToDate(status.missing.lines), severity: "none" }
         : broken(status.broken);
   }
 }

@@ -19,7 +19,7 @@ describe("the status bar", () => {
     assert.match(shown(running, { ...idle, state: "indexing", done: 120, total: 300 }).text, /: indexing 120 of 300$/);
     assert.match(shown(running, { ...idle, state: "indexing" }).text, /: indexing$/);
     assert.equal(shown(running, idle).text, "$(check) ROS Preflight");
-    assert.equal(shown(running, undefined).text, "$(check) ROS Preflight");
+    assert.equal(shown(running, undefined).text, "$(sync~spin) ROS Preflight");
   });
 
   it("says what keeps nodes from being run", () => {
