@@ -156,6 +156,8 @@ class Run:
             self.idle = True
             self.looped = self.looped or (state == "looped" and alone)
             self.starving = event.get("starving") is True
+            if self.starving:
+                self.active = now  # what it waits for is made up after a while that begins now, not earlier
             self.pause_until = 0.0
         elif state == "busy":
             self.starving = False
