@@ -160,6 +160,14 @@ ROS2_NODES = {
         "from rcl_interfaces.msg import IntegerRange, ParameterDescriptor, SetParametersResult",
         "from rclpy.parameter import Parameter",
     ),
+    "only names": node_of(
+        """
+        self.declare_parameter('name')
+        self.declare_parameter('other', None)
+        assert self.declare_parameter('rate').value == 5.0 and self.get_parameter('other').value is None
+        self.create_publisher(String, 'after', 1)
+        """
+    ),
     "refuses": node_of("self.declare_parameter('rate', 1)"),
     "unset": node_of(
         "self.declare_parameter('name', Parameter.Type.STRING)\nself.get_parameter('name')",

@@ -176,8 +176,8 @@ class Node:
     def declare_parameter(
         self, name: str, value: Any = None, descriptor: Any = None, ignore_override: bool = False
     ) -> Any:
-        """Declare one, by a value or a type."""
-        given = (name, value, descriptor or _descriptor())
+        """Declare one, by a value or a type; one of any type, where there is neither."""
+        given = (name,) if value is None and descriptor is None else (name, value, descriptor or _descriptor())
         return self.declare_parameters("", [given], ignore_override)[0]
 
     def declare_parameters(self, namespace: str, parameters: Any, ignore_override: bool = False) -> list[Any]:
