@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.evaluation.problems import (
+    CommandFailed,
     PackageNotFound,
     PythonException,
     PythonImportFailed,
@@ -252,6 +253,23 @@ def generate_launch_description():
         assert f'"{side}"' in values[name]
     assert (values["/four"], values["/five"]) == ("[5]", "[]")
     assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
+
+
+def test_xacro_names_the_file_that_does_not_exist(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+def generate_launch_description():
+    urdf = os.path.join(get_package_share_directory("p"), "urdf", "gone.xacro")
+    return LaunchDescription([
+        Node(package="p", executable="x", parameters=[{"robot_description": Command(["xacro ", urdf])}])])
+""",
+    )
+    (failed,) = (problem.kind for problem in tree.problems if isinstance(problem.kind, CommandFailed))
+    said = " ".join(failed.stderr)
+    assert "No such file or directory" in said
+    assert "gone.xacro" in said
+    assert "Traceback" not in said
 
 
 def test_helpers_of_navigation_that_are_not_here_have_their_behaviour(harness: PythonHarness) -> None:

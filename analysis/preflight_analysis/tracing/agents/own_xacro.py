@@ -34,4 +34,5 @@ def main() -> None:
         )
         module.__path__ = []
         sys.modules[name] = module
+    importlib.import_module("xml.parsers.expat")  # xacro catches its error, and imports it only once it parses
     importlib.import_module("xacro").main()
