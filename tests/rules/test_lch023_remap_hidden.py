@@ -25,6 +25,12 @@ def test_a_remap_that_a_later_one_beside_it_replaces() -> None:
 
 
 @pytest.mark.silent
+def test_the_same_target_written_differently_is_no_other_one() -> None:
+    remaps = '<remap from="/scan" to="/front"/><remap from="/scan" to="front"/>'
+    check(f'//- /r.launch.xml\n<launch>\n<node pkg="p" exec="x" name="x">{remaps}</node>\n</launch>')
+
+
+@pytest.mark.silent
 def test_a_remap_that_reached_a_node_before_it_was_replaced_is_not_hidden() -> None:
     check("""
         <launch>

@@ -78,7 +78,8 @@ def _behind(node: LaunchNode) -> tuple[tuple[Remap, Remap], ...]:
     for remap in node.remaps:
         name = remap.source if remap.source[:1] == "/" else f"{node.namespace}{remap.source}"
         winner = first.setdefault(name, remap)
-        if winner is not remap and winner.target != remap.target:
+        targets = {names.resolve(each.target, node.name) for each in (winner, remap)}
+        if len(targets) > 1:
             found.append((remap, winner))
     return tuple(found)
 
