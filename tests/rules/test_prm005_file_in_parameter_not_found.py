@@ -104,6 +104,62 @@ def test_a_file_that_is_there_or_need_not_be() -> None:
     """)
 
 
+def test_files_that_parameters_and_arguments_of_ros2_name() -> None:
+    check("""
+        //- /p/robot.launch.xml
+        <launch>
+          <node pkg="p" exec="rviz" name="rviz" args="-d $(find-pkg-share p)/rviz/veiw.rviz"/>
+                                                      ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'rviz'
+          <node pkg="p" exec="server" name="server">
+            <param name="map" value="$(find-pkg-share p)/office.pgm"/>
+                                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/office.pgm' in parameter 'map'
+            <param from="$(find-pkg-share p)/server.yaml"/>
+          </node>
+          <executable cmd="gz sim $(find-pkg-share p)/office.sdf"/>
+                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM005] 'p/office.sdf' in the arguments of 'gz'
+        </launch>
+        //- /p/server.yaml
+        server:
+          ros__parameters:
+            mask: package://p/mask.yaml
+            ^^^^ warning[PRM005] 'p/mask.yaml' in parameter 'mask'
+    """)
+
+
+@pytest.mark.silent
+def test_files_of_ros2_that_are_installed_elsewhere_or_made(tmp_path: Path) -> None:
+    share = tmp_path / "robot"
+    (share / "rviz").mkdir(parents=True)
+    (share / "rviz" / "view.rviz").touch()
+    (share / "CMakeLists.txt").write_text("install(FILES rviz/view.rviz DESTINATION share/robot/config)\n")
+    launch = share / "robot.launch.xml"
+    launch.write_text("""
+        <launch>
+          <node pkg="robot" exec="rviz" name="rviz" args="-d $(find-pkg-share robot)/config/view.rviz"/>
+          <node pkg="robot" exec="server" name="server">
+            <param name="map" value="$(find-pkg-share robot)/config/view.rviz"/>
+            <param name="save_map_to" value="$(find-pkg-share robot)/office.yaml"/>
+          </node>
+          <executable cmd="ros2 run nav2_map_server map_saver_cli -f $(find-pkg-share robot)/office.yaml"/>
+          <executable cmd="ros2 bag record -o $(find-pkg-share robot)/office.mcap"/>
+        </launch>""")
+    packages = {"robot": Package("robot", str(share), f"{share}/package.xml", build_type="ament_cmake")}
+    environment = Environment(2, "jazzy", {}, (), packages, {}, (), (), None)
+    findings = Workspace(environment, Sources(), str(share)).static(str(launch)).findings
+    assert not [finding for finding in findings if finding.rule == "PRM005"]
+
+
+def test_a_file_that_git_ignores_may_be_made_on_each_machine() -> None:
+    check("""
+        <launch>
+          <param name="model" value="$(find p)/urdf/robot.urdf"/>
+                                     ^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] git ignores it
+        </launch>
+        //- /p/.gitignore
+        urdf/*.urdf
+    """)
+
+
 def test_a_file_that_is_not_there_is_shown_where_it_is_written() -> None:
     text = """
         <launch>

@@ -44,6 +44,15 @@ def attribute_location(context: Context, node: LaunchNode, name: str) -> Locatio
     return context.location(node.location.file, span) if span is not None else node.location
 
 
+def argument_location(context: Context, node: LaunchNode, text: str) -> Location:
+    """The argument of a node's command line that has `text` in it: a value of its own in Python; else all arguments."""
+    for child in node.action.children:
+        value = child.value("value") if child.kind == "argument" else None
+        if value is not None and text in value.text:
+            return context.location(node.location.file, value.span)
+    return attribute_location(context, node, "cmd" if node.kind == "process" else "args")
+
+
 def connection_location(connection: Connection) -> Location:
     """Where the launch file decides on the name of the connection: the remap's `to`, else the node's start tag."""
     return connection.remap.target_location if connection.remap is not None else connection.node.location

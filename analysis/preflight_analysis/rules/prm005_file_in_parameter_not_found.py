@@ -1,4 +1,4 @@
-"""PRM005: a parameter or argument of a node names a file that is not there."""
+"""PRM005: a parameter of a node, or an argument of a node or process, names a file that is not there."""
 
 from __future__ import annotations
 
@@ -11,13 +11,16 @@ from functools import partial
 from itertools import chain, compress
 
 from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.environment.git_ignored import is_ignored
+from preflight_analysis.environment.installed_paths import installs_more, located, package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
 from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
-from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -50,6 +53,8 @@ _FETCHED = frozenset(
 """Models, recordings and the like, which are mostly fetched when the package is built or on first use."""
 _FETCHED_FOLDERS = frozenset(("dataset", "datasets", "trained_data", "weights"))
 _MOST_STEPS = 20
+_VERBS = 3
+"""Words of a command line that say what it does (`ros2 run nav2_map_server map_saver_cli`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,21 +80,32 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             near = nearest_file(context.disk, path, context.environment)
             hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
-            fetched = near is None and _is_fetched(path)
-            note = "; it may have to be fetched first" if fetched else hint
-            message = f"file '{shown(path, context)}' in {named.what} does not exist{note}"
-            severity: Severity | None = "info" if fetched else None
+            severity: Severity | None = None
+            if near is None and _is_fetched(path):
+                severity, hint = "info", "; it may have to be fetched first"
+            elif near is None and is_ignored(context.disk, path):
+                severity, hint = "info", "; git ignores it, so it may be made on each machine"
+            elif near is None and _may_be_made(path, context):
+                severity, hint = "hint", "; building the package may make it"
+            message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
             yield rule.finding(message, location, severity=severity, confidence="likely", related=related, fixes=fixes)
 
 
 def _in_params(context: Context) -> Iterator[_Named]:
     params = context.tree.all_params
     texts_of_each = context.kept.each(_texts_of_param, params)
-    for param, texts in compress(zip(params, texts_of_each, strict=True), texts_of_each):
+    found = compress(zip(params, texts_of_each, strict=True), texts_of_each)
+    of_nodes = context.kept.each(_texts_of_params, context.tree.nodes)
+    for param, texts in chain(found, chain.from_iterable(of_nodes)):
         command = isinstance(param.value, CommandValue)
         what = "the command" if command else f"parameter '{param.name.rpartition('/')[2]}'"
         place = partial(_value_location, context, param, "command" if command else "value")
         yield from (_Named(text, what, place, param.origin) for text in texts)
+
+
+def _texts_of_params(node: LaunchNode) -> tuple[tuple[Param, tuple[str, ...]], ...]:
+    """Those of the parameters that a node of ROS 2 gets, each with its texts."""
+    return tuple((param, texts) for param in node.params if (texts := _texts_of_param(param)))
 
 
 def _texts_of_param(param: Param) -> tuple[str, ...]:
@@ -115,8 +131,9 @@ def _in_arguments(context: Context) -> Iterator[_Named]:
     texts_of_each = context.kept.each(_texts_of_arguments, nodes)
     for node, texts in compress(zip(nodes, texts_of_each, strict=True), texts_of_each):
         if not _elsewhere(context.tree, node):
-            place = partial(attribute_location, context, node, "args")
-            yield from (_Named(text, f"the arguments of '{node.executable}'", place, node.origin) for text in texts)
+            what = f"the arguments of '{node.executable}'"
+            for text in texts:
+                yield _Named(text, what, partial(argument_location, context, node, text), node.origin)
 
 
 def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
@@ -125,9 +142,12 @@ def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
         return ()
     if _made_when_run(node.executable) or _made_when_run(names.leaf(node.name)):
         return ()
+    words = _words(node.args)
+    if node.kind == "process" and any(map(_made_when_run, words[:_VERBS])):
+        return ()
     found: list[str] = []
     before = ""
-    for word in _words(node.args):
+    for word in words:
         option, _, value = word.rpartition("=")
         option = option or (before if before.startswith("-") else "")
         before = word
@@ -157,12 +177,14 @@ def _missing(text: str, context: Context) -> Iterator[str]:
     """The files that `text` names and that should be there: below a package or the workspace, with an extension."""
     if text.startswith("/") and context.disk.exists(text):
         return
+    if is_unknown(text):
+        return
     for path in _paths(text, context.environment):
         extension = _EXTENSION.search(path)
         if extension is None or extension[0].lower() in _MADE_WHEN_RUN or _PATTERN.search(path):
             continue
         normal = os.path.normpath(path)
-        if normal in context.documents or context.disk.exists(normal):
+        if normal in context.documents or context.disk.exists(located(context.disk, context.environment, normal)):
             continue
         share = package_folder(normal, context.environment)
         workspace = context.environment.workspace
@@ -177,6 +199,12 @@ def _missing(text: str, context: Context) -> Iterator[str]:
 def _is_fetched(path: str) -> bool:
     folders = os.path.dirname(path).split("/")
     return os.path.splitext(path)[1].lower() in _FETCHED or not _FETCHED_FOLDERS.isdisjoint(folders)
+
+
+def _may_be_made(path: str, context: Context) -> bool:
+    """Whether the build files of the package around do more than is understood (ROS 2)."""
+    package = package_around(context.environment, path)
+    return package is not None and package.is_ament and installs_more(context.disk, package)
 
 
 def _is_built(below: str, share: str, context: Context) -> bool:
@@ -247,11 +275,11 @@ RULE = Rule(
     what="Reports a file that does not exist in the value of a parameter, in the arguments of a node or in a command: "
     "a path with an extension below a package or the workspace, also as `file://` or `package://`. It names the "
     "nearest file. Names that speak of something that is written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are left alone; a model or recording that has no like one is for information only.",
-    why="`roslaunch` takes the value for any text. The node ends when it opens the file, or goes on without: a camera "
+    "files that the package builds are left alone; a model or recording, or a file that git ignores, is for "
+    "information only where there is none like it.",
+    why="The launcher takes the value for any text. The node ends when it opens the file, or goes on without: a camera "
     "without its calibration, a planner without its limits.",
     example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
     instead='<param name="camera_info_url" value="file://$(find camera)/config/calibration/left.yaml"/>',
-    generations=(1,),
     check=_check,
 )

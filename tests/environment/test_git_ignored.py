@@ -1,0 +1,44 @@
+"""What `.gitignore` leaves out."""
+
+import pytest
+from preflight_analysis.environment.git_ignored import is_ignored
+from support.open_buffers import disk_with
+
+
+@pytest.mark.parametrize(
+    ("patterns", "path"),
+    [
+        ("robot.urdf", "/w/p/urdf/robot.urdf"),
+        ("*.urdf", "/w/p/urdf/robot.urdf"),
+        ("urdf/", "/w/p/urdf/robot.urdf"),
+        ("p/urdf/*", "/w/p/urdf/robot.urdf"),
+        ("/p", "/w/p/urdf/robot.urdf"),
+        ("**/robot.*", "/w/p/urdf/robot.urdf"),
+        ("# made\n\n!robot.urdf\n  robot.urdf  ", "/w/p/urdf/robot.urdf"),
+    ],
+)
+def test_a_file_that_is_left_out(patterns: str, path: str) -> None:
+    assert is_ignored(disk_with({"/w/.gitignore": patterns}), path)
+
+
+@pytest.mark.parametrize(
+    ("patterns", "path"),
+    [
+        ("", "/w/p/urdf/robot.urdf"),
+        ("# robot.urdf", "/w/p/urdf/robot.urdf"),
+        ("robot.urdf/", "/w/p/urdf/robot.urdf"),
+        ("/urdf", "/w/p/urdf/robot.urdf"),
+        ("urdf/*", "/w/p/urdf/robot.urdf"),
+        ("*.urdf\n!robot.urdf", "/w/p/urdf/robot.urdf"),
+        ("p/urdf/robot.urdf/more", "/w/p/urdf/robot.urdf"),
+    ],
+)
+def test_a_file_that_is_kept(patterns: str, path: str) -> None:
+    assert not is_ignored(disk_with({"/w/.gitignore": patterns}), path)
+
+
+def test_the_nearest_file_that_speaks_of_it_counts_and_nothing_above_the_repository() -> None:
+    kept = {"/w/.gitignore": "*.urdf", "/w/p/.gitignore": "!robot.urdf"}
+    assert not is_ignored(disk_with(kept), "/w/p/robot.urdf")
+    assert is_ignored(disk_with(kept), "/w/p/arm.urdf")
+    assert not is_ignored(disk_with({"/w/.gitignore": "*.urdf", "/w/p/.git": ""}), "/w/p/arm.urdf")
