@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from preflight_analysis.documents.movable import Movable
 from preflight_analysis.documents.span import LineIndex, Location, Span, version
 
 
@@ -52,12 +53,20 @@ class Attribute(NamedTuple):
     value: SpannedText
     span: Span
 
+    def moved(self, by: int) -> Attribute:
+        """The same where the text in front of it has become longer by so many characters."""
+        return Attribute(self.name, self.name_span.moved(by), self.value.moved(by), self.span.moved(by))
+
 
 @dataclass(frozen=True, slots=True)
 class Text:
     """Character data or CDATA between tags."""
 
     content: SpannedText
+
+    def moved(self, by: int) -> Text:
+        """The same where the text in front of it has become longer by so many characters."""
+        return Text(self.content.moved(by))
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +76,13 @@ class Comment:
     content: SpannedText
     span: Span
 
+    def moved(self, by: int) -> Comment:
+        """The same where the text in front of it has become longer by so many characters."""
+        return Comment(self.content.moved(by), self.span.moved(by))
+
 
 @dataclass(frozen=True, slots=True)
-class Element:
+class Element(Movable):
     """An element. `open_span` is its start tag, `span` reaches to the end of its end tag (or where it was given up)."""
 
     tag: str

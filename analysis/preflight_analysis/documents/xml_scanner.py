@@ -49,6 +49,17 @@ def scan(text: str, lines: LineIndex) -> Scan:
     return _Scanner(text, lines).scan()
 
 
+def scan_children(text: str, lines: LineIndex, root: Element, part: Span) -> tuple[Node, ...] | None:
+    """The children that `root` has in that part of a text, which begins and ends where a tag does; None where the part
+    is not in order by itself: what it means then depends on the rest."""
+    scanner = _Scanner(text, lines)
+    scanner.elements.open(root.tag, root.tag_span, [*root.attributes], root.open_span.end, empty=False)
+    if scanner.go_on(*part) != part.end or len(scanner.elements.stack) > 1 or scanner.elements.top:
+        return None
+    scanner.refuse_characters(part)
+    return None if scanner.source.problems or scanner.source.entities else tuple(scanner.elements.children)
+
+
 class _Scanner:
     def __init__(self, text: str, lines: LineIndex) -> None:
         self.source = XmlSource(text, lines)
@@ -57,18 +68,25 @@ class _Scanner:
         self.comment_ends: dict[int, int] | None = None
 
     def scan(self) -> Scan:
+        source, text = self.source, self.source.text
+        self.go_on(1 if text.startswith("\ufeff") else 0, len(text))
+        self.elements.give_up(0, len(text))
+        self.refuse_characters(Span(0, len(text)))
+        problems, entities = tuple(source.problems), tuple(source.entities)
+        return Scan(tuple(self.elements.top), problems, entities, source.declared, self.doctype)
+
+    def go_on(self, at: int, end: int) -> int:
+        """Scan what begins between the two. Returns where that ends."""
         source, elements = self.source, self.elements
         text = source.text
-        end = len(text)
-        at = 1 if text.startswith("\ufeff") else 0
         while at < end:
             less = text.find("<", at)
-            if less < 0:
+            if not 0 <= less < end:
                 less = end
             if less > at:
                 elements.text(at, less)
             if less == end:
-                break
+                return end
             if tag := START_TAG.match(text, less):
                 at = tag.end()
                 elements.open(tag[1], Span(*tag.span(1)), attributes_of(source, tag), at, empty=bool(tag[3]))
@@ -77,11 +95,12 @@ class _Scanner:
                 at = tag.end()
             else:
                 at = self._markup(less)
-        elements.give_up(0, end)
-        for bad in _NOT_A_CHARACTER.finditer(text):
-            source.problem(f"the character U+{ord(bad[0][0]):04X} is not allowed in XML", *bad.span())
-        problems, entities = tuple(source.problems), tuple(source.entities)
-        return Scan(tuple(elements.top), problems, entities, source.declared, self.doctype)
+        return at
+
+    def refuse_characters(self, part: Span) -> None:
+        """Note those that XML does not have."""
+        for bad in _NOT_A_CHARACTER.finditer(self.source.text, *part):
+            self.source.problem(f"the character U+{ord(bad[0][0]):04X} is not allowed in XML", *bad.span())
 
     def _markup(self, less: int) -> int:
         """What starts with `<` and is neither a start tag nor an end tag in order. Returns where it ends."""

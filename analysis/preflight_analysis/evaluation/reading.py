@@ -9,10 +9,14 @@ from preflight_analysis.launch.python_classes import PythonClasses
 
 
 def read_launch(
-    source: Text, generation: int | None = None, undecided: int = 1, of_package: read.OfPackage = read.no_package
+    source: Text,
+    generation: int | None = None,
+    undecided: int = 1,
+    of_package: read.OfPackage = read.no_package,
+    before: LaunchFile | None = None,
 ) -> LaunchFile:
     """The launch file of a text; see `launch.read`."""
-    return read.read_launch(source, _python_classes, generation, undecided, of_package)
+    return read.read_launch(source, _python_classes, generation, undecided, of_package, before)
 
 
 def _python_classes() -> PythonClasses:

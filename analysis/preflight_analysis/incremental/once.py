@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Hashable
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
+P = ParamSpec("P")
 T = TypeVar("T")
 
 
@@ -15,15 +16,17 @@ class Once:
     """A base for immutable objects."""
 
     __slots__ = ("_made",)
-    _made: dict[Callable[..., Any], Any]
+    _made: dict[Hashable, Any]
 
-    def once(self, make: Callable[[Self], T]) -> T:
-        """`make(self)`, made for the first who asks and the same for those that come later. `make` is pure."""
+    def once(self, make: Callable[Concatenate[Self, P], T], *arguments: P.args, **none: P.kwargs) -> T:
+        """`make(self, *arguments)`, made for the first who asks and the same for those that come later. `make` is pure,
+        the arguments are hashable and given by their places."""
         try:
             made = self._made
         except AttributeError:
             object.__setattr__(self, "_made", made := {})
-        if make not in made:
-            made[make] = make(self)
-        result: T = made[make]
+        key = (make, *arguments) if arguments else make
+        if key not in made:
+            made[key] = make(self, *arguments, **none)
+        result: T = made[key]
         return result

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Element, Text
+from preflight_analysis.documents.movable import moved
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.problems import (
@@ -38,14 +39,15 @@ _MEANT = re.compile(
 def check_language(launch_file: LaunchFile) -> Iterator[LanguageProblem]:
     """Everything in the file that roslaunch would skip or complain of, in document order."""
     if launch_file.root is not None:
-        yield from _check(launch_file.root)
+        yield from _check(launch_file.root, whole=True)
         # While a tag is being typed the rest of the file may be text for a moment.
-        if not launch_file.document.problems and any(map(_has_stray_text, launch_file.root.walk())):
+        if not launch_file.document.problems and launch_file.root.gather(_stray_text):
             yield from _stray_texts(launch_file.document.root)
 
 
-def _has_stray_text(action: Action) -> bool:
-    return bool(action.body.text) and not _reads_text(action.kind) and not action.body.text.isspace()
+def _stray_text(action: Action) -> tuple[str, ...]:
+    text = action.body.text
+    return () if not text or _reads_text(action.kind) or text.isspace() else (text,)
 
 
 def _reads_text(tag: str) -> bool:
@@ -79,7 +81,11 @@ def _taken_as_text(value: Value) -> Iterator[LanguageProblem]:
                 yield LanguageProblem(SubstitutionAsText(found[0], f"$({inner})"), span)
 
 
-def _check(action: Action) -> Iterator[LanguageProblem]:
+def _checked(action: Action) -> tuple[LanguageProblem, ...]:
+    return tuple(_check(action))
+
+
+def _check(action: Action, *, whole: bool = False) -> Iterator[LanguageProblem]:
     kind = action.kind if action.kind in TAGS else action.kind.lower()
     tag = TAGS[kind]
     for attribute in action.attributes:
@@ -95,7 +101,8 @@ def _check(action: Action) -> Iterator[LanguageProblem]:
         if name in annotations or name in _DEFUNCT.get(kind, ()) or name in tag.refused:
             continue
         if name in tag.children:
-            yield from _check(child)
+            # What is right below the root and an edit has only moved is as it was.
+            yield from moved(child.original.once(_checked), child.moved_by) if whole else _check(child)
         elif kind == "include" and name in TAGS:
             yield LanguageProblem(IgnoredChild(name, kind), child.kind_span)
         else:

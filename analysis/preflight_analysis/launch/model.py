@@ -6,14 +6,18 @@ with attributes and children. What an action means is the business of `evaluatio
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.exact import exact
+from preflight_analysis.documents.movable import Movable, moved
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.once import Once
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 class Literal(NamedTuple):
@@ -97,7 +101,7 @@ class ActionAttribute(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Action:
+class Action(Movable):
     """A tag of a launch file. `kind` is its name in the format's own words (`node`, `include`, `arg`, ...).
 
     `head_span` is what a diagnostic about the whole action underlines (the start tag in XML); `comments` are the
@@ -132,18 +136,19 @@ class Action:
         for child in self.children:
             yield from child.walk()
 
-    def moved(self, by: int) -> Action:
-        """The same where the text in front of it has become longer by so many characters."""
-        return Action(
-            self.kind,
-            self.kind_span.moved(by),
-            tuple(attribute.moved(by) for attribute in self.attributes),
-            tuple(child.moved(by) for child in self.children),
-            tuple(comment.moved(by) for comment in self.comments),
-            self.body.moved(by),
-            self.head_span.moved(by),
-            self.span.moved(by),
-        )
+    def gather(self, find: Callable[Concatenate[Action, P], Iterable[T]], *shared: P.args, **none: P.kwargs) -> list[T]:
+        """What `find(action, *shared)` gives for this action and all below it, in document order. It is a pure function
+        of one tag whose results a `Movable` may hold; of the tags right below this one that have only moved they are
+        those of before."""
+        found = [*find(self, *shared, **none)]
+        for child in self.children:
+            if below := child.original.once(_gathered, find, shared):
+                found += moved(below, by) if (by := child.moved_by) else below
+        return found
+
+
+def _gathered(action: Action, find: Callable[..., Iterable[T]], shared: tuple[Any, ...]) -> tuple[T, ...]:
+    return tuple(item for each in action.walk() for item in find(each, *shared))
 
 
 NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "lifecycle_node"})

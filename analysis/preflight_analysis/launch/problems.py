@@ -53,6 +53,10 @@ class LanguageProblem:
     kind: ProblemKind
     span: Span
 
+    def moved(self, by: int) -> LanguageProblem:
+        """The same where the text in front of it has become longer by so many characters."""
+        return LanguageProblem(self.kind, self.span.moved(by))
+
 
 @dataclass(frozen=True, slots=True)
 class UnknownElement(ProblemKind):

@@ -67,16 +67,17 @@ def read_launch(
     generation: int | None = None,
     undecided: int = 1,
     of_package: OfPackage = no_package,
+    before: LaunchFile | None = None,
 ) -> LaunchFile:
     """The launch file of a text, read as that generation of ROS reads it; None: as it looks, and as `undecided` where
     nothing tells. `python` is asked for Python files only. `of_package` gives the generation of the package that a file
-    is in. Never raises."""
+    is in. `before` is the file as it was: what an edit leaves alone is taken over. Never raises."""
     path, text = source.path, source.text
     if path.endswith(PYTHON_SUFFIX):
         return read_ros2_python(source, python())
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
-    document = parse_xml(path, text, source.encoding, source.lines)
+    document = parse_xml(path, text, source.encoding, source.lines, before.document if before is not None else None)
     if (generation or generation_of(path, text, undecided, of_package)) == 2:
         return read_ros2_xml(document)
     return read_ros1(document)

@@ -22,8 +22,18 @@ def read_ros1(document: Document) -> LaunchFile:
 
 def _find_launch(document: Document) -> Iterator[Element]:
     level = [child for child in document.children if isinstance(child, Element)]
-    for _ in range(MAX_DEPTH):
+    for depth in range(MAX_DEPTH):
         yield from (element for element in level if element.tag == "launch")
         level = [below for element in level for below in element.elements]
+        if depth == 0:
+            level = [element for element in level if element.original.once(_has_launch)]
         if not level:
             return
+
+
+def _has_launch(element: Element) -> bool:
+    """Whether it, or an element below it, is a `<launch>`."""
+    level = [element]
+    while level and all(each.tag != "launch" for each in level):
+        level = [below for each in level for below in each.elements]
+    return bool(level)

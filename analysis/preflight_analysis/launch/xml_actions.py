@@ -15,13 +15,16 @@ MAX_DEPTH = 100
 
 
 def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Action:
-    """The action of an element and those below it; `parse_value` cuts its values into pieces."""
+    """The action of an element and those below it; `parse_value`, a pure function, cuts its values into pieces."""
     comments: list[SpannedText] = []
     children: list[Action] = []
     texts: list[SpannedText] = []
     for child in element.children:
         if isinstance(child, Element):
-            if depth < MAX_DEPTH:
+            if depth == 0:
+                # Of one that an edit has only moved it is that of before.
+                children.append(child.original.once(action_of, parse_value, 1).moved(child.moved_by))
+            elif depth < MAX_DEPTH:
                 children.append(action_of(child, parse_value, depth + 1))
         elif isinstance(child, Comment):
             comments.append(child.content)

@@ -12,7 +12,7 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
-from preflight_analysis.launch.model import LaunchFile, Value, action_at
+from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.rules.arguments import declarations, pass_on
 from preflight_analysis.rules.problems import problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -182,22 +182,29 @@ def _uses_others(text: str) -> bool:
 
 @memoize_by_file
 def _arguments(launch_file: LaunchFile) -> _Arguments:
-    used: set[str] = set()
-    substituted: list[Value] = []
-    passes_all = False
-    if launch_file.root is not None:
-        for action in launch_file.root.walk():
-            for attribute in action.attributes:
-                if "$" in attribute.value.text:
-                    used |= _references(attribute.value.text)
-            if action.kind == "include":
-                passes_all |= not _is_false(action.value("pass_all_args"))
-            elif action.kind == "rosparam" and not _is_false(action.value("subst_value")):
-                used |= _references(action.body.text)
-                file = action.value("file")
-                if file is not None:
-                    substituted.append(file)
-    return _Arguments(frozenset(used), passes_all, tuple(substituted))
+    root = launch_file.root
+    if root is None:
+        return _Arguments(frozenset(), False, ())
+    return _Arguments(frozenset(root.gather(_used_by)), any(root.gather(_passes_all)), tuple(root.gather(_substituted)))
+
+
+def _used_by(action: Action) -> set[str]:
+    texts = [attribute.value.text for attribute in action.attributes if "$" in attribute.value.text]
+    texts += (action.body.text,) if _substitutes(action) else ()
+    return {name for text in texts for name in _references(text)}
+
+
+def _passes_all(action: Action) -> tuple[bool, ...]:
+    return (True,) if action.kind == "include" and not _is_false(action.value("pass_all_args")) else ()
+
+
+def _substituted(action: Action) -> tuple[Value, ...]:
+    file = action.value("file")
+    return (file,) if file is not None and _substitutes(action) else ()
+
+
+def _substitutes(action: Action) -> bool:
+    return action.kind == "rosparam" and not _is_false(action.value("subst_value"))
 
 
 def _references(text: str) -> set[str]:

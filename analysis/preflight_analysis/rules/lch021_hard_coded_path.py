@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
-from preflight_analysis.launch.model import Action, LaunchFile, Literal
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.rules.rule import Context, Rule
 
 _HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
@@ -48,26 +48,29 @@ def _absolute_paths(launch_file: LaunchFile) -> tuple[tuple[int, str], ...]:
     """What is written like an absolute path where a path may stand, outside of substitutions, with its offset."""
     if launch_file.root is None:
         return ()
-    return tuple(found for action in launch_file.root.walk() for found in _of_tag(action, launch_file.document.text))
+    text = launch_file.document.text
+    return tuple(found for value in launch_file.root.gather(_with_slashes) for found in _paths_in(value, text))
 
 
-def _of_tag(action: Action, document: str) -> Iterator[tuple[int, str]]:
+def _with_slashes(action: Action) -> Iterator[Value]:
     # What a <machine> says are paths over there.
-    if action.kind in ("machine", "remap"):
-        return
-    for attribute in action.attributes:
-        if attribute.name in _NOT_PATHS or attribute.name in _NOT_PATHS_ROS2 or "/" not in attribute.value.text:
+    if action.kind not in ("machine", "remap"):
+        for name, _, value, _ in action.attributes:
+            if "/" in value.text and name not in _NOT_PATHS and name not in _NOT_PATHS_ROS2:
+                yield value
+
+
+def _paths_in(value: Value, document: str) -> Iterator[tuple[int, str]]:
+    for part in value.parts:
+        if not isinstance(part, Literal):
             continue
-        for part in attribute.value.parts:
-            if not isinstance(part, Literal):
-                continue
-            written = document[part.span.start : part.span.end]
-            # What follows a substitution directly is the rest of its path.
-            follows = part.span.start > attribute.value.span.start
-            for pattern in (_TILDE, _ABSOLUTE):
-                for match in pattern.finditer(written):
-                    if len(match[0]) > 1 and not (follows and match.start() == 0):
-                        yield part.span.start + match.start(), match[0]
+        written = document[part.span.start : part.span.end]
+        # What follows a substitution directly is the rest of its path.
+        follows = part.span.start > value.span.start
+        for pattern in (_TILDE, _ABSOLUTE):
+            for match in pattern.finditer(written):
+                if len(match[0]) > 1 and not (follows and match.start() == 0):
+                    yield part.span.start + match.start(), match[0]
 
 
 def _what(text: str, context: Context) -> str | None:

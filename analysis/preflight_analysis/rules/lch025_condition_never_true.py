@@ -34,12 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _findings(launch_file: LaunchFile) -> tuple[Finding, ...]:
     if launch_file.root is None:
         return ()
-    conditions = [
-        (action, attribute)
-        for action in launch_file.root.walk()
-        for name in CONDITIONS
-        if (attribute := action.attribute(name)) is not None
-    ]
+    conditions = launch_file.root.gather(_conditions)
     fixed = _fixed_args(launch_file) if conditions else {}
     found: list[Finding] = []
     for action, attribute in conditions:
@@ -47,6 +42,10 @@ def _findings(launch_file: LaunchFile) -> tuple[Finding, ...]:
             found.extend(_constant(RULE, launch_file, fixed, action, attribute))
         found.extend(_unequal(RULE, launch_file, attribute.value))
     return tuple(found)
+
+
+def _conditions(action: Action) -> list[tuple[Action, ActionAttribute]]:
+    return [(action, attribute) for name in CONDITIONS if (attribute := action.attribute(name)) is not None]
 
 
 def _constant(
@@ -110,19 +109,23 @@ def _fixed_args(launch_file: LaunchFile) -> dict[str, _Fixed]:
     """Arguments declared once in the file, with a literal value and no condition."""
     found: dict[str, _Fixed] = {}
     several: set[str] = set()
-    for action in launch_file.root.walk() if launch_file.root is not None else ():
-        if action.kind == "include":
+    if (root := launch_file.root) is None:
+        return found
+    outermost = {id(child) for child in root.children}
+    for tag in root.gather(_declared_in):
+        name, value = tag.value("name"), tag.value("value")
+        literal = value is not None and value.is_literal and tag.value("default") is None
+        if name is None:
             continue
-        for child in action.children:
-            name, value = child.value("name"), child.value("value")
-            if child.kind != "arg" or action.kind == "include" or name is None:
-                continue
-            literal = value is not None and value.is_literal and child.value("default") is None
-            if name.text in found or not literal or has_condition(child) or action is not launch_file.root:
-                several.add(name.text)
-            elif value is not None:
-                found[name.text] = _Fixed(value.text, launch_file.document.location(child.head_span))
+        if name.text in found or not literal or has_condition(tag) or id(tag) not in outermost:
+            several.add(name.text)
+        elif value is not None:
+            found[name.text] = _Fixed(value.text, launch_file.document.location(tag.head_span))
     return {name: fixed for name, fixed in found.items() if name not in several}
+
+
+def _declared_in(action: Action) -> tuple[Action, ...]:
+    return () if action.kind == "include" else tuple(child for child in action.children if child.kind == "arg")
 
 
 def _unequal(rule: Rule, launch_file: LaunchFile, value: Value) -> Iterator[Finding]:

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename, shown
@@ -118,17 +118,20 @@ class _OldLanguage:
 
 @memoize_by_file
 def _old_language(launch_file: LaunchFile) -> _OldLanguage:
-    masters: list[Action] = []
-    in_order: list[Span] = []
-    for action in launch_file.root.walk() if launch_file.root is not None else ():
-        command = action.value("command")
-        if action.kind == "master":
-            masters.append(action)
-        elif command is not None and "xacro" in command.text:
-            found = _IN_ORDER.search(launch_file.document.text, command.span.start, command.span.end)
-            if found is not None:
-                in_order.append(Span(*found.span()))
-    return _OldLanguage(tuple(masters), tuple(in_order))
+    root, text = launch_file.root, launch_file.document.text
+    if root is None:
+        return _OldLanguage((), ())
+    options = (_IN_ORDER.search(text, *command.span) for command in root.gather(_xacro_commands))
+    return _OldLanguage(tuple(root.gather(_masters)), tuple(Span(*found.span()) for found in options if found))
+
+
+def _masters(action: Action) -> tuple[Action, ...]:
+    return (action,) if action.kind == "master" else ()
+
+
+def _xacro_commands(action: Action) -> tuple[Value, ...]:
+    command = action.value("command")
+    return (command,) if action.kind != "master" and command is not None and "xacro" in command.text else ()
 
 
 RULE = Rule(

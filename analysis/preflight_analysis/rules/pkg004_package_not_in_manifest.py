@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Iterator, Mapping
+from itertools import chain
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.document import Document
@@ -14,7 +15,7 @@ from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
-from preflight_analysis.launch.model import LaunchFile, Substitution
+from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^<>]*>[^<]*</\w+>", re.MULTILINE)
@@ -60,30 +61,32 @@ def _missing(
 @memoize_by_file
 def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     """The packages that the file names, under whatever conditions, each with the first place."""
-    found: dict[str, Span] = {}
-    if launch_file.root is None:
-        return found
-    tags = tags_of(launch_file.generation)
-    for action in launch_file.root.walk():
-        tag = tags.get(action.kind) or tags.get(action.kind.lower())
-        for attribute in action.attributes:
-            value = attribute.value
-            known = tag.attributes.get(attribute.name) if tag is not None else None
-            if known is not None and known.kind == "package" and value.is_literal:
-                found.setdefault(value.text, value.span)
-            for part in value.substitutions:
-                _found(part, found)
+    in_tags = launch_file.root.gather(_packages_of, launch_file.generation) if launch_file.root is not None else ()
     # What a function of Python gives, such as get_package_share_directory, is a plain text in the actions.
-    for part in launch_file.named or ():
-        _found(part, found)
-    return found
+    in_functions = (found for part in launch_file.named or () for found in _found_by(part))
+    first: dict[str, Span] = {}
+    for name, span in chain(in_tags, in_functions):
+        first.setdefault(name, span)
+    return first
 
 
-def _found(part: Substitution, found: dict[str, Span]) -> None:
+def _packages_of(action: Action, generation: int) -> Iterator[tuple[str, Span]]:
+    tags = tags_of(generation)
+    tag = tags.get(action.kind) or tags.get(action.kind.lower())
+    for attribute in action.attributes:
+        value = attribute.value
+        known = tag.attributes.get(attribute.name) if tag is not None else None
+        if known is not None and known.kind == "package" and value.is_literal:
+            yield value.text, value.span
+        for part in value.substitutions:
+            yield from _found_by(part)
+
+
+def _found_by(part: Substitution) -> Iterator[tuple[str, Span]]:
     name = part.arguments.split()[-1:] if part.command in _FINDS else []
     if name and "$" not in name[0]:
         start = part.arguments_span.start + part.arguments.rindex(name[0])
-        found.setdefault(name[0].strip("'\""), Span(start, start + len(name[0])))
+        yield name[0].strip("'\""), Span(start, start + len(name[0]))
 
 
 def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix, ...]:

@@ -36,12 +36,13 @@ def launch_file_of(db: Database, path: str, generation: int | None) -> LaunchFil
     text = text_of(db, path)
     if isinstance(text, Unreadable):
         return text
+    before = known if isinstance(known := db.previous, LaunchFile) else None
     if generation is None:
-        return read_launch(text, undecided=UNDECIDED(db), of_package=partial(generation_around, db))
+        return read_launch(text, undecided=UNDECIDED(db), of_package=partial(generation_around, db), before=before)
     looks = launch_file_of(db, path, None)
     if not isinstance(looks, Unreadable) and looks.generation == generation:
         return looks
-    return read_launch(text, generation)
+    return read_launch(text, generation, before=before)
 
 
 @query

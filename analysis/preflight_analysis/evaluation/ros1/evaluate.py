@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from functools import partial
 
 from preflight_analysis.documents.reading import Unreadable
@@ -454,13 +454,16 @@ def _asked_for(launch_file: LaunchFile) -> set[str] | None:
     name is made up, or half typed."""
     if launch_file.document.problems:
         return None
-    values = []
-    for action in launch_file.root.walk() if launch_file.root else ():
-        if action.kind == "include" and action.attribute("pass_all_args") is not None:
-            return None
-        if action.kind == "arg" and (value := action.value("name")) is not None:
-            values.append(value)
-    return {value.text for value in values} if all(value.is_literal for value in values) else None
+    asked_for = launch_file.root.gather(_asked_by) if launch_file.root is not None else []
+    return None if None in asked_for else {*filter(None, asked_for)}
+
+
+def _asked_by(action: Action) -> Iterator[str | None]:
+    """The name of an `<arg>`; None where it is made up, and for an include that hands on what it does not declare."""
+    if action.kind == "include" and action.attribute("pass_all_args") is not None:
+        yield None
+    elif action.kind == "arg" and (value := action.value("name")) is not None:
+        yield value.text if value.is_literal else None
 
 
 def _check_machines(state: State) -> None:
