@@ -295,8 +295,8 @@ class _Answers:
     def result(self, line: str) -> CommandResult | None:
         return CommandResult("done", self._output)
 
-    def last_good(self, series: str) -> str | None:
-        return None
+    def answering(self, question: str) -> tuple[str, ...]:
+        return ()
 
 
 def look(generation: int, texts: Mapping[str, str], root: str, answers: str | None = None) -> None:

@@ -97,8 +97,8 @@ class _Results:
         tail = tuple(data.get("stderr_tail", ()))
         return CommandResult(data.get("status", "done"), data.get("output", ""), data.get("reason", ""), tail)
 
-    def last_good(self, series: str) -> str | None:
-        return None
+    def answering(self, question: str) -> tuple[str, ...]:
+        return ()
 
 
 class _EveryExecutable:

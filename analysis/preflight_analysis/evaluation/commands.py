@@ -43,8 +43,8 @@ class Commands(Protocol):
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line, None as long as it has none: it has not been run, or runs right now."""
 
-    def last_good(self, series: str) -> str | None:
-        """Of the runs of a Python launch file with one text or another the last that went well: its line."""
+    def answering(self, question: str) -> tuple[str, ...]:
+        """The lines of the runs of Python launch files that answer a question in some context, the latest last."""
 
     def snapshot(self) -> Commands:
         """The results as they are now, for another process."""
@@ -60,9 +60,9 @@ class NoResults:
         """None."""
         return None
 
-    def last_good(self, series: str) -> str | None:
+    def answering(self, question: str) -> tuple[str, ...]:
         """None."""
-        return None
+        return ()
 
     def snapshot(self) -> Commands:
         """The same."""
@@ -75,7 +75,7 @@ class KnownResults:
 
     placeholder: str | None
     results: Mapping[str, CommandResult]
-    lines_of_last_good: Mapping[str, str]
+    lines_answering: Mapping[str, tuple[str, ...]]
     otherwise: CommandResult | None
     edition: int = 0
 
@@ -83,9 +83,9 @@ class KnownResults:
         """The result of a command line."""
         return self.results.get(line, self.otherwise)
 
-    def last_good(self, series: str) -> str | None:
-        """The line of the last run that went well."""
-        return self.lines_of_last_good.get(series)
+    def answering(self, question: str) -> tuple[str, ...]:
+        """The lines of the runs that answer a question."""
+        return self.lines_answering.get(question, ())
 
     def snapshot(self) -> Commands:
         """The same."""
@@ -107,10 +107,10 @@ def result_of(db: Database, commands: Commands, line: str) -> CommandResult | No
 
 
 @query
-def last_good_of(db: Database, commands: Commands, series: str) -> str | None:
-    """The line of the last run of a series that went well."""
+def lines_answering(db: Database, commands: Commands, question: str) -> tuple[str, ...]:
+    """The lines of the runs that answer a question."""
     EDITION(db, commands)
-    return commands.last_good(series)
+    return commands.answering(question)
 
 
 class QueriedCommands:
@@ -130,9 +130,9 @@ class QueriedCommands:
         """The result of a command line."""
         return result_of(self._db, self._commands, line)
 
-    def last_good(self, series: str) -> str | None:
-        """The line of the last run that went well."""
-        return last_good_of(self._db, self._commands, series)
+    def answering(self, question: str) -> tuple[str, ...]:
+        """The lines of the runs that answer a question."""
+        return lines_answering(self._db, self._commands, question)
 
     def snapshot(self) -> Commands:
         """The results as they are now."""

@@ -70,18 +70,13 @@ def group(request: dict[str, Any]) -> str | None:
     """The same for requests that differ in their last call alone; None for one without calls."""
     if not request["calls"]:
         return None
-    *before, _ = request["calls"]
-    alike = {name: value for name, value in request.items() if before or name != "files"}
-    return json.dumps({**alike, "calls": before}, sort_keys=True)
+    return json.dumps({**request, "calls": request["calls"][:-1]}, sort_keys=True)
 
 
 def together(requests: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """One request for several of a `group`: what comes before the last call is done once, and each last call in a copy
     of the process."""
-    *before, _ = requests[0]["calls"]
-    branches = [{"call": each["calls"][-1], "files": each.get("files", {})} for each in requests]
-    files = requests[0].get("files", {}) if before else {}
-    return {**requests[0], "calls": before, "files": files, "branches": branches}
+    return {**requests[0], "calls": requests[0]["calls"][:-1], "branches": [each["calls"][-1] for each in requests]}
 
 
 def apart(output: str, count: int) -> list[str | None]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from preflight_analysis.evaluation.commands import CommandResult, Commands, KnownResults
-from preflight_analysis.evaluation.ros2.python_runs import MARK, good_series
+from preflight_analysis.evaluation.ros2.python_runs import MARK, answered_questions
 from preflight_analysis.evaluation.tree import LaunchTree
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ class CommandResults:
         self.placeholder = placeholder
         self._why_not_run = why_not_run
         self._results: Mapping[str, CommandResult] = {}
-        self._last_good: Mapping[str, str] = {}
+        self._answering: Mapping[str, tuple[str, ...]] = {}
         self._updates = 0
 
     @property
@@ -42,13 +42,13 @@ class CommandResults:
         """The result of a command line, or why it has none."""
         return self._results.get(line) or self._otherwise
 
-    def last_good(self, series: str) -> str | None:
-        """The line of the last run of a Python launch file that went well, whatever its text was then."""
-        return self._last_good.get(series)
+    def answering(self, question: str) -> tuple[str, ...]:
+        """The lines of the runs of Python launch files that answer a question, the latest last."""
+        return self._answering.get(question, ())
 
     def snapshot(self) -> Commands:
         """The results as they are now."""
-        return KnownResults(self.placeholder, self._results, self._last_good, self._otherwise)
+        return KnownResults(self.placeholder, self._results, self._answering, self._otherwise)
 
     @property
     def _otherwise(self) -> CommandResult | None:
@@ -63,12 +63,20 @@ class CommandResults:
             del merged[line]
         self._results = merged
         self._updates += 1
-        good = {series: line for line, found in results.items() if (series := good_series(line, found)) is not None}
-        self._last_good = {s: line for s, line in {**self._last_good, **good}.items() if line in merged}
+        questions = {line: answered_questions(line, found) for line, found in results.items() if line in merged}
+        answering = {
+            question: [line for line in lines if line in merged and question in questions.get(line, (question,))]
+            for question, lines in self._answering.items()
+        }
+        for line, answered in questions.items():
+            for question in answered:
+                if line not in answering.setdefault(question, []):
+                    answering[question].append(line)
+        self._answering = {question: tuple(lines) for question, lines in answering.items() if lines}
 
     def clear(self) -> None:
         """Forget all results."""
-        self._results, self._last_good = {}, {}
+        self._results, self._answering = {}, {}
         self._updates += 1
 
 

@@ -10,7 +10,7 @@ from preflight_analysis.documents.disk import REAL_PATH, STATUS, data_of, mode_o
 from preflight_analysis.documents.reading import Text, Unreadable, digest
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.environment.variables import variable_of
-from preflight_analysis.evaluation.commands import CommandResult, Commands, last_good_of, result_of
+from preflight_analysis.evaluation.commands import CommandResult, Commands, lines_answering, result_of
 from preflight_analysis.workspace.sources import Sources
 
 T = TypeVar("T")
@@ -114,8 +114,8 @@ class World:
                 return _variable(name, self._variables.get(name))
             case "command":
                 return _result(name, self._commands.result(name))
-            case "last-good":
-                return _last_good(name, self._commands.last_good(name))
+            case "answering":
+                return _answering(name, self._commands.answering(name))
             case _:
                 return None
 
@@ -135,12 +135,12 @@ def _result(line: str, result: CommandResult | None) -> Observation:
     return Observation("command", line, "" if result is None else digest(repr(result)))
 
 
-def _last_good(series: str, line: str | None) -> Observation:
-    return Observation("last-good", series, "" if line is None else digest(line))
+def _answering(question: str, lines: tuple[str, ...]) -> Observation:
+    return Observation("answering", question, digest("\0".join(lines)) if lines else "")
 
 
 _OF_OTHERS: Mapping[Any, Callable[[str, Any], Observation]] = {
     variable_of: _variable,
     result_of: _result,
-    last_good_of: _last_good,
+    lines_answering: _answering,
 }

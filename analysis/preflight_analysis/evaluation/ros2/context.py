@@ -77,8 +77,6 @@ class PythonRun:
     variables: Mapping[str, str]
     calls: tuple[Mapping[str, Any], ...]
     source: PythonSource
-    files: Mapping[str, str] = field(default_factory=dict)
-    """Texts that earlier runs wrote and that the configurations name."""
     given: Mapping[str, str] = field(default_factory=dict)
     """The variables of the user's environment that the text names: the sandbox hands on no others."""
     packages: Mapping[str, str] = field(default_factory=dict)

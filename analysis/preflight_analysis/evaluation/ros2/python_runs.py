@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -75,8 +75,6 @@ class _Reply(NamedTuple):
 def request(run: PythonRun) -> str:
     """The name of a run."""
     request = {"file": run.file, "text": run.text, "env": dict(run.variables), "calls": list(run.calls)}
-    if run.files:
-        request["files"] = dict(run.files)
     if run.given:
         request["given"] = dict(run.given)
     if run.packages:
@@ -101,7 +99,7 @@ def recorded(
     run = PythonRun(
         launch_file.path, document.text, context.changed_variables(), (), _source(document.text), given=given
     )
-    run = replace(run, packages=state.environment.meant)
+    run = _reusable(state, replace(run, packages=state.environment.meant))
     place = Place(launch_file.path, document.lines, chain, run)
     unknowns, problems = len(state.unknowns), len(state.problems)
     reply = None
@@ -109,7 +107,7 @@ def recorded(
         at = launch_file.document.location(document.problems[0].span)
         state.note_unknown(launch_file.path, "it cannot be run as it is", at)
     else:
-        reply = _ask(state, context, place, run, place.origin(whole), sure=True)
+        reply = _ask(state, context, place, run, place.origin(whole))
     if reply is None and (last := _last_good(state, run)) is not None:
         run, reply, edited = last
         wrong = (*(p.span for p in document.problems), *(p.location.span for p in state.problems[problems:]))
@@ -123,33 +121,125 @@ def recorded(
     return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Known:
+    """A run whose answer is known, and what of its context that depends on: names, None where all of them count."""
+
+    line: str
+    text: str
+    variables: Mapping[str, str]
+    calls: tuple[Mapping[str, Any], ...]
+    configurations: frozenset[str] | None
+    environment: frozenset[str] | None
+    file: bool
+
+    def answers(self, run: PythonRun) -> bool:
+        """Whether it holds for a run that asks the same question."""
+        if not run.calls:
+            return _same(self.variables, run.variables, self.environment)
+        then, now = self.calls[-1], run.calls[-1]
+        before, given = then["configurations"], now["configurations"]
+        if self.configurations is None:
+            written = now["files"]
+        else:
+            named = (value for name in self.configurations if isinstance(value := given.get(name), str))
+            written = {path: now["files"][path] for path in named if path in now["files"]}
+        return (
+            _same(before, given, self.configurations)
+            and _same(then["env"], now["env"], self.environment)
+            and (not self.file or then["file"] == now["file"])
+            and all(then["files"].get(path) == text for path, text in written.items())
+        )
+
+
+def _same(then: Mapping[str, Any], now: Mapping[str, Any], names: frozenset[str] | None) -> bool:
+    return then == now if names is None else all(then.get(name) == now.get(name) for name in names)
+
+
+def _names(value: object) -> frozenset[str] | None:
+    if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+        return None
+    return frozenset(value)
+
+
+@lru_cache(maxsize=1024)
+def _known(line: str, output: str) -> _Known | None:
+    """A run by its line and its answer."""
+    run, reply = parse_request(line), _read(output)
+    if run is None or not isinstance(reply, dict):
+        return None
+    read = reply.get("read")
+    if not isinstance(read, dict):
+        read = {}
+    configurations, environment = _names(read.get("configurations")), _names(read.get("env"))
+    is_file = read.get("file") is not False
+    return _Known(line, run["text"], run["env"], tuple(run["calls"]), configurations, environment, is_file)
+
+
+def _reusable(state: Collector, run: PythonRun) -> PythonRun:
+    """The run that answered the question in a context that makes no difference; itself where there is none."""
+    for line in state.results.answering(_question(run, run.text)):
+        known = _known_of(state, line)
+        if known is not None and known.answers(run):
+            return replace(run, variables=known.variables, calls=known.calls)
+    return run
+
+
+def _known_of(state: Collector, line: str) -> _Known | None:
+    result = state.results.result(line)
+    return _known(line, result.output) if result is not None and result.status == "done" else None
+
+
 def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Span] | None:
-    """The last run of the launch file (or of the same calls in it) that went well, what it told, and what of the text
+    """The last run of the launch file (or of the same call in it) that went well, what it told, and what of the text
     is another one since. It counts until there is one of the text as it is: half typed it cannot be run, and a run
     takes its time."""
-    line = state.results.last_good(_series(run.file, run.variables, run.calls))
-    result = state.results.result(line) if line is not None else None
-    then = parse_request(line) if line is not None else None
-    if result is None or then is None or result.status != "done":
-        return None
-    changed = change(then["text"], run.text)
-    earlier = replace(run, text=then["text"], source=_source(then["text"], changed), replaced=True)
-    return earlier, _Reply(_read(result.output), result.output), changed.after
+    for line in reversed(state.results.answering(_question(run, None))):
+        known, result = _known_of(state, line), state.results.result(line)
+        if known is None or result is None or not known.answers(run):
+            continue
+        changed = change(known.text, run.text)
+        source = _source(known.text, changed)
+        earlier = replace(
+            run, text=known.text, source=source, variables=known.variables, calls=known.calls, replaced=True
+        )
+        return earlier, _Reply(_read(result.output), result.output), changed.after
+    return None
 
 
-def _series(file: str, variables: Mapping[str, str], calls: Iterable[Mapping[str, Any]]) -> str:
-    return json.dumps([file, dict(variables), list(calls)], sort_keys=True)
+def _question(run: PythonRun, text: str | None) -> str:
+    return _question_of(run.file, text, run.variables, run.calls, run.given, run.packages)
 
 
-def good_series(line: str, result: CommandResult) -> str | None:
-    """What `Commands.last_good` knows a run of a Python launch file by; None for a run that did not go well, and the
+def _question_of(
+    file: str,
+    text: str | None,
+    variables: Mapping[str, str],
+    calls: Sequence[Mapping[str, Any]],
+    given: Mapping[str, str],
+    packages: Mapping[str, str],
+) -> str:
+    """What is asked, but for the context of what is asked: of the file itself, or of the last call. `text`: None for
+    whatever it is or was."""
+    of_last: list[Any] = [None]
+    if calls:
+        last = calls[-1]
+        of_last = [dict(variables), list(calls[:-1]), last["id"], last["name"], last["what"]]
+    always = [file] if text is None else [file, digest(text), dict(given), dict(packages)]
+    return json.dumps([*always, of_last], sort_keys=True)
+
+
+def answered_questions(line: str, result: CommandResult) -> tuple[str, ...]:
+    """The questions that a run answers, of the file as it is and, if it went well, whatever its text is; none for the
     command line of something else."""
     run = parse_request(line)
-    if run is None or result.status != "done":
-        return None
-    reply = _read(result.output)
-    good = isinstance(reply, dict) and not isinstance(reply.get("error"), dict)
-    return _series(run["file"], run["env"], run["calls"]) if good else None
+    reply = _read(result.output) if run is not None and result.status == "done" else None
+    if run is None or not isinstance(reply, dict):
+        return ()
+    good = not isinstance(reply.get("error"), dict)
+    texts = (run["text"], None) if good else (run["text"],)
+    more = run.get("given", {}), run.get("packages", {})
+    return tuple(_question_of(run["file"], text, run["env"], run["calls"], *more) for text in texts)
 
 
 def called(
@@ -160,7 +250,8 @@ def called(
     if place.run is None or not number.isdigit():
         state.note_unknown(name, "the launch file was not run", place.location(at))
         return None
-    configurations, complete = _configurations(context)
+    configurations = _configurations(context)
+    given = {v for v in configurations.values() if isinstance(v, str)}
     call = {
         "id": int(number),
         "name": name,
@@ -168,12 +259,11 @@ def called(
         "configurations": configurations,
         "env": context.changed_variables(),
         "file": context.launch_file,
+        "files": {path: made.text for path in given if (made := state.text_made(path)) is not None},
     }
-    given = {v for v in configurations.values() if isinstance(v, str)}
-    files = {path: made.text for path in given if (made := state.text_made(path)) is not None}
-    run = replace(place.run, calls=(*place.run.calls, call), files={**place.run.files, **files})
+    run = _reusable(state, replace(place.run, calls=(*place.run.calls, call)))
     unknowns, problems = len(state.unknowns), len(state.problems)
-    reply = _ask(state, context, place, run, place.origin(at), sure=complete)
+    reply = _ask(state, context, place, run, place.origin(at))
     if reply is None and not run.replaced and (last := _last_good(state, run)) is not None:
         run, reply, edited = last
         if not state.is_edited(run.file):
@@ -211,12 +301,11 @@ def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
     return {name: value for name, value in known.items() if not is_secret(name, value)}
 
 
-def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
-    """What is configured, with a mark for what is not known, and whether all of it is."""
+def _configurations(context: Context) -> dict[str, Any]:
+    """What is configured, with a mark for what is not known."""
     given = dict(context.configurations)
     if (namespace := context.namespace) is not None:
         given["ros_namespace"] = Configuration(namespace, None)
-    complete = all(each.value.known for each in given.values())
     found: dict[str, Any] = {
         name: each.value.text if each.value.known else unknown_text(name) for name, each in given.items()
     }
@@ -224,14 +313,11 @@ def _configurations(context: Context) -> tuple[dict[str, Any], bool]:
         found["global_params"] = [[p.name, p.value] if p.name is not None else p.value for p in params]
     if remaps := context.remaps:
         found["ros_remaps"] = [[remap.source.text, remap.target.text] for remap in remaps]
-    return found, complete
+    return found
 
 
-def _ask(
-    state: Collector, context: Context, place: Place, run: PythonRun, origin: Origin, *, sure: bool
-) -> _Reply | None:
-    """The answer to a run, None if there is none or it has failed. `sure`: all that the run was given is known, so
-    that its failure is one of the file."""
+def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origin: Origin) -> _Reply | None:
+    """The answer to a run, None if there is none or it has failed."""
     line = request(run)
     result = state.results.result(line)
     if not run.replaced:
@@ -259,7 +345,7 @@ def _ask(
     _missed(state, context, place, run, reply.get("missed"), origin)
     error = reply.get("error")
     if isinstance(error, dict):
-        _raised(state, place, run, error, origin, sure=sure)
+        _raised(state, place, run, error, origin)
         return None
     return _Reply(reply, result.output)
 
@@ -324,13 +410,12 @@ def _variables(reply: _Reply) -> dict[str, str]:
     return {k: v for k, v in (_texts(reply.values.get("env")) or {}).items() if not is_unknown(v)}
 
 
-def _raised(
-    state: Collector, place: Place, run: PythonRun, error: Mapping[str, Any], origin: Origin, *, sure: bool
-) -> None:
-    """What an exception says, on the line of the file that raised it."""
+def _raised(state: Collector, place: Place, run: PythonRun, error: Mapping[str, Any], origin: Origin) -> None:
+    """What an exception says, on the line of the file that raised it. Where it may come of something that is not known
+    the file is not to blame."""
     name, message = str(error.get("type")), str(error.get("message"))
     state.note_unknown(name, readable(message), origin[-1])
-    if not sure or error.get("unsure") is True:
+    if error.get("unsure") is True:
         return
     frames = error.get("frames")
     own = [

@@ -35,6 +35,9 @@ class Recorder:
         """The folder of the module that is used where ROS has none."""
         self.unknown = False
         """Whether something that the file is given is not known."""
+        self.reads: Any = None
+        """What notes what is read (`reads.Reads`), while something does."""
+        self.last_reads: Any = None
 
     def miss(self, what: str, name: str) -> None:
         """Note a module or package that is not here, where it is asked for first."""
@@ -247,6 +250,8 @@ class LaunchContext:
         return _Locals(self.get_locals_as_dict())
 
     def get_locals_as_dict(self) -> dict[str, Any]:
+        if RECORDER.reads is not None:
+            RECORDER.reads.file = True
         return {**self.__globals, **self.__locals}
 
     def extend_globals(self, extensions: dict[str, Any]) -> None:

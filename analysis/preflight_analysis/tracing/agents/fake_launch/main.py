@@ -18,8 +18,8 @@ import types
 import zlib
 from typing import Any, Callable, Optional
 
-from ..anything import BEGIN, AnyBase, Anything, is_unknown
-from . import installed, unknown_files
+from ..anything import BEGIN, AnyBase, Anything
+from . import installed, reads, unknown_files
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -60,6 +60,8 @@ def _answer(work: Callable[[], dict[str, Any]]) -> str:
         result = {"error": {"type": "SystemExit", "message": str(error), "frames": []}}
     except BaseException as error:
         result = {"error": _error_record(error)}
+    if RECORDER.last_reads is not None:
+        result["read"] = RECORDER.last_reads.record()
     result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
     result["files"] = _files()
     return json.dumps(result)
@@ -97,8 +99,7 @@ def _branch(branch: dict[str, Any]) -> Optional[str]:
 
 def _in_branch(branch: dict[str, Any]) -> dict[str, Any]:
     RECORDER.missed.clear()
-    _write(branch["files"])
-    return _call(branch["call"])
+    return _call(branch)
 
 
 def _write(files: dict[str, str]) -> None:
@@ -110,9 +111,21 @@ def _write(files: dict[str, str]) -> None:
 def _run(job: dict[str, Any]) -> dict[str, Any]:
     install()
     installed.install(job["installed"])
+    reads.install()
     unknown_files.install()
     environment = dict(os.environ)
-    _write(job.get("files", {}))
+    with reads.noted():
+        actions = _described(job)
+    changed = {k: v for k, v in os.environ.items() if environment.get(k) != v}
+    result: dict[str, Any] = {"actions": actions, "env": changed}
+    for call in job["calls"]:
+        RECORDER.missed.clear()  # they are told by the answers to what came before
+        result = _call(call)
+    return result
+
+
+def _described(job: dict[str, Any]) -> list[dict[str, Any]]:
+    """The actions of the file."""
     lines = job["text"].splitlines(keepends=True)
     linecache.cache[job["file"]] = (len(job["text"]), None, lines, job["file"])  # the editor's, not the disk's
     module = types.ModuleType("python_launch_file")
@@ -126,12 +139,7 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(description, LaunchDescription):
         kind = type(description).__name__
         raise TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
-    changed = {k: v for k, v in os.environ.items() if environment.get(k) != v}
-    result: dict[str, Any] = {"actions": Serializer().description(description.entities), "env": changed}
-    for call in job["calls"]:
-        RECORDER.missed.clear()  # they are told by the answers to what came before
-        result = _call(call)
-    return result
+    return Serializer().description(description.entities)
 
 
 def _description(module: types.ModuleType) -> Any:
@@ -148,17 +156,32 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
     """Execute an action, or perform a substitution or condition."""
     thing = RECORDER.made[call["id"]]
     context = LaunchContext()
-    context.launch_configurations.update(call["configurations"])
-    RECORDER.unknown = RECORDER.unknown or any(map(is_unknown, call["configurations"].values()))
+    before = call["configurations"]
+    context.launch_configurations = given = reads.Configurations(before)
     context.extend_globals(
         {"current_launch_file_path": call["file"], "current_launch_file_directory": os.path.dirname(call["file"])}
     )
+    _write(call["files"])
     os.environ.update(call["env"])
     environment = dict(os.environ)
-    if call["what"] == "perform":
-        if isinstance(thing, Condition):
-            return {"text": str(thing.evaluate(context)).lower()}
-        return {"text": str(thing.perform(context))}
+    with reads.noted():
+        if call["what"] == "perform":
+            if isinstance(thing, Condition):
+                return {"text": str(thing.evaluate(context)).lower()}
+            return {"text": str(thing.perform(context))}
+        actions = _executed(thing, context)
+        if context.launch_configurations is not given:
+            given.preflight_read_all()
+    after = dict.copy(given) if context.launch_configurations is given else dict(context.launch_configurations)
+    return {
+        "actions": actions,
+        "set": {k: str(v) for k, v in after.items() if isinstance(k, str) and before.get(k) != v},
+        "unset": [k for k in before if k not in after],
+        "env": {k: v for k, v in os.environ.items() if environment.get(k) != v},
+    }
+
+
+def _executed(thing: Any, context: LaunchContext) -> list[dict[str, Any]]:
     given = thing.execute(context)
     serializer = Serializer()
     actions: list[dict[str, Any]] = [serializer.plain_entity(each) for each in context.preflight_executed]
@@ -166,13 +189,7 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
         given = given.entities
     if given is not None:
         actions += serializer.description(given if isinstance(given, (list, tuple)) else [given])
-    before, after = call["configurations"], context.launch_configurations
-    return {
-        "actions": actions,
-        "set": {k: str(v) for k, v in after.items() if isinstance(k, str) and before.get(k) != v},
-        "unset": [k for k in before if k not in after],
-        "env": {k: v for k, v in os.environ.items() if environment.get(k) != v},
-    }
+    return actions
 
 
 def _error_record(error: BaseException) -> dict[str, Any]:
