@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.catalogue import launches as launch_files
 from preflight_analysis.catalogue.packages import INTERFACES, interfaces_of
 from preflight_analysis.evaluation import names
 from preflight_analysis.nodl.catalogued import Catalogued, catalogued
@@ -94,13 +95,14 @@ def page(found: Iterable[Row]) -> str:
         "What common packages do is known where they are not installed: read from their source by this project's own",
         "analysis, at the commit that each file names, with no argument and no parameter set.",
         "",
-        "| distribution | packages | executables | components | nodelets |",
-        "| --- | --- | --- | --- | --- |",
+        "| distribution | packages | executables | components | nodelets | launch files |",
+        "| --- | --- | --- | --- | --- | --- |",
     ]
     for folder in sorted(INTERFACES.iterdir()):
         of = [interfaces_of(path.stem, folder.name) for path in sorted(folder.glob("*.json"))]
         counts = (sum(len(each.get(kind, ())) for each in of) for kind in ("executables", "components", "nodelets"))
-        lines.append(f"| {folder.name} | {len(of)} | {' | '.join(map(str, counts))} |")
+        files = sum(1 for _ in (launch_files.LAUNCHES / folder.name).rglob("*.json"))
+        lines.append(f"| {folder.name} | {len(of)} | {' | '.join(map(str, counts))} | {files} |")
     ends, params = _share(row.ends for row in found), _share(row.params for row in found)
     lines += [
         "",

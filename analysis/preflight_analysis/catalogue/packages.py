@@ -24,11 +24,16 @@ def distribution_of(generation: int, distro: str | None) -> str:
     return distro if distro is not None and distro in known else known[0]
 
 
+def is_name(package: str) -> bool:
+    """Whether it is the name of a package, and no path."""
+    return _NAME.match(package) is not None
+
+
 @lru_cache(maxsize=_KEPT)
 def interfaces_of(package: str, distro: str) -> Mapping[str, Any]:
     """What is known of the nodes of a package: `source` (repository, commit, date), and by name `executables`,
     `components` and `nodelets`; empty where nothing is."""
-    if not _NAME.match(package):
+    if not is_name(package):
         return {}
     try:
         text = (INTERFACES / distro / f"{package}.json").read_text()

@@ -102,6 +102,6 @@ def _python_folders(prefix: str) -> Iterator[str]:
 def distribution(variables: Mapping[str, str], prefixes: Iterable[str]) -> str | None:
     """The name of the ROS 2 distribution, by the variable or by the prefix."""
     named = variables.get("ROS_DISTRO")
-    if variables.get("ROS_VERSION") == "2" and named:
+    if named and (variables.get("ROS_VERSION") == "2" or named in DISTRIBUTIONS):
         return named
     return next((name for p in prefixes if (name := os.path.basename(p)) in DISTRIBUTIONS), None)

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from preflight_analysis.catalogue.launches import CataloguedFile, catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.catalogued import data_of
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.problems import (
+    IncludeNotCatalogued,
     IncludeNotFound,
     NotTextFile,
     Problem,
@@ -139,6 +142,8 @@ class Collector:
         self._add(Problem(kind, origin, kind.usually_fatal if fatal is None else fatal))
 
     def _add(self, problem: Problem[ProblemKind]) -> None:
+        if catalogued_file(problem.location.file) is not None:
+            return  # nobody can mend it there
         key = (type(problem.kind), problem.origin, problem.kind.subject)
         if key not in self._reported:
             self._reported.add(key)
@@ -154,6 +159,14 @@ class Collector:
         kind = IncludeNotFound if found.kind == "missing" else UnreadableInclude
         self.problem(kind(path, found.reason), origin)
         self.note_unknown("<include>", f"{path} {found.reason}", origin[-1])
+
+    def of_catalogue(self, file: CataloguedFile | None, origin: Origin) -> str | None:
+        """The path of the data of a launch file of a package that is not here; None, with a note, where the catalogue
+        has others of that package alone."""
+        path = data_of(file) if file is not None else None
+        if file is not None and path is None:
+            self.problem(IncludeNotCatalogued(*file), origin)
+        return path
 
     def has_room(self, length: int, origin: Origin) -> bool:
         """Whether a value may be put together that is so long; if not, that is noted."""

@@ -271,6 +271,17 @@ class IncludeNotFound(UnreadablePath):
     __slots__ = ()
 
 
+@dataclass(frozen=True, slots=True)
+class IncludeNotCatalogued(ProblemKind):
+    """An included file of a package that is not here, `below` its share folder, is not among those that the catalogue
+    of `distro` has of it."""
+
+    usually_fatal = False
+    distro: str
+    package: str
+    below: str
+
+
 class LaunchedFileNotFound(UnreadablePath):
     """A file is not there that a process launches with `ros2 launch`."""
 

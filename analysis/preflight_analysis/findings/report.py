@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.coverage import Coverage
@@ -218,10 +219,12 @@ def place(location: Location, documents: Mapping[str, Document], base: str | Non
 
 
 def relative(file: str, base: str | None) -> str:
-    """The path from the folder `base` where the file lies below it, else the path as it is."""
+    """The path from the folder `base` where the file lies below it; the name of one of the catalogue; else the path as
+    it is."""
     if base is not None and file.startswith(base.rstrip("/") + "/"):
         return file[len(base.rstrip("/")) + 1 :]
-    return file
+    catalogued = catalogued_file(file)
+    return catalogued.label if catalogued is not None else file
 
 
 def _underlined(location: Location, documents: Mapping[str, Document], paint: str) -> Iterator[str]:

@@ -9,6 +9,7 @@ from typing import Any
 from urllib.parse import quote
 
 from preflight_analysis import __version__
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix, Severity
@@ -111,6 +112,6 @@ def _region(location: Location, documents: Mapping[str, Document]) -> dict[str, 
 
 def _artifact(file: str, base: str) -> dict[str, str]:
     path = relative(file, base)
-    if path == file:
+    if path == file or catalogued_file(file) is not None:
         return {"uri": PurePosixPath(file).as_uri()}
     return {"uri": quote(os.fsencode(path)), "uriBaseId": _BASE_ID}

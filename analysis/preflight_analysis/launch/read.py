@@ -9,9 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.xml import parse_xml, without_comments
 from preflight_analysis.documents.yaml import parse_yaml
+from preflight_analysis.launch.catalogued import read_catalogued
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.ros1_xml import read_ros1
@@ -73,6 +75,8 @@ def read_launch(
     nothing tells. `python` is asked for Python files only. `of_package` gives the generation of the package that a file
     is in. `before` is the file as it was: what an edit leaves alone is taken over. Never raises."""
     path, text = source.path, source.text
+    if catalogued_file(path) is not None:
+        return read_catalogued(source)
     if path.endswith(PYTHON_SUFFIX):
         return read_ros2_python(source, python())
     if path.endswith(YAML_SUFFIXES):

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Include, LaunchNode, LaunchTree, Param, Remap, Use
 from preflight_analysis.findings.markdown import code, escaped
@@ -73,6 +74,8 @@ def line_of(analysis: Analysis, location: Location) -> int | None:
 
 def shown_path(path: str, folder: str | None) -> str:
     """A path as the user knows it: below the workspace's folder where it is in there."""
+    if (catalogued := catalogued_file(path)) is not None:
+        return catalogued.label
     return os.path.relpath(path, folder) if folder and path.startswith(folder.rstrip("/") + "/") else path
 
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.problems import MissingArgument
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.arguments import pass_on
+from preflight_analysis.rules.catalogued import as_sure, by_catalogue
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -15,8 +16,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         name, file = problem.kind.name, shown(problem.kind.file, context)
         near = nearest(name, problem.kind.passed)
         hint = f"; it passes '{near}'" if near else ""
-        message = f"'{file}' requires argument '{name}', which is not passed{hint}"
-        yield problem_finding(rule, problem, message, fixes=pass_on(context, problem.location, name))
+        known = by_catalogue(context, problem.kind.file)
+        message = f"'{file}' requires argument '{name}', which is not passed{hint}{known}"
+        severity, confidence = as_sure(context, problem.kind.file, rule.severity)
+        fixes = pass_on(context, problem.location, name)
+        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
 RULE = Rule(

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.problems import UnknownIncludeArgument
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.arguments import remove_at
+from preflight_analysis.rules.catalogued import as_sure, by_catalogue
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -21,8 +22,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message = f"'{file}' declares no argument '{name}'"
         if not problem.fatal:
             message = f"neither '{file}' nor what it includes declares or uses an argument '{name}': it has no effect"
+        message += did_you_mean(near) + by_catalogue(context, problem.kind.file)
         severity: Severity = "error" if problem.fatal else "warning"
-        yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
+        severity, confidence = as_sure(context, problem.kind.file, severity)
+        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
 RULE = Rule(

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import ArgumentNotAChoice
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.catalogued import as_sure, by_catalogue
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -15,9 +16,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = nearest(wrong.value, wrong.choices)
         allowed = ", ".join(f"'{choice}'" for choice in wrong.choices)
         message = f"argument '{wrong.name}' cannot be '{wrong.value}'; it has the choices {allowed}{did_you_mean(near)}"
+        message += by_catalogue(context, wrong.declared.file)
+        severity, confidence = as_sure(context, wrong.declared.file, rule.severity)
         fixes = rename(context, problem.location, wrong.value, near) if near else ()
         declared = Related("declared here", wrong.declared)
-        yield problem_finding(rule, problem, message, related=(declared,), fixes=fixes)
+        yield problem_finding(
+            rule, problem, message, severity=severity, confidence=confidence, related=(declared,), fixes=fixes
+        )
 
 
 RULE = Rule(

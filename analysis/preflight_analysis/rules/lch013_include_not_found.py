@@ -1,19 +1,61 @@
 """LCH013: an include, or a launch by a process, of a file that is not there."""
 
-from preflight_analysis.evaluation.problems import IncludeNotFound, LaunchedFileNotFound
+import re
+from collections.abc import Iterable, Iterator
+
+from preflight_analysis.catalogue.launches import launch_files_of
+from preflight_analysis.evaluation.problems import IncludeNotCatalogued, IncludeNotFound, LaunchedFileNotFound
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
+from preflight_analysis.rules.catalogued import is_of_distribution
 from preflight_analysis.rules.files import check_missing_files
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.rules.nearest import is_slip, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+_check_here = check_missing_files({IncludeNotFound: "included file", LaunchedFileNotFound: "launched file"})
+
+_MARK = re.compile(r"(?:[._]launch)?(?:\.\w+)?\Z")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _check_here(rule, context)
+    for problem in problems_of(context, IncludeNotCatalogued):
+        file = problem.kind
+        folder, _, name = file.below.rpartition("/")
+        known = (each.rpartition("/") for each in launch_files_of(file.package, file.distro))
+        near = _near(name, [other for where, _, other in known if where == folder])
+        if near is None:
+            continue  # it may have been added, or taken away, by another version
+        same = is_of_distribution(context, file.distro)
+        severity: Severity = "warning" if same else "hint"
+        confidence: Confidence = "likely" if same else "possible"
+        fixes: tuple[Fix, ...] = rename(context, problem.location, name, near, preferred=same)
+        message = f"package '{file.package}' of {file.distro} has no launch file '{file.below}'; did you mean '{near}'?"
+        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
+
+
+def _near(name: str, others: Iterable[str]) -> str | None:
+    """The one that a name is a slip of, whatever marks it as a launch file."""
+    near = nearest(name, others, key=_stem)
+    return near if near is not None and (_stem(name) == _stem(near) or is_slip(_stem(name), _stem(near))) else None
+
+
+def _stem(name: str) -> str:
+    return _MARK.sub("", name)
+
 
 RULE = Rule(
     id="LCH013",
     name="include-not-found",
     severity="error",
     what="Reports an `<include>` of a file that does not exist, and names the nearest file of that folder or package. "
-    "Where a process launches it (`ros2 launch PACKAGE FILE`) this is a warning, as the rest goes on without it.",
+    "Where a process launches it (`ros2 launch PACKAGE FILE`) this is a warning, as the rest goes on without it. "
+    "Of a common package that is not installed here, the catalogue knows the files: one that is a slip of those is a "
+    "warning where the catalogue has the distribution that is used, else a hint.",
     why="`roslaunch` stops and starts nothing, however deep the include stands. A relative path is looked up from the "
     "folder in which `roslaunch` is started, not from that of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',
-    check=check_missing_files({IncludeNotFound: "included file", LaunchedFileNotFound: "launched file"}),
-    problems=(IncludeNotFound, LaunchedFileNotFound),
+    check=_check,
+    problems=(IncludeNotFound, LaunchedFileNotFound, IncludeNotCatalogued),
 )

@@ -8,6 +8,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TypeVar, cast
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
@@ -118,6 +119,8 @@ def as_written(name: str) -> str:
 
 def shown(path: str, context: Context) -> str:
     """A path as a message shows it: below its package or the workspace if it is there, else in full."""
+    if (catalogued := catalogued_file(path)) is not None:
+        return str(catalogued)
     best = ""
     for package in context.environment.packages.values():
         share = package.share.rstrip("/")

@@ -9,12 +9,13 @@ import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from itertools import pairwise
 from operator import is_
 from types import ModuleType
 
 import preflight_analysis.rules as package
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import Include
@@ -65,7 +66,9 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
             continue
         ran.append(rule.id)
-        for finding in _in_order(rule, found, context) if rule.problems else found:
+        for finding in filter(
+            None, map(partial(_outside, rule), _in_order(rule, found, context) if rule.problems else found)
+        ):
             by_file.setdefault(finding.location.file, []).append(finding)
     of_documents = context.kept.each(_suppressions, context.documents.values())
     suppressions = {path: found for path, found in zip(context.documents, of_documents, strict=True) if found}
@@ -87,6 +90,21 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         )
     context.kept.end()
     return sorted_findings
+
+
+def _outside(rule: Rule, finding: Finding) -> Finding | None:
+    """A finding as one of files that can be mended: of two ends of which one is the catalogue's it is said at the
+    other; None where nothing outside of the catalogue is to do with it."""
+    fixes = tuple(fix for fix in finding.fixes if not any(_is_catalogued(edit.location) for edit in fix.edits))
+    if not _is_catalogued(finding.location):
+        return finding if fixes == finding.fixes else replace(finding, fixes=fixes)
+    others = (each for each in finding.related if each.message != INCLUDED_HERE) if rule.needs_graph else ()
+    place = next((each.location for each in others if not _is_catalogued(each.location)), None)
+    return replace(finding, location=place, fixes=fixes) if place is not None else None
+
+
+def _is_catalogued(location: Location) -> bool:
+    return catalogued_file(location.file) is not None
 
 
 def _alike(before: Before[tuple[Finding, ...]] | None, findings: tuple[Finding, ...]) -> tuple[Finding, ...]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.disk import CHANGES
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
@@ -302,14 +303,15 @@ class Workspace:
         )
 
     def texts_of(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
-        """All that places in a tree may lead to, and what of it are launch files."""
+        """All that places in a tree may lead to, and what of it are launch files that somebody here may mend."""
         launch_files: dict[str, LaunchFile] = {}
         documents: dict[str, Document] = {}
         for path in tree.files:
             found = self.sources.launch_file(path, tree.generation)
             if not isinstance(found, Unreadable):
-                launch_files[path] = found
                 documents[path] = found.document
+                if catalogued_file(path) is None:
+                    launch_files[path] = found
         for path in tree.inputs:
             if path not in documents:
                 text = self.sources.text(path)

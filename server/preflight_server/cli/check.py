@@ -9,6 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE
@@ -63,7 +64,7 @@ class _Launched:
         interfaces = analysis.graph.processes if analysis.graph else (NOT_RUN,) * len(tree.nodes)
         return cls(
             root,
-            analysis.tree.files,
+            tuple(file for file in analysis.tree.files if catalogued_file(file) is None),
             tuple(analysis.tree.inputs),
             analysis.findings,
             analysis.documents,

@@ -1,6 +1,6 @@
 """Writes the catalogue of what everybody uses: `make catalogue SOURCES=FOLDER`.
 
-  python tests/tools/catalogue --sources FOLDER [released] [messages] [interfaces]...
+  python tests/tools/catalogue --sources FOLDER [released] [messages] [interfaces] [launches]...
 
 The folder has snapshots of public repositories, `OWNER+NAME/repo`. Facts alone are taken from them: names, types,
 defaults, ranges, conditions and QoS, by this project's own analysis. `catalogue/data/README.md` says more.
@@ -15,10 +15,16 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[2]))  # tests/, as pytest has it
 
 from tools.catalogue.interfaces import write_interfaces
+from tools.catalogue.launches import write_launches
 from tools.catalogue.messages import write_messages
 from tools.catalogue.released import write_released
 
-PARTS = {"released": write_released, "messages": write_messages, "interfaces": write_interfaces}
+PARTS = {
+    "released": write_released,
+    "messages": write_messages,
+    "interfaces": write_interfaces,
+    "launches": write_launches,
+}
 
 
 def main() -> None:

@@ -85,5 +85,5 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
 }
 """A branch of another distribution's name is the one that the packages of this are released from, or the nearest."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
-OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking)(?:\b|_)")
+OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
 """Names of packages that nobody launches."""

@@ -10,6 +10,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.catalogued import in_catalogue
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.problems import (
@@ -260,12 +261,16 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     place = scope.location(file_attribute.value.span)
     origin = scope.origin(action.head_span)
     shown = {name: value.text for name, value in passed.items()}
-    state.includes.append(Include(file.text if file.known else None, origin, place, shown))
+    catalogued = None
     if not file.known:
+        named = in_catalogue(file.text, 1, state.environment)
+        catalogued = state.of_catalogue(named, scope.origin(file_attribute.value.span))
+    state.includes.append(Include(file.text if file.known else catalogued, origin, place, shown))
+    if not file.known and catalogued is None:
         state.unknown("<include>", "its file is not known", scope, file_attribute.value.span)
         return default_machine
     # The empty path is not the working directory.
-    real = without_dots(state.files, os.path.join(state.cwd, file.text)) if file.text else None
+    real = catalogued or (without_dots(state.files, os.path.join(state.cwd, file.text)) if file.text else None)
     path = real or os.path.normpath(os.path.join(state.cwd, file.text))
     state.uses.append(Use("include", place, file.text, path, Location.of_file(path)))
     if _too_deep(state, scope, action):

@@ -12,6 +12,7 @@ from copy import copy
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, cast
 
+from preflight_analysis.catalogue.launches import SUFFIX
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.resolved import Resolved
@@ -21,6 +22,8 @@ from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.launch.read import PYTHON_SUFFIX, YAML_SUFFIXES
 
+_OF_PYTHON = (PYTHON_SUFFIX, PYTHON_SUFFIX + SUFFIX)
+"""Of a program, and of what the catalogue has of one."""
 _SAID_ELSEWHERE = re.compile(r"\*[\w-]|!")
 """In YAML: an alias, or a tag, which a directive may define."""
 
@@ -432,6 +435,11 @@ class Place:
     partial: bool = False
     """Whether it is one that was not run: only what is written out is known of it."""
 
+    @property
+    def is_python(self) -> bool:
+        """Whether its actions were made by a program in Python."""
+        return self.file.endswith(_OF_PYTHON)
+
     def location(self, span: Span) -> Location:
         """A place in the file."""
         return self.lines.location(self.file, span)
@@ -449,7 +457,7 @@ class Place:
     def written(self, action: Action) -> Span | None:
         """The text that says all of an action. None where there is no such text: in Python there are variables, in
         YAML aliases and tags."""
-        if self.file.endswith(PYTHON_SUFFIX):
+        if self.is_python:
             return None
         if not self.file.endswith(YAML_SUFFIXES):
             return action.span

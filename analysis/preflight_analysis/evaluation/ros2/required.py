@@ -6,9 +6,11 @@ import os
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Origin
+from preflight_analysis.evaluation.catalogued import data_of
 from preflight_analysis.evaluation.problems import ArgumentNeeded, MissingArgument, Problem
 from preflight_analysis.evaluation.ros2.context import Context, Place
 from preflight_analysis.evaluation.ros2.declared import required_arguments
+from preflight_analysis.evaluation.ros2.missing_packages import named_in_catalogue
 from preflight_analysis.evaluation.ros2.python_runs import recorded
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.substitute import Performer
@@ -61,10 +63,15 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
     quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
     empty = Context(state.environment.variables, walk.context.python)
     result = Performer(quiet, empty, Place(file.path, file.document.lines, ())).value(value)
-    if not result.known:
-        return None
-    path = os.path.normpath(os.path.join(state.cwd, result.text))
-    found = state.read_launch_file(state.located(path))
+    if result.known:
+        path = state.located(os.path.normpath(os.path.join(state.cwd, result.text)))
+    else:
+        named = named_in_catalogue(quiet, empty, Place(file.path, file.document.lines, ()), value)
+        catalogued = data_of(named) if named is not None else None
+        if catalogued is None:
+            return None
+        path = catalogued
+    found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
         return None
     if found.path.endswith(PYTHON_SUFFIX):

@@ -75,18 +75,24 @@ class Performer:
                 texts.append(part.text)
                 continue
             result = self._one(part)
+            if result is None:
+                result = self.instead(part)
             known = known and result is not None
             texts.append(part.text if result is None else result)
         if len(texts) > 1 and not self.state.has_room(sum(map(len, texts)), self.place.origin(parts[0].span)):
             return Resolved("".join(part.text for part in parts), False)
         return Resolved("".join(texts), known)
 
+    def instead(self, part: Substitution) -> str | None:
+        """What is taken for a substitution that has no value; None: nothing, and the whole is not known."""
+        return None
+
     def _one(self, part: Substitution) -> str | None:
         target: Location | None = None
         origin: Origin = ()
         try:
             known = SUBSTITUTIONS_ROS2.get(part.command)
-            of_python = _PERFORM_PYTHON.get(part.command) if self.place.file.endswith(".py") else None
+            of_python = _PERFORM_PYTHON.get(part.command) if self.place.is_python else None
             if known is None and of_python is None:
                 message = f"'{part.command}' is not a substitution"
                 raise _Failure(BadSubstitution(part.text, message, part.command, tuple(SUBSTITUTIONS_ROS2)))
@@ -184,7 +190,7 @@ class Performer:
     def _eval(self, part: Substitution) -> str:
         text, distro = self._word(part, 0), self.state.environment.distro
         alone = distro in expressions.WITHOUT_MODULES
-        if alone and len(part.words) == 2 and not self.place.file.endswith(".py"):
+        if alone and len(part.words) == 2 and not self.place.is_python:
             raise _Failure(BadSubstitution(part.text, f"$(eval) takes 1 argument in ROS 2 {distro}"))
         given = self._word(part, 1) if len(part.words) == 2 else "math"
         modules = [name for each in given.split(",") if (name := each.strip())]

@@ -8,6 +8,7 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import partial
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.span import Origin, Span
 from preflight_analysis.environment.launch_extensions import exposed_actions
 from preflight_analysis.evaluation.problems import (
@@ -124,7 +125,7 @@ class Walk:
         for name, span in document.entities:
             state.problem(UnexpandedEntity(name), place.origin(span))
             state.note_unknown(f"&{name};", "entities of a DOCTYPE are not expanded", place.location(span))
-        if not place.file.endswith(PYTHON_SUFFIX):
+        if not place.is_python and catalogued_file(place.file) is None:
             for found in self.language.check(launch_file):
                 if not self._is_extension(place, found):
                     state.problem(found.kind, place.origin(found.span))
@@ -157,7 +158,7 @@ class Walk:
         for action in actions:
             known = self.language.actions.get(action.kind)
             if known is None or known.evaluate is None:
-                if known is None and action.kind not in self.language.parts and place.run is not None:
+                if known is None and action.kind not in self.language.parts and place.is_python:
                     at = place.location(action.head_span)
                     self.state.note_unknown(action.kind, "what it does is not known", at)
                 continue
@@ -179,7 +180,7 @@ class Walk:
         known.evaluate(self, performer, action)
         if known.starts_process and len(self.state.nodes) > before:
             self.events.started(place, action)
-        if place.run is not None:
+        if place.is_python:
             self._on_exit(place, action)
 
     # Parts, which are remembered

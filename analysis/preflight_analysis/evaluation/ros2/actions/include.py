@@ -17,6 +17,7 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Place
 from preflight_analysis.evaluation.ros2.declared import PASSED
 from preflight_analysis.evaluation.ros2.entity import Part, action_tag
+from preflight_analysis.evaluation.ros2.missing_packages import named_in_catalogue
 from preflight_analysis.evaluation.ros2.python_runs import calls_own_code
 from preflight_analysis.evaluation.ros2.required import check_required
 from preflight_analysis.evaluation.ros2.substitute import Performer
@@ -24,7 +25,7 @@ from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Include, Use
 from preflight_analysis.incremental.database import Database, query
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.read import read_launch
 from preflight_analysis.launch.schema import Attribute
@@ -42,14 +43,13 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     origin = place.origin(action.head_span)
     at = place.location(attribute.value.span)
     passed = _passed(walk, performer, action)
-    if not file.known:
+    path = _path(walk, performer, attribute.value, file)
+    if path is None:
         walk.names[-1] = None
         context.cannot_follow(at)
         state.include(Include(None, origin, at, {}))
         state.note_unknown("<include>", "its file is not known", at)
         return
-    path = os.path.normpath(os.path.join(state.cwd, file.text))
-    path = state.located(without_dots(state.files, path) or path)
     shown: dict[str, str | None] = {}
     state.include(Include(path, origin, at, shown))
     state.uses.append(Use("include", at, file.text, path, Location.of_file(path)))
@@ -73,6 +73,16 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         context.cannot_follow(at)
     if below is not None:
         _report_unused(walk, place, path, passed, below)
+
+
+def _path(walk: Walk, performer: Performer, value: Value, file: Resolved) -> str | None:
+    """The file that an include names; that of the catalogue where its package is not here."""
+    state, place = walk.state, performer.place
+    if not file.known:
+        named = named_in_catalogue(state, walk.context, place, value)
+        return state.of_catalogue(named, place.origin(value.span))
+    path = os.path.normpath(os.path.join(state.cwd, file.text))
+    return state.located(without_dots(state.files, path) or path)
 
 
 def evaluate_inline(walk: Walk, performer: Performer, action: Action) -> None:

@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_rea
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.launch.python_classes import PythonClass
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -16,7 +15,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     """The frontends hand the text over where the action wants a bool: it fails when it is executed."""
     only_read(walk, performer, action)
     value = action.value("value")
-    if value is not None and not performer.place.file.endswith(PYTHON_SUFFIX):
+    if value is not None and not performer.place.is_python:
         expected = 'what launch can use: it takes no text; write <set_parameter name="use_sim_time" value="..."/>'
         bad = BadValue(action.kind, "value", value.text, expected)
         walk.state.problem(bad, performer.place.origin(value.span))
