@@ -1,7 +1,7 @@
 """LCH029: a substitution that is none."""
 
 import pytest
-from support.check import check
+from support.check import apply, check
 
 
 def test_what_looks_like_a_substitution_and_is_none() -> None:
@@ -33,4 +33,56 @@ def test_dollars_of_others_are_no_substitutions() -> None:
           <param name="a" value="costs 5$ (or less), ${HOME}, $(arg port), $argument(s), $(args"/>
           <node pkg="p" type="t" name="n" launch-prefix="bash -c 'sleep $0; $@'"/>
         </launch>
+    """)
+
+
+def test_substitutions_in_yaml_stay_text_unless_they_are_asked_for() -> None:
+    fixture = """
+        <launch>
+          <arg name="port" default="/dev/ttyUSB0"/>
+          <param name="copy" value="$(arg port)"/>
+          <rosparam>{port: $(arg port), rate: 10}</rosparam>
+                           ^^^^^^^^^^^ warning[LCH029] '$(arg port)' stays text: substitutions in YAML
+          <node pkg="p" type="t" name="n"><rosparam file="$(find p)/n.yaml"/></node>
+        </launch>
+        //- /p/n.yaml
+        meshes:
+          - plain
+          - $(find p)/arm.dae
+            ^^^^^^^^^ warning[LCH029] made with <rosparam subst_value="true"> only
+    """
+    findings = check(fixture)
+    assert [apply(fixture, f.fixes[0].edits)["/main.launch"].count('subst_value="true"') for f in findings] == [1, 1]
+
+
+def test_substitutions_in_a_parameter_file_of_ros2() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/p/a.yaml"/></node>
+          <node pkg="p" exec="b" name="b"><param from="/p/a.yaml" allow_substs="true"/></node>
+        </launch>
+        //- /p/a.yaml
+        /a:
+          ros__parameters:
+            mesh: $(find-pkg-share p)/arm.dae
+                  ^^^^^^^^^^^^^^^^^^^ warning[LCH029] made with <param allow_substs="true"> only
+    """)
+
+
+@pytest.mark.silent
+def test_substitutions_in_yaml_that_are_made_or_are_not_the_launchers() -> None:
+    check("""
+        <launch>
+          <arg name="port" default="/dev/ttyUSB0"/>
+          <rosparam subst_value="true">{port: $(arg port)}</rosparam>
+          <rosparam subst_value="false">{written: $(arg port)}</rosparam>
+          <rosparam>{command: "$(hostname) costs 5$ (or less)", args: "$(args)"}</rosparam>
+          <param name="text" textfile="/p/help.txt"/>
+          <param name="model" command="xacro r.xacro"/>
+        </launch>
+        //- /p/help.txt
+        Write $(arg port)
+        //- commands
+        {"xacro r.xacro": {"output": "<robot name='$(arg port)'/>"}}
     """)

@@ -92,6 +92,7 @@ def test_a_substitution_in_a_parameter_file_that_nobody_makes() -> None:
           ros__parameters:
             gains: [$(var gain), 2.5]
                    ^^^^^^^^^^^^^^^^^^ error[PRM016] a list with doubles and texts in it: 'gains'
+                    ^^^^^^^^^^^ warning[LCH029] '$(var gain)' stays text
     """)
 
 

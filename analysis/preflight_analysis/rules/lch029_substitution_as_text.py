@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from itertools import chain
 
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.problems import SubstitutionAsText
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.launch.substitutions import SUBSTITUTIONS
+from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags
+
+_COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
+_SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
+_LONGEST = 4096
+_FAR = 2000
+"""How far behind its key a value is looked for."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -18,17 +32,77 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         fixes = (Fix(f"Write '{meant}'", (Edit(place, meant),), True),) if exact else ()
         message = f"'{text}' is no substitution: roslaunch takes it as text; '{meant}' is one"
         yield problem_finding(rule, problem, message, fixes=fixes)
+    of_tree = context.kept.each(_left_in, context.tree.all_params)
+    of_nodes = context.kept.each(_left_in_node, context.tree.nodes)
+    tags = Tags(context.launch_files)
+    for param, text in (*filter(None, of_tree), *chain.from_iterable(of_nodes)):
+        yield from _not_made(rule, context, tags, param, text)
+
+
+def _left_in_node(node: LaunchNode) -> tuple[tuple[Param, str], ...]:
+    return tuple(filter(None, map(_left_in, node.params)))
+
+
+def _left_in(param: Param) -> tuple[Param, str] | None:
+    """The parameter with the first substitution that is still in its value or name, if there is one."""
+    value = param.value
+    texts = (param.name, *(value if isinstance(value, list) else (value,)))
+    for text in texts:
+        if isinstance(text, str) and "$(" in text and len(text) < _LONGEST and (found := _SUBSTITUTION.search(text)):
+            return param, found[0]
+    return None
+
+
+def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str) -> Iterator[Finding]:
+    """What is said of a substitution in YAML that the launcher takes as it stands; nothing of other values, which are
+    outputs of commands and contents of files."""
+    ament = context.tree.ros.ament
+    attribute, tag_name = ("allow_substs", "param") if ament else ("subst_value", "rosparam")
+    # The last place in a launch file is that of the tag, or of its attribute that names the file.
+    where = next((at for at in reversed(param.origin) if at.file in context.launch_files), None)
+    tag = (tags.around(where) or tags.at(where)) if where is not None else None
+    python = where is not None and where.file.endswith(".py")
+    if where is None or not (python or (tag is not None and tag.action.kind == tag_name)):
+        return
+    if tag is not None and tag.action.attribute("name" if ament else attribute) is not None:
+        return  # a value in the launch file, or no substitutions on purpose
+    document = context.documents.get(where.file)
+    fixes: tuple[Fix, ...] = ()
+    if tag is not None and not python and document is not None:
+        edit = insert_attribute(tag.action, document, attribute, "true")
+        fixes = (Fix(f'Write {attribute}="true" in the tag', (edit,), True),)
+    needed = f"ParameterFile(..., {attribute}=True)" if python else f'<{tag_name} {attribute}="true">'
+    place = _place(context, param, text)
+    related = (Related("the file is given here", where),) if place.file != where.file else ()
+    yield rule.finding(
+        f"'{text}' stays text: substitutions in YAML are made with {needed} only",
+        place,
+        confidence="likely",
+        related=(*related, *include_chain((*param.origin[:-1], place))),
+        fixes=fixes,
+    )
+
+
+def _place(context: Context, param: Param, text: str) -> Location:
+    """The substitution itself, which stands near the key; else the key."""
+    key = param.place
+    document = context.documents.get(key.file)
+    start = document.text.find(text, key.span.start, key.span.end + _FAR) if document is not None else -1
+    return context.location(key.file, Span(start, start + len(text))) if start >= 0 else key
 
 
 RULE = Rule(
     id="LCH029",
     name="substitution-as-text",
     severity="warning",
-    what="Reports what looks like a substitution and is none: without an end, or with other brackets.",
+    what="Reports what looks like a substitution and is none: without an end, or with other brackets. Likewise a "
+    "substitution in the YAML of a `<rosparam>` without `subst_value` (ROS 1), or in a parameter file that is given to "
+    "a node without `allow_substs` (ROS 2).",
     why="""`roslaunch` replaces `$(arg name)` and its like only in that form, and leaves everything else as it stands. A
-topic or file is then really called `$(arg name`, and nothing says so.""",
-    example='<param name="port" value="${arg port}"/>\n<param name="rate" value="$(arg rate"/>',
-    instead='<param name="port" value="$(arg port)"/>\n<param name="rate" value="$(arg rate)"/>',
+topic or file is then really called `$(arg name`, and nothing says so. In YAML both launchers replace them only if they
+are told to.""",
+    example='<param name="port" value="${arg port}"/>\n<rosparam>rate: $(arg rate)</rosparam>',
+    instead='<param name="port" value="$(arg port)"/>\n<rosparam subst_value="true">rate: $(arg rate)</rosparam>',
     check=_check,
     problems=(SubstitutionAsText,),
 )
