@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 from preflight_analysis.findings.contexts import RootFindings, by_file, lacks_once, roots
@@ -65,6 +66,14 @@ def test_a_connection_must_be_wrong_in_every_root_that_reaches_the_file() -> Non
     assert shown(one, unrelated)["/c"] == [("TOP001", "m", ("/a",))]
     also_wrong = RootFindings("/b", frozenset({"/b", "/c"}), (wrong,))
     assert shown(one, also_wrong)["/c"] == [("TOP001", "m", ("/a", "/b"))]
+
+
+def test_a_finding_may_be_marked_to_hold_in_every_root() -> None:
+    marked = replace(finding("ARG001", "/c"), every_root=True)
+    one = RootFindings("/a", frozenset({"/a", "/c"}), (marked, finding("ARG001", "/c", at=5)))
+    right = RootFindings("/b", frozenset({"/b", "/c"}), ())
+    assert [f.location.span.start for f in by_file((one, right), ())["/c"]] == [5]
+    assert [f.location.span.start for f in by_file((one,), ())["/c"]] == [0, 5]
 
 
 def test_one_root_may_say_several_things_of_one_place() -> None:

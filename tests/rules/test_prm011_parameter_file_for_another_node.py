@@ -1,7 +1,8 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
 import pytest
-from support.check import check
+from preflight_analysis.findings.contexts import RootFindings, by_file
+from support.check import check, findings_of
 
 
 def test_a_parameter_file_for_another_node() -> None:
@@ -103,3 +104,19 @@ def test_files_with_a_section_for_their_node() -> None:
         /**:
           ros__parameters: {rate: 1}
     """)
+
+
+def test_a_key_that_fits_a_node_of_another_launch_is_not_wrong() -> None:
+    text = """
+        //- /robot.launch.xml
+        <launch><node pkg="p" exec="camera" name="{}"><param from="/camera.yaml"/></node></launch>
+        //- /camera.yaml
+        front:
+          ros__parameters: {{rate: 1}}
+    """
+    reports = [
+        RootFindings(f"/{name}.launch.xml", frozenset({"/camera.yaml"}), tuple(findings_of(text.format(name))))
+        for name in ("front", "rear")
+    ]
+    assert [*by_file(reports, ())] == ["/robot.launch.xml"]
+    assert sorted(by_file(reports[1:], ())) == ["/camera.yaml", "/robot.launch.xml"]

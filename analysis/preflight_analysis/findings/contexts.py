@@ -41,8 +41,8 @@ def by_file(
     """The findings of each file over all roots, each once, with the roots in which it holds.
 
     A finding about a value holds in any context. One of the rules `every_root` (by id), which speak of what nodes do
-    together, is shown only if it holds in every root that reaches its file. What was `kept` of the files of which the
-    same is found is taken over.
+    together, or one that is marked so, is shown only if it holds in every root that reaches its file. What was `kept`
+    of the files of which the same is found is taken over.
     """
     reports, kept, speaking = tuple(reports), kept or Kept(), frozenset(every_root)
     found: dict[str, list[tuple[str, tuple[Finding, ...]]]] = {}
@@ -95,8 +95,11 @@ def _of_file(
     shown: list[Finding] = []
     for (rule, location), same in first.items():
         held = holds[rule, location]
-        if rule not in every_root or set(reaching) <= set(held):
-            shown.extend(_holding_in(finding, tuple(held)) for finding in same)
+        everywhere = set(reaching) <= set(held)
+        of_rule = rule in every_root
+        shown.extend(
+            _holding_in(finding, tuple(held)) for finding in same if everywhere or not (of_rule or finding.every_root)
+        )
     return tuple(sorted(shown, key=lambda finding: (finding.location.span, finding.rule)))
 
 

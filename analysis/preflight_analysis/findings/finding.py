@@ -70,5 +70,7 @@ class Finding:
     """Of one that stops the launcher: its place in the order in which the launcher would meet them."""
     endpoints: tuple[EndpointRef, ...] = field(default=(), compare=False)
     """Of one about connections: the ends that it speaks of, for a picture of the graph."""
+    every_root: bool = field(default=False, compare=False)
+    """It holds only if it holds in each launch that reads the file, as one of a rule with `Rule.every_root`."""
     lack: Lack | None = None
     """What is missing on this machine, where the finding speaks of nothing else."""

@@ -112,6 +112,7 @@ def _about_key(rule: Rule, context: Context, path: str, section: Section, ignori
         confidence="possible" if inferred else "certain",
         related=[Related(f"{each.node.name} gets the file here", each.location) for each in ignoring[:_SHOWN]],
         fixes=_rewrite(context, path, section, nodes[0] if len(nodes) == 1 else _for_each(nodes)),
+        every_root=True,
     )
 
 

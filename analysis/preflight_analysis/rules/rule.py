@@ -113,6 +113,7 @@ class Rule(RuleDescription):
         stops_launch: bool = False,
         endpoints: Iterable[EndpointRef] = (),
         lack: Lack | None = None,
+        every_root: bool = False,
     ) -> Finding:
         """A finding of this rule. What the messages say is clipped: names may be as long as a file.
 
@@ -130,6 +131,7 @@ class Rule(RuleDescription):
             (),
             stops_launch,
             endpoints=tuple(endpoints),
+            every_root=every_root,
             lack=lack,
         )
 
