@@ -148,6 +148,18 @@ def test_doctor(harness: Harness, preflight: Run) -> None:
     assert preflight("doctor", "nowhere").code == 2
 
 
+def test_doctor_lists_what_check_misses(harness: Harness, preflight: Run) -> None:
+    launch = harness.workspace / "launch" / "lacking.launch"
+    launch.write_text('<launch><node pkg="turtlebot3_bringup" type="n" name="n"/></launch>')
+    checked = preflight("check", "--format", "json", "--no-run", harness.workspace).json["environment"]
+    names = {each["name"] for each in checked["missing"]}
+    assert "turtlebot3_bringup" in names
+    for place in (harness.workspace, launch):
+        data = preflight("doctor", place, "--format", "json", "--no-run").json
+        assert ({each["name"] for each in data["missing"]}, data["commands"]) == (names, checked["commands"])
+    assert "turtlebot3_bringup" in preflight("doctor", harness.workspace).out
+
+
 def test_doctor_says_why_there_is_no_sandbox(harness: Harness, preflight: Run) -> None:
     empty = harness.home / "empty"
     empty.mkdir()

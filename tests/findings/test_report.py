@@ -1,6 +1,7 @@
 """The text and JSON forms of findings."""
 
 import json
+from dataclasses import replace
 
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.coverage import Coverage
@@ -175,6 +176,29 @@ def test_one_cause_in_several_places_is_shown_once() -> None:
     assert text.count("the same here") == 5
     assert "  and in 2 more places\n" in text
     assert text.endswith("8 errors; 0 of 0 launch files evaluated, 0 nodes\n")
+
+
+def test_programs_get_one_finding_for_each_cause() -> None:
+    same = [replace(finding("error", f"/{n}.launch", 1), roots=(f"/{n}.launch",)) for n in range(8)]
+    report = Report.of([*same, finding("error", "/0.launch", 1, "other")], {}, Coverage())
+    first, other = to_json(report)["findings"]
+    assert [related["file"] for related in first["related"]] == [f"/{n}.launch" for n in range(1, 8)]
+    assert first["roots"] == [f"/{n}.launch" for n in range(8)]
+    assert (other["message"], other["related"]) == ("other", [])
+    assert to_json(report)["rules"] == {"ABC001": {"error": 9}}
+
+
+def test_findings_that_point_at_each_other_have_one_cause() -> None:
+    def pointing(file: str, to: str, message: str, rule: str = "ABC001") -> Finding:
+        related = (Related("there", location(to, 1, 2)),)
+        return replace(finding("warning", file, 1, message, rule=rule), related=related)
+
+    key, use = pointing("/a.yaml", "/b.launch", "key"), pointing("/b.launch", "/a.yaml", "use")
+    report = Report.of([key, use, pointing("/b.launch", "/a.yaml", "of another rule", "ABC002")], {}, Coverage())
+    assert [f["message"] for f in to_json(report)["findings"]] == ["key", "of another rule"]
+    assert "the same here" not in to_text(report)
+    one_way = Report.of([finding("warning", "/a.yaml", 1, "key"), use], {}, Coverage())
+    assert [f["message"] for f in to_json(one_way)["findings"]] == ["key", "use"]
 
 
 def test_many_findings_are_counted_by_rule() -> None:

@@ -12,7 +12,7 @@ from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.coverage import Coverage
-from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Severity
+from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Missing, commands, in_words, missing
 
 CHECK_SCHEMA = "ros-preflight/check/1"
@@ -25,6 +25,7 @@ _SHOWN_BEHIND = 400
 
 _MOST_ALIKE = 5
 """Further places of the same cause that are shown in a text."""
+_SAME = "the same here"
 _FEW = 10
 """So many findings are seen at a glance: more are counted by rule."""
 
@@ -73,18 +74,35 @@ def _rank(finding: Finding) -> tuple[int, str, Span]:
     return -SEVERITIES.index(finding.severity), finding.location.file, finding.location.span
 
 
+def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
+    """One finding for each cause: the first of those that say the same of several places, or point at each other's
+    place. The other places are related to it, and it holds in the roots of all of them."""
+    for first, *others in _causes(findings):
+        if not others:
+            yield first
+            continue
+        shown = {first.location, *(related.location for related in first.related)}
+        more = [Related(_SAME, each.location) for each in others if each.location not in shown]
+        yield replace(
+            first,
+            related=(*first.related, *more),
+            fixes=tuple(dict.fromkeys(fix for each in (first, *others) for fix in each.fixes)),
+            roots=tuple(dict.fromkeys(root for each in (first, *others) for root in each.roots)),
+        )
+
+
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
-    points. `files`, `evaluated`, `nodes`, `traced` and `known` are the counts, `environment` is what is missing."""
+    points. `findings` has one for each cause, `rules` counts all places. `files`, `evaluated`, `nodes`, `traced` and
+    `known` are the counts, `environment` is what is missing."""
     coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
-        "findings": [_finding_json(finding, report.documents) for finding in report.findings],
+        "findings": [_finding_json(finding, report.documents) for finding in by_cause(report.findings)],
         "rules": {rule: dict(Counter(severities)) for rule, severities in _by_rule(report).items()},
         "environment": {
             "complete": report.complete,
-            "missing": [_missing_json(each, report.documents) for each in report.missing],
-            "commands": list(commands(report.missing)),
+            **missing_json(report),
             "problems": list(report.problems),
         },
         "files": coverage.files,
@@ -100,11 +118,13 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False) ->
     at the end what is missing here, how many findings there are and what was looked at. Ends with a newline. Files
     below the folder `base` are shown relative to it. What is found of one cause in several places is shown once."""
     blocks = []
-    for alike in _by_cause(report.findings):
-        lines = [*finding_lines(alike[0], report.documents, base, colour=colour)]
-        lines += [f"  {place(f.location, report.documents, base)}: the same here" for f in alike[1 : 1 + _MOST_ALIKE]]
-        if len(alike) > 1 + _MOST_ALIKE:
-            lines.append(f"  and in {len(alike) - 1 - _MOST_ALIKE} more places")
+    for first, *others in _causes(report.findings):
+        lines = [*finding_lines(first, report.documents, base, colour=colour)]
+        shown = {related.location for related in first.related}
+        more = [each.location for each in others if each.location not in shown]
+        lines += [f"  {place(each, report.documents, base)}: {_SAME}" for each in more[:_MOST_ALIKE]]
+        if len(more) > _MOST_ALIKE:
+            lines.append(f"  and in {len(more) - _MOST_ALIKE} more places")
         blocks.append("\n".join(lines))
     return "\n\n".join([*blocks, "\n\n".join(closing(report))]) + "\n"
 
@@ -141,12 +161,29 @@ def _by_rule(report: Report) -> dict[str, list[Severity]]:
     return found
 
 
-def _by_cause(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
-    """Findings that say the same of several places, together."""
+def _causes(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
+    """Findings that say the same of several places, or of which each points at the other's place, together."""
     found: dict[tuple[str, Severity, str], list[Finding]] = {}
+    pointing: dict[tuple[str, Location, Location], list[Finding]] = {}
     for finding in findings:
-        found.setdefault((finding.rule, finding.severity, finding.message), []).append(finding)
+        same = found.get((finding.rule, finding.severity, finding.message))
+        to = [(related.location, finding.location) for related in finding.related]
+        back = (pointing.get((finding.rule, there, here)) for there, here in to)
+        group = same if same is not None else next(filter(None, back), None)
+        if group is None:
+            group = found[finding.rule, finding.severity, finding.message] = []
+        group.append(finding)
+        for there, here in to:
+            pointing.setdefault((finding.rule, here, there), group)
     return found.values()
+
+
+def missing_json(report: Report) -> dict[str, Any]:
+    """What is missing on this machine, and the commands that install it."""
+    return {
+        "missing": [_missing_json(each, report.documents) for each in report.missing],
+        "commands": list(commands(report.missing)),
+    }
 
 
 def _missing_json(each: Missing, documents: Mapping[str, Document]) -> dict[str, Any]:

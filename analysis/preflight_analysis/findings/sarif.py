@@ -14,7 +14,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.fingerprint import fingerprints
-from preflight_analysis.findings.report import Report, environment_lines, positions, relative
+from preflight_analysis.findings.report import Report, by_cause, environment_lines, positions, relative
 from preflight_analysis.findings.rule_description import RuleDescription
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -24,15 +24,17 @@ _LEVELS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "info
 
 
 def to_sarif(report: Report, rules: Sequence[RuleDescription], base: str) -> dict[str, Any]:
-    """A log with one run. Files below the folder `base` are relative to it; `rules` are all that there are, those with
-    findings are described. Severity and confidence, of which SARIF knows less, are in the properties of each result."""
-    spoke = {finding.rule for finding in report.findings}
+    """A log with one run, and a result for each cause. Files below the folder `base` are relative to it; `rules` are
+    all that there are, those with findings are described. Severity and confidence, of which SARIF knows less, are in
+    the properties of each result."""
+    findings = [*by_cause(report.findings)]
+    spoke = {finding.rule for finding in findings}
     described = [rule for rule in rules if rule.id in spoke]
     index = {rule.id: number for number, rule in enumerate(described)}
-    named = fingerprints(report.findings, report.documents, base)
+    named = fingerprints(findings, report.documents, base)
     results = [
         _result(finding, index[finding.rule], fingerprint, report.documents, base)
-        for finding, fingerprint in zip(report.findings, named, strict=True)
+        for finding, fingerprint in zip(findings, named, strict=True)
     ]
     driver = {"name": "ros-preflight", "version": __version__, "rules": [_rule(rule) for rule in described]}
     run = {

@@ -104,7 +104,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print the findings."""
     known = _known(args.baseline) if args.baseline else frozenset()
-    report, checked = _check(launches(args), args)
+    report, checked = look_at(launches(args), args)
     if args.write_baseline:
         return _write_baseline(report, args.write_baseline)
     if args.baseline:
@@ -116,7 +116,7 @@ def run(args: argparse.Namespace) -> int:
     return int(bool(failing) or (args.require_complete and not report.complete))
 
 
-def _check(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report, tuple[str, ...]]:
+def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report, tuple[str, ...]]:
     """The findings of all that is launched, each once, and the launch files that were looked at."""
     changed = {each.home: changed_since(args.changed_since, each.home) for each in chosen} if args.changed_since else {}
     progress = Progress(sum(len(each.roots) for each in chosen))

@@ -8,18 +8,23 @@ from typing import Any
 
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.findings.report import Report, missing_json
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.sandbox import SandboxStatus
 
 from preflight_server.cli import options
+from preflight_server.cli.check import look_at
 from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
+from preflight_server.cli.launches import launches
 from preflight_server.cli.output import print_json, print_text
 from preflight_server.doctor import page
 
-DESCRIPTION = """Shows what launch files and nodes are looked at with: distribution, package path, interpreter, sandbox.
-Only an empty command is run in the sandbox, to see whether it works; --no-run leaves that out. The exit code is 1 if
-something is missing."""
+DESCRIPTION = """Shows what launch files and nodes are looked at with: distribution, package path, interpreter, sandbox;
+and what the launch files of the workspace need and this machine does not have, with the commands that install it.
+An empty command is run in the sandbox, to see whether it works, and Python launch files, commands of parameters and
+xacro are; nodes are not, what they lack is known of those that `check` ran. --no-run leaves that out. The exit code is
+1 if no ROS or no sandbox works."""
 SCHEMA = "ros-preflight/doctor/1"
 
 
@@ -35,15 +40,26 @@ def run(args: argparse.Namespace) -> int:
         raise CannotDoError(f"{args.place} does not exist")
     environment = detect(os.path.abspath(args.place), package_path=options.package_path(args))
     status = None if args.no_run else sandbox.probe()
+    folder = args.place if os.path.isdir(args.place) else environment.workspace
+    lacks = _lacks(folder, args) if folder else Report((), {})
     if args.format == "json":
-        print_json(_json(environment, status))
+        print_json(_json(environment, status, lacks))
     else:
-        print_text(page(environment, status))
+        print_text(page(environment, status, lacks.missing))
     missing = bool(environment.problems) or (status is not None and not status.works)
     return FOUND if missing and args.fail_on != options.NEVER else CLEAN
 
 
-def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, Any]:
+def _lacks(folder: str, args: argparse.Namespace) -> Report:
+    """What `check` finds missing for the launch files of a folder, without running nodes anew."""
+    try:
+        found = launches(argparse.Namespace(**vars(args), launch_args=[folder]))
+    except CannotDoError:
+        return Report((), {})  # there are no launch files
+    return look_at(found, argparse.Namespace(no_run=True, jobs=args.jobs, changed_since=None))[0]
+
+
+def _json(environment: Environment, status: SandboxStatus | None, lacks: Report) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "generation": environment.generation,
@@ -56,6 +72,7 @@ def _json(environment: Environment, status: SandboxStatus | None) -> dict[str, A
         "interpreter": environment.python,
         "ros2_interpreter": environment.ros2_python,
         "problems": list(environment.problems),
+        **missing_json(lacks),
         "sandbox": None
         if status is None
         else {
