@@ -53,5 +53,5 @@ def lone_finding(
 
 def with_type(connection: Connection) -> str:
     """The name in quotes, with the type if it is known."""
-    kind = f" ({connection.endpoint.type})" if connection.endpoint.type else ""
+    kind = f" ({connection.endpoint.type})" if connection.endpoint.type not in (None, "*") else ""
     return f"'{connection.name}'{kind}"

@@ -33,6 +33,7 @@ from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
+from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.rules.rule import Context
@@ -283,7 +284,7 @@ class Workspace:
         interfaces = NodlFiles(environment, self.sources).fill_in(tree, interfaces, kept)
         sources = SourceAnalysis(environment, self.sources)
         interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
-        return from_catalogue(tree, interfaces, environment, kept)
+        return with_command_lines(tree, from_catalogue(tree, interfaces, environment, kept), kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

@@ -1,0 +1,104 @@
+"""TOP007: a recorder is given the name of a topic that nobody publishes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.build import effective_remaps
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.places import argument_location, related_endpoint
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.request import split_args
+
+_TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
+_FLAG = re.compile(
+    r"-[ahqpj]+|--(?:all(?:-topics|-services|-actions)?|bz2|lz4|quiet|publish|split|tcpnodelay|udp|repeat-latched|help"
+    r"|include-\S+|no-discovery|use-sim-time|snapshot|snapshot-mode|start-paused|topics)"
+)
+"""Options without a value, after which topics may follow."""
+_SEVERAL = re.compile(r"--(?:exclude-\S+|services|actions|topic-types)")
+"""Options that take all words up to the next one."""
+_PATTERNS = ("-e", "--regex")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    for node in context.tree.nodes if graph is not None else ():
+        for written, topic in _recorded(node, context.tree.generation):
+            near = _near(graph, topic) if graph is not None else None
+            if graph is None or near is None:
+                continue
+            place = argument_location(context, node, written)
+            provider = graph.topics[near].providers[0]
+            yield rule.finding(
+                f"recorded topic '{topic}' has no publisher in this launch; did you mean '{near}', published by "
+                f"{provider.node.name}?",
+                place,
+                severity=None if graph.likely_complete else "info",
+                confidence="likely" if graph.complete else "possible",
+                related=(related_endpoint(provider, "publishes"), *include_chain(node.origin)),
+                fixes=rename(context, place, written.lstrip("/"), near.lstrip("/")) if written == topic else (),
+            )
+
+
+def _near(graph: Graph, topic: str) -> str | None:
+    """The published topic that differs by a slip, the nearest one first; None where the topic itself is known."""
+    if topic in graph.topics or graph.is_external(topic) or graph.blind:
+        return None
+    found = [
+        (alike[1], name)
+        for name, channel in graph.topics.items()
+        if channel.providers and (alike := likeness(topic, name)) is not None and alike[0] == "typo"
+    ]
+    return min(found)[1] if found else None
+
+
+def _recorded(node: LaunchNode, generation: int) -> Iterator[tuple[str, str]]:
+    """The topics that a recorder is given, as written and in full: `rosbag record`, or a process `ros2 bag record`."""
+    words = split_args(node.args)
+    if node.unknowns or "record" not in (node.executable, *words[1:2]):
+        return
+    if (node.package, node.executable) == ("rosbag", "record"):
+        remaps = {source: target for source, (_, target) in effective_remaps(node, generation).items()}
+        for word in _topics(words):
+            full = names.resolve(word, node.name)
+            yield word, remaps.get(full, full)
+    elif node.kind == "process" and (node.executable, *words[:2]) == ("ros2", "bag", "record"):
+        yield from ((word, names.canonicalize(f"/{word}")) for word in _topics(words[2:]) if not word.startswith("~"))
+
+
+def _topics(words: Sequence[str]) -> Iterator[str]:
+    """The topics among the arguments; patterns and all topics name none."""
+    if any(word in _PATTERNS for word in words):
+        return
+    skipped, several = False, False
+    for word in words:
+        if word.startswith("-"):
+            several = _SEVERAL.fullmatch(word) is not None
+            skipped = not several and "=" not in word and _FLAG.fullmatch(word) is None
+        elif skipped:
+            skipped = False
+        elif not several and _TOPIC.fullmatch(word):
+            yield word
+
+
+RULE = Rule(
+    id="TOP007",
+    name="recorded-not-published",
+    severity="warning",
+    what="Reports a topic in the arguments of `rosbag record` or of a process `ros2 bag record` that no node of the "
+    "launch publishes or subscribes to, where one publishes a topic of nearly that name. Where not all nodes are known "
+    "it is for information. Other topics of a recorder may come from elsewhere and are left alone.",
+    why="The recorder waits for the topic without a word, and the recording lacks it.",
+    example='<node pkg="rosbag" type="record" name="record" args="/scna /odom"/>',
+    instead='<node pkg="rosbag" type="record" name="record" args="/scan /odom"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
